@@ -1,0 +1,51 @@
+// The FlexRay frame: 5-byte header, 0..127 two-byte words of payload, 3-byte trailer (FlexRay 2.1A, chapter 4).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "schedules/cluster.h"
+
+namespace ttf::wire {
+
+inline constexpr std::size_t kHeaderBytes = 5;
+inline constexpr std::size_t kTrailerBytes = 3;
+inline constexpr std::size_t kMaxPayloadBytes = 254;
+inline constexpr std::size_t kMaxFrameBytes = kHeaderBytes + kMaxPayloadBytes + kTrailerBytes;
+
+struct FrameHeader {
+  bool payload_preamble = false;
+  bool null_frame = false;      // on the wire the indicator is inverted
+  bool sync = false;
+  bool startup = false;
+  std::uint16_t frame_id = 0;   // 1..2047
+  std::uint8_t payload_words = 0;
+  std::uint16_t header_crc = 0; // 11 bits
+  std::uint8_t cycle = 0;       // 0..63
+};
+
+std::uint16_t header_crc(bool sync, bool startup, std::uint16_t frame_id, std::uint8_t payload_words);
+// Frame CRC over header and payload bytes; differs per channel by its initial value.
+std::uint32_t frame_crc(schedules::Channel channel, std::span<const std::byte> header_and_payload);
+
+// Writes the whole frame, both CRCs computed, and returns its length in bytes. payload.size() must be even and <= 254.
+std::size_t encode_frame(const FrameHeader& header, schedules::Channel channel, std::span<const std::byte> payload,
+                         std::span<std::byte> frame);
+
+enum class FrameError : std::uint8_t { kNone, kTooShort, kLength, kHeaderCrc, kFrameCrc, kReservedId };
+struct DecodedFrame {
+  FrameError error = FrameError::kNone;
+  FrameHeader header;
+  std::span<const std::byte> payload;
+};
+DecodedFrame decode_frame(schedules::Channel channel, std::span<const std::byte> frame);
+
+// Bits on the wire from the first TSS bit to the last FES bit of a static frame.
+int frame_bits(const schedules::GlobalParameters& flexray, int payload_words);
+// Its duration, in picoseconds.
+std::int64_t frame_duration_ps(const schedules::GlobalParameters& flexray, int payload_words);
+
+}  // namespace ttf::wire

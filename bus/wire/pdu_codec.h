@@ -1,0 +1,26 @@
+// Packing and unpacking of PDU fragments: fixed-point signals, most significant bit first (schedules/pdu.h).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "schedules/pdu.h"
+
+namespace ttf::wire {
+
+// Raw <-> physical. Physical values outside [low, high] saturate; `saturated` (if given) is counted up. NaN is a bug of
+// ours and fails a check.
+std::uint32_t to_raw(const schedules::Signal& signal, double physical, int* saturated = nullptr);
+double to_physical(const schedules::Signal& signal, std::uint32_t raw);
+
+// One signal of the header or of element `index` in a fragment's payload. The payload must be fragment_bytes long.
+std::uint32_t read_header_raw(const schedules::PduLayout& layout, std::span<const std::byte> payload, std::size_t signal);
+void write_header_raw(const schedules::PduLayout& layout, std::span<std::byte> payload, std::size_t signal,
+                      std::uint32_t raw);
+std::uint32_t read_element_raw(const schedules::PduLayout& layout, std::span<const std::byte> payload, int index,
+                               std::size_t signal);
+void write_element_raw(const schedules::PduLayout& layout, std::span<std::byte> payload, int index, std::size_t signal,
+                       std::uint32_t raw);
+
+}  // namespace ttf::wire

@@ -1,0 +1,35 @@
+# One CMake target per room; every target compiles with the same rules.
+
+add_library(ttf_options INTERFACE)
+# Bit-reproducible arithmetic on every machine of the class: one instruction set, no contraction.
+target_compile_options(ttf_options INTERFACE
+  -march=x86-64-v3 -ffp-contract=off
+  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wdouble-promotion
+  -Wcast-qual -Wformat=2 -Wimplicit-fallthrough -Werror)
+target_include_directories(ttf_options INTERFACE ${PROJECT_SOURCE_DIR})
+if(TTF_SANITIZE)
+  target_compile_options(ttf_options INTERFACE
+    -fsanitize=${TTF_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(ttf_options INTERFACE -fsanitize=${TTF_SANITIZE})
+endif()
+
+# ttf_room(<name> SOURCES <files...> [DEPS <targets...>]): the static library of a folder.
+function(ttf_room name)
+  cmake_parse_arguments(ROOM "" "" "SOURCES;DEPS" ${ARGN})
+  if(ROOM_SOURCES)
+    add_library(${name} STATIC ${ROOM_SOURCES})
+    target_link_libraries(${name} PUBLIC ttf_options ${ROOM_DEPS})
+  else()
+    add_library(${name} INTERFACE)
+    target_link_libraries(${name} INTERFACE ${ROOM_DEPS} ttf_options)
+  endif()
+endfunction()
+
+# ttf_test(<name> SOURCES <files...> [DEPS <targets...>]): one GoogleTest program, one ctest entry per test program.
+function(ttf_test name)
+  cmake_parse_arguments(TEST "" "" "SOURCES;DEPS" ${ARGN})
+  add_executable(${name} ${TEST_SOURCES})
+  target_link_libraries(${name} PRIVATE ${TEST_DEPS} ttf_options GTest::gmock GTest::gtest_main)
+  target_compile_definitions(${name} PRIVATE TTF_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  add_test(NAME ${name} COMMAND ${name} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+endfunction()

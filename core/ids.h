@@ -1,0 +1,33 @@
+// Small strongly typed identifiers. Their values index the lists of the cluster and scenario they come from, in
+// file order, so they are the same in every process and every run of the same files.
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+
+namespace ttf {
+
+enum class NodeId : std::uint8_t {};      // index in Cluster::nodes
+enum class PduId : std::uint8_t {};       // index in Cluster::pdus
+enum class SensorId : std::uint8_t {};    // index in Cluster::sensors
+enum class ObjectId : std::uint16_t {};   // index in the world's objects; truth, never on a bus
+enum class TrackId : std::uint16_t {};    // given by the tracker at birth, never reused within a run
+
+inline constexpr PduId kNoPdu{0xff};
+inline constexpr SensorId kNoSensor{0xff};
+
+// One act of measuring: the sequence-th measurement of a sensor, counted from 0.
+// Every list that descends from it (raw data, observations) carries the same sequence number.
+struct MeasurementId {
+  SensorId sensor{};
+  std::uint32_t sequence = 0;
+  constexpr auto operator<=>(const MeasurementId&) const = default;
+};
+
+template <class Id>
+constexpr std::size_t index_of(Id id) {
+  return static_cast<std::size_t>(id);
+}
+
+}  // namespace ttf

@@ -1,0 +1,63 @@
+// Counter-based random streams: a draw is a pure function of who draws, what for, and the how-manieth time.
+//
+// Generator: Philox4x32-10 (Salmon, Moraes, Dror, Shaw: "Parallel random numbers: as easy as 1, 2, 3", SC 2011).
+// The 64-bit key is the run's seed; the 128-bit counter is laid out as
+//   word 0  block within the stream        word 2  entity (16 bits) and purpose (16 bits)
+//   word 1  index (which measurement, ...) word 3  replication
+// so no two streams overlap, and what one entity draws never depends on what another drew: paradigms that are
+// compared on the same seed see the same noise.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace ttf {
+
+// What a stream is for. Values are part of every golden run: append only.
+enum class Purpose : std::uint16_t {
+  kTrajectory = 1,
+  kSensorNoise = 2,
+  kSensorMisses = 3,
+  kClutter = 4,
+  kReferenceNoise = 5,
+  kClockDrift = 6,
+  kClockPhase = 7,
+  kSensorPhase = 8,
+  kExecutionTime = 9,
+  kTest = 10,
+  kSceneLayout = 11,
+};
+
+struct StreamKey {
+  std::uint64_t seed = 0;
+  std::uint32_t replication = 0;
+  Purpose purpose = Purpose::kTest;
+  std::uint16_t entity = 0;   // node, sensor or object
+  std::uint32_t index = 0;    // measurement, activation, ... ; 0 for a stream that is read through
+};
+
+std::array<std::uint32_t, 4> philox4x32_10(std::array<std::uint32_t, 4> counter, std::array<std::uint32_t, 2> key);
+
+// Reads one stream from its beginning. A value type: copying forks the position, not the state of the world.
+class RandomStream {
+ public:
+  explicit RandomStream(StreamKey key) : key_(key) {}
+
+  std::uint64_t bits();
+  double uniform();                           // in [0, 1), 53 random bits
+  double uniform(double low, double high);    // in [low, high)
+  std::int64_t integer(std::int64_t low, std::int64_t high);  // in [low, high], unbiased
+  double normal();                            // mean 0, variance 1 (Box-Muller, both values used)
+
+ private:
+  std::uint32_t word();
+
+  StreamKey key_;
+  std::uint32_t block_ = 0;
+  std::array<std::uint32_t, 4> words_{};
+  int used_ = 4;
+  double spare_normal_ = 0.0;
+  bool has_spare_ = false;
+};
+
+}  // namespace ttf

@@ -1,0 +1,391 @@
+#include "core/strict_yaml.h"
+
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "core/int128.h"
+
+namespace ttf {
+
+struct YamlMap::Content {
+  std::string file;
+  YAML::Node node;  // a map, or undefined for a missing one
+  std::set<std::string, std::less<>> asked;
+};
+
+namespace {
+
+int line_of(const YAML::Node& node) { return node.IsDefined() && node.Mark().line >= 0 ? node.Mark().line + 1 : 0; }
+
+YAML::Node child(const YAML::Node& node, std::string_view key) {
+  if (node.IsDefined() && node.IsMap())
+    for (const auto& entry : node)
+      if (entry.first.IsScalar() && entry.first.Scalar() == key) return entry.second;
+  return YAML::Node(YAML::NodeType::Undefined);
+}
+
+template <class T>
+std::optional<T> parse_number(std::string_view text) {
+  T value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+// Decimal text times a power of ten, exactly; nothing where it is not whole or does not fit.
+std::optional<std::int64_t> parse_scaled(std::string_view text, std::int64_t scale) {
+  const bool negative = text.starts_with('-');
+  if (negative) text.remove_prefix(1);
+  Int128 digits = 0;
+  std::int64_t denominator = 1;
+  bool after_point = false, any = false;
+  for (const char c : text) {
+    if (c == '.' && !after_point) {
+      after_point = true;
+      continue;
+    }
+    if (c < '0' || c > '9' || digits > (static_cast<Int128>(1) << 62) || denominator > 1'000'000'000'000)
+      return std::nullopt;
+    digits = digits * 10 + (c - '0');
+    if (after_point) denominator *= 10;
+    any = true;
+  }
+  const Int128 scaled = digits * scale;
+  if (!any || scaled % denominator != 0 || scaled / denominator > INT64_MAX) return std::nullopt;
+  const auto value = static_cast<std::int64_t>(scaled / denominator);
+  return negative ? -value : value;
+}
+
+std::optional<Duration> parse_duration(const std::string& text) {
+  const auto space = text.find(' ');
+  if (space == std::string::npos) return std::nullopt;
+  const std::string unit = text.substr(space + 1);
+  std::int64_t scale = 0;
+  if (unit == "ns") scale = 1;
+  if (unit == "us") scale = 1'000;
+  if (unit == "ms") scale = 1'000'000;
+  if (unit == "s") scale = 1'000'000'000;
+  if (scale == 0) return std::nullopt;
+  const auto ns = parse_scaled(std::string_view(text).substr(0, space), scale);
+  if (!ns) return std::nullopt;
+  return Duration{*ns};
+}
+
+std::string duration_text(Duration d) {
+  if (d.ns % 1'000'000 == 0) return fmt::format("{} ms", d.ns / 1'000'000);
+  if (d.ns % 1'000 == 0) return fmt::format("{} us", d.ns / 1'000);
+  return fmt::format("{} ns", d.ns);
+}
+
+template <class T>
+std::string range_text(const Range<T>& range, std::string_view unit, std::string_view what) {
+  return fmt::format("must be {} {}..{}{}{}", what, range.low, range.high, unit.empty() ? "" : " ", unit);
+}
+
+}  // namespace
+
+YamlMap::YamlMap(std::shared_ptr<Content> content, std::string path, Findings* findings)
+    : content_(std::move(content)), path_(std::move(path)), findings_(findings) {}
+
+const std::string& YamlMap::file() const { return content_->file; }
+
+std::string YamlMap::key_path(std::string_view key) const {
+  if (path_.empty()) return std::string(key);
+  if (key.empty()) return path_;
+  return fmt::format("{}.{}", path_, key);
+}
+
+bool YamlMap::has(std::string_view key) const {
+  content_->asked.emplace(key);
+  return child(content_->node, key).IsDefined();
+}
+
+int YamlMap::line(std::string_view key) const {
+  if (!key.empty())
+    if (const YAML::Node node = child(content_->node, key); node.IsDefined()) return line_of(node);
+  return line_of(content_->node);
+}
+
+void YamlMap::fail(std::string_view key, std::string expected) {
+  const YAML::Node node = child(content_->node, key);
+  const std::string value = node.IsDefined() && node.IsScalar() ? node.Scalar() : "";
+  findings_->add({content_->file, line(key), key_path(key), value, std::move(expected)});
+}
+
+std::optional<std::string> YamlMap::scalar(std::string_view key, std::string_view expected) {
+  content_->asked.emplace(key);
+  const YAML::Node node = child(content_->node, key);
+  if (!node.IsDefined()) {
+    fail(key, fmt::format("is missing: {}", expected));
+    return std::nullopt;
+  }
+  if (!node.IsScalar()) {
+    fail(key, std::string(expected));
+    return std::nullopt;
+  }
+  return node.Scalar();
+}
+
+std::int64_t YamlMap::integer(std::string_view key, Range<std::int64_t> allowed, std::string_view unit) {
+  const std::string expected = range_text(allowed, unit, "a whole number");
+  const auto text = scalar(key, expected);
+  if (!text) return allowed.low;
+  const auto value = parse_number<std::int64_t>(*text);
+  if (value && allowed.contains(*value)) return *value;
+  fail(key, expected);
+  return allowed.low;
+}
+
+std::int64_t YamlMap::integer_or(std::string_view key, std::int64_t fallback, Range<std::int64_t> allowed,
+                                 std::string_view unit) {
+  return has(key) ? integer(key, allowed, unit) : fallback;
+}
+
+double YamlMap::number(std::string_view key, Range<double> allowed, std::string_view unit) {
+  const std::string expected = range_text(allowed, unit, "a number");
+  const auto text = scalar(key, expected);
+  if (!text) return allowed.low;
+  const auto value = parse_number<double>(*text);
+  if (value && allowed.contains(*value)) return *value;
+  fail(key, expected);
+  return allowed.low;
+}
+
+double YamlMap::number_or(std::string_view key, double fallback, Range<double> allowed, std::string_view unit) {
+  return has(key) ? number(key, allowed, unit) : fallback;
+}
+
+std::int64_t YamlMap::scaled(std::string_view key, std::int64_t scale, Range<std::int64_t> allowed,
+                             std::string_view unit) {
+  const auto unscaled = [&](std::int64_t value) { return static_cast<double>(value) / static_cast<double>(scale); };
+  const std::string expected =
+      range_text(Range<double>{unscaled(allowed.low), unscaled(allowed.high)}, unit, "a decimal number") +
+      fmt::format(", in steps of {}", unscaled(1));
+  const auto text = scalar(key, expected);
+  if (!text) return allowed.low;
+  const auto value = parse_scaled(*text, scale);
+  if (value && allowed.contains(*value)) return *value;
+  fail(key, expected);
+  return allowed.low;
+}
+
+bool YamlMap::boolean(std::string_view key) {
+  constexpr std::string_view kExpected = "must be true or false";
+  const auto text = scalar(key, kExpected);
+  if (!text) return false;
+  if (*text == "true") return true;
+  if (*text != "false") fail(key, std::string(kExpected));
+  return false;
+}
+
+bool YamlMap::boolean_or(std::string_view key, bool fallback) { return has(key) ? boolean(key) : fallback; }
+
+std::string YamlMap::text(std::string_view key) {
+  constexpr std::string_view kExpected = "must be a text";
+  const auto text = scalar(key, kExpected);
+  if (text && text->empty()) fail(key, std::string(kExpected));
+  return text.value_or("");
+}
+
+std::string YamlMap::text_or(std::string_view key, std::string_view fallback) {
+  return has(key) ? text(key) : std::string(fallback);
+}
+
+Duration YamlMap::duration(std::string_view key, Range<Duration> allowed) {
+  const std::string expected = fmt::format("must be a time with its unit (ns, us, ms or s), {}..{}",
+                                           duration_text(allowed.low), duration_text(allowed.high));
+  const auto text = scalar(key, expected);
+  if (!text) return allowed.low;
+  const auto value = parse_duration(*text);
+  if (value && allowed.contains(*value)) return *value;
+  fail(key, expected);
+  return allowed.low;
+}
+
+Duration YamlMap::duration_or(std::string_view key, Duration fallback, Range<Duration> allowed) {
+  return has(key) ? duration(key, allowed) : fallback;
+}
+
+std::vector<double> YamlMap::numbers(std::string_view key, Range<double> allowed, Range<std::size_t> how_many) {
+  content_->asked.emplace(key);
+  const std::string expected = fmt::format("must be a list of {}..{} numbers, each {}..{}", how_many.low,
+                                           how_many.high, allowed.low, allowed.high);
+  const YAML::Node node = child(content_->node, key);
+  std::vector<double> values;
+  bool good = node.IsDefined() && node.IsSequence();
+  if (good)
+    for (const auto& item : node) {
+      const auto value = item.IsScalar() ? parse_number<double>(item.Scalar()) : std::nullopt;
+      good = good && value && allowed.contains(*value);
+      values.push_back(value.value_or(allowed.low));
+    }
+  if (!good || !how_many.contains(values.size())) {
+    fail(key, node.IsDefined() ? expected : "is missing: " + expected);
+    values.assign(how_many.low, allowed.low);
+  }
+  return values;
+}
+
+std::vector<std::string> YamlMap::texts(std::string_view key) {
+  content_->asked.emplace(key);
+  const YAML::Node node = child(content_->node, key);
+  std::vector<std::string> values;
+  bool good = node.IsDefined() && node.IsSequence();
+  if (good)
+    for (const auto& item : node) {
+      good = good && item.IsScalar();
+      if (item.IsScalar()) values.push_back(item.Scalar());
+    }
+  if (!good) fail(key, node.IsDefined() ? "must be a list of texts" : "is missing: must be a list of texts");
+  return values;
+}
+
+std::size_t YamlMap::choice_index(std::string_view key, const std::vector<std::string_view>& names) {
+  const std::string expected = fmt::format("must be one of {}", fmt::join(names, ", "));
+  const auto text = scalar(key, expected);
+  if (!text) return 0;
+  const auto found = std::find(names.begin(), names.end(), *text);
+  if (found == names.end()) {
+    fail(key, expected);
+    return 0;
+  }
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+YamlMap YamlMap::map(std::string_view key) {
+  content_->asked.emplace(key);
+  const YAML::Node node = child(content_->node, key);
+  if (!node.IsDefined()) fail(key, "is missing: must be a mapping");
+  if (node.IsDefined() && !node.IsMap()) fail(key, "must be a mapping");
+  auto content = std::make_shared<Content>();
+  content->file = content_->file;
+  if (node.IsDefined() && node.IsMap()) content->node.reset(node);
+  return YamlMap(std::move(content), key_path(key), findings_);
+}
+
+std::optional<YamlMap> YamlMap::map_if(std::string_view key) {
+  if (!has(key)) return std::nullopt;
+  return map(key);
+}
+
+std::vector<YamlMap> YamlMap::maps(std::string_view key) {
+  content_->asked.emplace(key);
+  const YAML::Node node = child(content_->node, key);
+  std::vector<YamlMap> list;
+  if (!node.IsDefined() || !node.IsSequence()) {
+    fail(key, node.IsDefined() ? "must be a list of mappings" : "is missing: must be a list of mappings");
+    return list;
+  }
+  std::size_t number = 0;
+  for (const auto& item : node) {
+    const std::string path = fmt::format("{}[{}]", key_path(key), number++);
+    if (!item.IsMap()) {
+      findings_->add({content_->file, line_of(item), path, "", "must be a mapping"});
+      continue;
+    }
+    auto content = std::make_shared<Content>();
+    content->file = content_->file;
+    content->node.reset(item);
+    list.push_back(YamlMap(std::move(content), path, findings_));
+  }
+  return list;
+}
+
+std::vector<YamlMap> YamlMap::maps_if(std::string_view key) {
+  return has(key) ? maps(key) : std::vector<YamlMap>{};
+}
+
+std::vector<std::pair<std::string, YamlMap>> YamlMap::named_maps(std::string_view key) {
+  YamlMap outer = map(key);
+  std::vector<std::pair<std::string, YamlMap>> list;
+  if (!outer.content_->node.IsDefined() || !outer.content_->node.IsMap()) return list;
+  for (const auto& entry : outer.content_->node) {
+    const std::string name = entry.first.IsScalar() ? entry.first.Scalar() : "";
+    const std::string path = outer.key_path(name);
+    if (!entry.second.IsMap()) {
+      findings_->add({content_->file, line_of(entry.first), path, "", "must be a mapping"});
+      continue;
+    }
+    auto content = std::make_shared<Content>();
+    content->file = content_->file;
+    content->node.reset(entry.second);
+    outer.content_->asked.insert(name);
+    list.emplace_back(name, YamlMap(std::move(content), path, findings_));
+  }
+  outer.finish();
+  return list;
+}
+
+std::vector<std::pair<std::string, std::string>> YamlMap::named_texts(std::string_view key) {
+  YamlMap outer = map(key);
+  std::vector<std::pair<std::string, std::string>> list;
+  if (!outer.content_->node.IsDefined() || !outer.content_->node.IsMap()) return list;
+  for (const auto& entry : outer.content_->node) {
+    const std::string name = entry.first.IsScalar() ? entry.first.Scalar() : "";
+    outer.content_->asked.insert(name);
+    if (entry.second.IsScalar())
+      list.emplace_back(name, entry.second.Scalar());
+    else
+      outer.fail(name, "must be a text");
+  }
+  outer.finish();
+  return list;
+}
+
+void YamlMap::finish() {
+  if (!content_->node.IsDefined() || !content_->node.IsMap()) return;
+  std::set<std::string> seen;
+  for (const auto& entry : content_->node) {
+    const int line = line_of(entry.first);
+    if (!entry.first.IsScalar()) {
+      findings_->add({content_->file, line, path_, "", "has a key that is not a plain text"});
+      continue;
+    }
+    const std::string& key = entry.first.Scalar();
+    if (!seen.insert(key).second)
+      findings_->add({content_->file, line, key_path(key), "", "is given twice in one mapping"});
+    else if (!content_->asked.contains(key))
+      findings_->add({content_->file, line, key_path(key), "",
+                      content_->asked.empty() ? std::string("is not a known key here")
+                                              : fmt::format("is not a known key here (known: {})",
+                                                            fmt::join(content_->asked, ", "))});
+  }
+}
+
+StrictYaml StrictYaml::load(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  std::ostringstream text;
+  if (!stream || !(text << stream.rdbuf())) throw InputError({path, 0, "", "", "cannot be read (or is empty)"});
+  return parse(text.str(), path);
+}
+
+StrictYaml StrictYaml::parse(std::string text, std::string name) {
+  StrictYaml document;
+  document.name_ = std::move(name);
+  document.text_ = std::move(text);
+  document.content_ = std::make_shared<YamlMap::Content>();
+  document.content_->file = document.name_;
+  try {
+    document.content_->node.reset(YAML::Load(document.text_));
+  } catch (const YAML::Exception& error) {
+    throw InputError({document.name_, error.mark.line + 1, "", "", "is not valid YAML: " + error.msg});
+  }
+  if (!document.content_->node.IsMap())
+    throw InputError({document.name_, 1, "", "", "must be a YAML mapping at the top level"});
+  return document;
+}
+
+YamlMap StrictYaml::root(Findings& findings) const {
+  auto content = std::make_shared<YamlMap::Content>();
+  content->file = content_->file;
+  content->node.reset(content_->node);
+  return YamlMap(std::move(content), "", &findings);
+}
+
+}  // namespace ttf

@@ -1,0 +1,115 @@
+// A strict reader of YAML mappings: unknown, missing, duplicate, mistyped and out-of-range keys are findings with
+// file, line, key, value and allowed range, never a warning with a default.
+//
+//   StrictYaml file = StrictYaml::load("clusters/paper.yaml");     // throws InputError on unreadable or broken YAML
+//   Findings findings;
+//   YamlMap root = file.root(findings);
+//   const auto slots = root.integer("gNumberOfStaticSlots", {2, 1023});
+//   root.finish();                                                 // whatever was not asked for is unknown
+//   findings.throw_if_any();                                       // all mistakes at once
+//
+// A getter that finds nothing usable adds its finding and returns a value inside the range, so that reading goes on
+// and later mistakes are found too. Getters with a fallback do not require the key.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/errors.h"
+#include "core/time.h"
+
+namespace ttf {
+
+template <class T>
+struct Range {
+  T low;
+  T high;
+  bool contains(T value) const { return value >= low && value <= high; }
+};
+
+template <class Enum>
+using Choices = std::vector<std::pair<std::string_view, Enum>>;
+
+class YamlMap {
+ public:
+  bool has(std::string_view key) const;
+
+  std::int64_t integer(std::string_view key, Range<std::int64_t> allowed, std::string_view unit = "");
+  std::int64_t integer_or(std::string_view key, std::int64_t fallback, Range<std::int64_t> allowed,
+                          std::string_view unit = "");
+  double number(std::string_view key, Range<double> allowed, std::string_view unit = "");
+  double number_or(std::string_view key, double fallback, Range<double> allowed, std::string_view unit = "");
+  // A decimal number times `scale`, which must come out whole: "12.5" with scale 1000 is 12500 (ns to ps).
+  std::int64_t scaled(std::string_view key, std::int64_t scale, Range<std::int64_t> allowed, std::string_view unit = "");
+  bool boolean(std::string_view key);
+  bool boolean_or(std::string_view key, bool fallback);
+  std::string text(std::string_view key);
+  std::string text_or(std::string_view key, std::string_view fallback);
+  // "40 ms", "2.5 us", "100 ns", "1.5 s"; exact to the nanosecond.
+  Duration duration(std::string_view key, Range<Duration> allowed);
+  Duration duration_or(std::string_view key, Duration fallback, Range<Duration> allowed);
+  std::vector<double> numbers(std::string_view key, Range<double> allowed, Range<std::size_t> how_many);
+  std::vector<std::string> texts(std::string_view key);
+
+  template <class Enum>
+  Enum choice(std::string_view key, const Choices<Enum>& choices) {
+    std::vector<std::string_view> names;
+    for (const auto& entry : choices) names.push_back(entry.first);
+    return choices[choice_index(key, names)].second;
+  }
+  template <class Enum>
+  Enum choice_or(std::string_view key, Enum fallback, const Choices<Enum>& choices) {
+    return has(key) ? choice(key, choices) : fallback;
+  }
+
+  YamlMap map(std::string_view key);                          // a missing map is a finding, then reads as empty
+  std::optional<YamlMap> map_if(std::string_view key);
+  std::vector<YamlMap> maps(std::string_view key);            // a sequence of mappings
+  std::vector<YamlMap> maps_if(std::string_view key);         // the same, empty when the key is absent
+  std::vector<std::pair<std::string, YamlMap>> named_maps(std::string_view key);  // name: {...}, in file order
+  std::vector<std::pair<std::string, std::string>> named_texts(std::string_view key);  // name: text, in file order
+
+  // Adds a finding about `key` (or about this mapping, when empty), with its line and value.
+  void fail(std::string_view key, std::string expected);
+  int line(std::string_view key = "") const;
+  const std::string& file() const;
+  const std::string& path() const { return path_; }
+
+  // Reports every key nobody asked for.
+  void finish();
+
+ private:
+  friend class StrictYaml;
+  struct Content;
+  YamlMap(std::shared_ptr<Content> content, std::string path, Findings* findings);
+  std::size_t choice_index(std::string_view key, const std::vector<std::string_view>& names);
+  std::string key_path(std::string_view key) const;
+  std::optional<std::string> scalar(std::string_view key, std::string_view expected);
+
+  std::shared_ptr<Content> content_;
+  std::string path_;
+  Findings* findings_;
+};
+
+class StrictYaml {
+ public:
+  static StrictYaml load(const std::string& path);
+  static StrictYaml parse(std::string text, std::string name);
+
+  YamlMap root(Findings& findings) const;
+  const std::string& text() const { return text_; }
+  const std::string& name() const { return name_; }
+
+ private:
+  StrictYaml() = default;
+  std::string name_;
+  std::string text_;
+  std::shared_ptr<YamlMap::Content> content_;
+};
+
+}  // namespace ttf

@@ -1,0 +1,231 @@
+// What can happen in a run, as plain structs, and the port they are reported to.
+//
+// These records are the contract between what runs (simulator, real-time runner) and what looks at it (log writer, diagrams,
+// reports, measures). Spans are views that are valid during the call only. Coordinates follow ISO 8855, metres,
+// seconds, radians. Covariances are row-major.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "core/ids.h"
+#include "core/time.h"
+
+namespace ttf::records {
+
+// When and where something happened: on all three clocks. `global` is what the node's own clock showed.
+struct Stamp {
+  TrueTime true_time{};
+  LocalTime local{};
+  GlobalTime global{};
+  NodeId node{};
+};
+
+// A sensor measured. Its host latched the strobe: `stamp.node` is the host, `stamp.global` is the time stamp that
+// travels with the observations.
+struct Measured {
+  Stamp stamp;
+  MeasurementId id;
+  std::span<const ObjectId> truth_ids;   // per raw item, kClutterObject for none; truth, in the log only
+};
+inline constexpr ObjectId kClutterObject{0xffff};
+
+// One frame on a private CAN, stamped at its end by the medium (`sender` sent it).
+struct CanFrameSent {
+  std::uint8_t bus = 0;              // index in Cluster::can_buses
+  NodeId sender{};
+  TrueTime start{};
+  TrueTime end{};
+  std::uint32_t identifier = 0;
+  bool flexible_data_rate = false;
+  PduId pdu = kNoPdu;
+  std::uint32_t sequence = 0;
+  std::uint8_t fragment = 0;
+  std::span<const std::byte> data;
+};
+
+// One FlexRay frame on one channel.
+struct SlotFrameSent {
+  Stamp stamp;                       // start of transmission
+  TrueTime end{};
+  std::int64_t cycle = 0;            // running cycle
+  std::uint16_t slot = 0;
+  std::uint8_t channel = 0;          // 0 A, 1 B
+  bool null_frame = false;
+  PduId pdu = kNoPdu;
+  std::uint32_t sequence = 0;
+  std::uint8_t fragment = 0;
+  std::span<const std::byte> bytes;  // header, payload and trailer as on the wire
+};
+
+// Per-slot, per-channel status as one receiver saw it, reported when it is anything but one valid frame in an owned
+// slot. Bits: 1 syntax error, 2 content error, 4 boundary violation, 8 transmission conflict, 16 no frame.
+struct SlotProblem {
+  Stamp stamp;
+  std::int64_t cycle = 0;
+  std::uint16_t slot = 0;
+  std::uint8_t channel = 0;
+  std::uint8_t status = 0;
+};
+
+// A list of a PDU on its way: every hop is one record, so that a diagram can draw the arrows.
+enum class Hop : std::uint8_t {
+  kWritten = 1,    // a task's output became visible in a CNI
+  kSent = 2,       // its last frame left (CAN end of frame, or end of the last slot)
+  kReceived = 3,   // complete in the receiver's CNI
+  kTorn = 4,       // fragments of different lists met; not used
+  kRead = 5,       // a task read it at its start, for the first time
+  kOverwritten = 6 // a newer list replaced it before it was ever read
+};
+struct ListHop {
+  Stamp stamp;
+  Hop hop = Hop::kWritten;
+  PduId pdu{};
+  std::uint32_t sequence = 0;
+  std::int8_t can_bus = -1;          // -1: FlexRay
+};
+
+struct TaskRun {
+  Stamp start;
+  std::uint8_t task = 0;             // index in Node::tasks
+  TrueTime activated{};
+  TrueTime end{};
+  bool deadline_met = true;
+};
+
+struct ClockCorrected {
+  Stamp stamp;                       // end of the odd cycle
+  std::int64_t cycle = 0;
+  std::int32_t offset_microticks = 0;
+  std::int32_t rate_microticks = 0;
+  bool offset_missing = false, rate_missing = false, offset_limited = false, rate_limited = false;
+};
+
+// Largest difference between any two nodes' global times within a double cycle, against true time.
+struct PrecisionSample {
+  TrueTime at{};
+  std::int64_t cycle = 0;
+  Duration precision{};
+};
+
+// Input of the fusion step as it was decoded from the controller: replaying these gives every image again.
+struct FusionInput {
+  Stamp stamp;
+  std::uint32_t step = 0;
+  PduId pdu{};
+  std::uint32_t sequence = 0;
+  GlobalTime measured{};             // unwrapped time stamp of the list
+  std::uint16_t count = 0;           // elements
+  std::span<const std::byte> fragments;   // fragment payloads one after the other
+};
+
+// What became of one observation list.
+enum class Disposition : std::uint8_t { kFused = 1, kFusedLate = 2, kHeld = 3, kDroppedTooOld = 4, kDuplicate = 5 };
+struct ListFused {
+  Stamp stamp;
+  std::uint32_t step = 0;
+  MeasurementId id;
+  GlobalTime measured{};
+  Disposition disposition = Disposition::kFused;
+};
+
+// One activation of the fusion task.
+struct FusionStep {
+  Stamp stamp;
+  std::uint32_t step = 0;            // the numbered fusion instants of the diagrams
+  std::uint16_t confirmed = 0;
+  std::uint16_t tentative = 0;
+};
+
+// State of a confirmed track, at the time the state is valid for. State: x, y, vx, vy, ax, ay (the last two zero for
+// constant-velocity models).
+struct TrackState {
+  Stamp stamp;
+  std::uint32_t step = 0;
+  TrackId track{};
+  GlobalTime valid_at{};
+  std::span<const double, 6> state;
+  std::span<const double, 36> covariance;
+  bool predicted_for_image = false;  // the output's prediction, not the filter state
+};
+
+// One observation after preprocessing or as recorded, for plots: position and its covariance.
+struct ObservationSeen {
+  Stamp stamp;
+  MeasurementId id;
+  GlobalTime measured{};
+  std::uint16_t index = 0;
+  double x = 0, y = 0, sxx = 0, sxy = 0, syy = 0;
+};
+
+// The real-time image of one object as decoded from the bus.
+struct ImageObject {
+  TrackId track{};
+  double x = 0, y = 0, heading = 0, speed = 0, acceleration = 0, length = 0, width = 0;
+  double sigma_x = 0, sigma_y = 0, correlation_xy = 0, sigma_heading = 0, sigma_speed = 0, sigma_acceleration = 0,
+         sigma_length = 0, sigma_width = 0;
+};
+struct ImageWritten {
+  Stamp stamp;
+  std::uint32_t sequence = 0;
+  GlobalTime valid_at{};             // the instant of use the image is predicted to
+  GlobalTime newest_measurement{};   // of all that is fused in it
+  std::span<const ImageObject> objects;
+  std::span<const MeasurementId> newest;   // the newest measurement of each sensor that is fused in it
+};
+
+// What the feature service used, and what it made of it.
+struct FeatureObject {
+  ImageObject image;
+  double time_gap_s = 0;             // infinity where there is none
+  double time_to_collision_s = 0;    // infinity where there is none
+  bool warning = false;
+};
+struct FeatureUsed {
+  Stamp stamp;
+  std::uint32_t image_sequence = 0;
+  GlobalTime image_valid_at{};
+  bool fresh = true;                 // first use of this image
+  std::span<const FeatureObject> objects;
+};
+
+struct ReferenceFix {                // DGPS on the tracked car, transformed with the (erroneous) alignment
+  TrueTime measured_true{};
+  GlobalTime measured{};
+  GlobalTime available{};
+  ObjectId object{};
+  double x = 0, y = 0, sigma = 0;
+};
+
+struct TruthState {
+  TrueTime at{};
+  ObjectId object{};
+  double x = 0, y = 0, heading = 0, speed = 0, acceleration = 0, yaw_rate = 0, length = 0, width = 0;
+};
+
+// The port. One function per kind of record; an implementation overrides what it cares for.
+class Sink {
+ public:
+  virtual ~Sink() = default;
+  virtual void on(const Measured&) {}
+  virtual void on(const CanFrameSent&) {}
+  virtual void on(const SlotFrameSent&) {}
+  virtual void on(const SlotProblem&) {}
+  virtual void on(const ListHop&) {}
+  virtual void on(const TaskRun&) {}
+  virtual void on(const ClockCorrected&) {}
+  virtual void on(const PrecisionSample&) {}
+  virtual void on(const FusionInput&) {}
+  virtual void on(const ListFused&) {}
+  virtual void on(const FusionStep&) {}
+  virtual void on(const TrackState&) {}
+  virtual void on(const ObservationSeen&) {}
+  virtual void on(const ImageWritten&) {}
+  virtual void on(const FeatureUsed&) {}
+  virtual void on(const ReferenceFix&) {}
+  virtual void on(const TruthState&) {}
+};
+
+}  // namespace ttf::records

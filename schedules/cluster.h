@@ -1,0 +1,163 @@
+// The cluster: everything about what happens and when, as data. One YAML file describes one cluster (schedules/
+// loader.h reads it, schedules/checker.h proves it consistent); after that it is frozen and shared by every node.
+//
+// Instants on the bus' own grid are macroticks within a cycle plus cycle multiplexing (base cycle, repetition): an
+// event happens in every cycle c with c mod repetition == base_cycle.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/ids.h"
+#include "core/time.h"
+#include "schedules/flexray_parameters.h"
+#include "schedules/pdu.h"
+
+namespace ttf::schedules {
+
+enum class Channel : std::uint8_t { kA = 0, kB = 1 };
+enum class Channels : std::uint8_t { kA = 1, kB = 2, kAB = 3 };
+constexpr bool includes(Channels set, Channel one) {
+  return (static_cast<unsigned>(set) >> static_cast<unsigned>(one)) & 1u;
+}
+
+// A periodic instant in global time: macrotick `offset` of every cycle c with c mod repetition == base_cycle.
+struct CycleInstant {
+  int base_cycle = 0;
+  int repetition = 1;
+  Macroticks offset{0};
+};
+
+// Fragment `fragment` of a PDU (or a status frame without PDU, pdu == kNoPdu) in one static slot.
+struct FrameSlot {
+  int slot = 0;                 // frame id
+  Channels channels = Channels::kAB;
+  int base_cycle = 0;
+  int repetition = 1;
+  NodeId sender{};
+  PduId pdu = kNoPdu;
+  int fragment = 0;
+  int line = 0;
+};
+
+// A PDU on a CAN: all fragments have the same identifier; the fragment number is in the data.
+struct CanMessage {
+  PduId pdu{};
+  std::uint32_t identifier = 0;   // 11 bits
+  NodeId sender{};
+  Duration shortest_period{};     // between two lists, for the load check
+  int line = 0;
+};
+
+struct CanBus {
+  std::string name;
+  bool flexible_data_rate = false;      // CAN FD with bit-rate switching
+  std::int64_t nominal_bit_rate = 0;    // bit/s
+  std::int64_t data_bit_rate = 0;       // bit/s, equal to nominal for classic CAN
+  double other_load = 0.0;              // share of the bus other traffic takes, for the checker
+  std::vector<CanMessage> messages;
+  int line = 0;
+};
+
+// Where a port of a task leads: a PDU on FlexRay (bus empty) or on a CAN.
+struct PortBinding {
+  std::string port;               // the code's name for it
+  PduId pdu{};
+  std::optional<std::size_t> can_bus;   // index in Cluster::can_buses; nothing: FlexRay
+  int line = 0;
+};
+
+enum class ActivationKind : std::uint8_t {
+  kTime,        // at CycleInstants of the node's global time
+  kMessage,     // when a list of `port` has arrived completely
+  kSensor,      // at the sensor's measurement instants
+  kCompletion,  // when task `after` of the same node ends
+};
+
+struct Activation {
+  ActivationKind kind = ActivationKind::kTime;
+  CycleInstant at{};
+  std::string port;
+  SensorId sensor = kNoSensor;
+  std::string after;
+};
+
+enum class ExecutionDraw : std::uint8_t {
+  kUniform,   // between best and worst case, drawn per run: the unsynchronised paradigm
+  kWorst,     // always the worst case: the synchronised paradigm
+};
+
+struct Task {
+  std::string name;
+  std::string step;               // which code runs
+  Activation activation;
+  Duration best_case{};           // execution time
+  Duration worst_case{};
+  ExecutionDraw draw = ExecutionDraw::kUniform;
+  Duration deadline{};            // after activation
+  std::vector<PortBinding> reads;
+  std::vector<PortBinding> writes;
+  int line = 0;
+};
+
+struct Node {
+  std::string name;
+  std::optional<NodeParameters> flexray;   // nothing: not on FlexRay (a sensor device)
+  std::int64_t microtick_ps = 25'000;      // nominal, also for nodes off FlexRay
+  std::optional<std::int64_t> drift_ppb;   // fixed; else drawn within +-max_drift_ppb
+  std::int64_t max_drift_ppb = 1'500'000;
+  std::vector<Task> tasks;
+  int line = 0;
+};
+
+enum class SensorKind : std::uint8_t { kLaser, kCamera, kRadar };
+
+// When a sensor measures. Free: period on the device's own clock, first instant at `phase` (drawn if absent).
+// Scheduled: at an instant of the host's global time, over a trigger line. In both the host latches its global
+// time at the device's strobe, which is the measurement's time stamp.
+struct Sensor {
+  std::string name;
+  SensorKind kind = SensorKind::kLaser;
+  NodeId device{};               // the node that emulates it
+  NodeId host{};                 // the preprocessing node that triggers it and takes its strobe
+  bool scheduled = false;
+  Duration period{};             // free-running
+  std::optional<Duration> phase;
+  CycleInstant at{};             // scheduled
+  int line = 0;
+};
+
+struct Cluster {
+  std::string name;
+  std::string file;              // for messages
+  std::string text;              // the YAML as read, attached to logs
+  GlobalParameters flexray;
+  bool synchronisation = true;   // clock correction on (off only to show what it is for)
+  std::vector<PduLayout> pdus;
+  std::vector<Node> nodes;
+  std::vector<FrameSlot> frames; // ordered by slot, then base cycle
+  std::vector<CanBus> can_buses;
+  std::vector<Sensor> sensors;
+
+  const Node& node(NodeId id) const { return nodes[index_of(id)]; }
+  const PduLayout& pdu(PduId id) const { return pdus[index_of(id)]; }
+  const Sensor& sensor(SensorId id) const { return sensors[index_of(id)]; }
+  std::optional<NodeId> find_node(std::string_view name) const;
+  std::optional<PduId> find_pdu(std::string_view name) const;
+  std::optional<SensorId> find_sensor(std::string_view name) const;
+  Duration cycle() const { return {flexray.cycle_ps() / 1000}; }
+};
+
+// Global time of an instant in the n-th cycle since the start (n counts on beyond gCycleCountMax).
+GlobalTime time_of(const GlobalParameters& flexray, std::int64_t cycle, Macroticks offset);
+
+// First occurrence of a periodic instant at or after `from`, and the cycle it falls in.
+struct Occurrence {
+  std::int64_t cycle = 0;
+  GlobalTime time{};
+};
+Occurrence next_occurrence(const GlobalParameters& flexray, const CycleInstant& at, GlobalTime from);
+
+}  // namespace ttf::schedules

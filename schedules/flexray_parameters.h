@@ -1,0 +1,78 @@
+// FlexRay parameters under their specification names: FlexRay Protocol Specification 2.1 Rev. A, annex B.
+// Ranges and constraints are checked by schedules/checker.h; here is only what they are.
+//
+// Units: [MT] macroticks, [uT] microticks of the node, [bit] gdBit. Times that are not whole nanoseconds are kept in
+// picoseconds (a 12.5 ns microtick is 12'500 ps).
+#pragma once
+
+#include <cstdint>
+
+namespace ttf::schedules {
+
+// Global parameters: the same in every node of the cluster.
+struct GlobalParameters {
+  int gColdStartAttempts = 8;
+  int gListenNoise = 2;
+  int gMacroPerCycle = 5000;            // [MT]
+  std::int64_t gdMacrotick_ps = 1'000'000;
+  std::int64_t gdBit_ps = 100'000;      // 10 Mbit/s
+  int gdActionPointOffset = 7;          // [MT]
+  int gdStaticSlot = 84;                // [MT]
+  int gNumberOfStaticSlots = 2;
+  int gPayloadLengthStatic = 28;        // two-byte words
+  int gdMinislot = 5;                   // [MT]
+  int gNumberOfMinislots = 0;
+  int gdMinislotActionPointOffset = 3;  // [MT]
+  int gdDynamicSlotIdlePhase = 1;       // minislots
+  int gdSymbolWindow = 0;               // [MT]
+  int gdNIT = 2;                        // [MT]
+  int gOffsetCorrectionStart = 4998;    // [MT]
+  int gSyncNodeMax = 8;
+  int gMaxWithoutClockCorrectionPassive = 2;
+  int gMaxWithoutClockCorrectionFatal = 4;
+  int gCycleCountMax = 63;
+  int gNetworkManagementVectorLength = 0;  // bytes
+  int gdTSSTransmitter = 9;             // [bit]
+  int gdCASRxLowMax = 91;               // [bit]
+  int gdWakeupSymbolTxLow = 60;         // [bit]
+  int gdWakeupSymbolTxIdle = 180;       // [bit]
+  int gdWakeupSymbolRxIdle = 59;        // [bit]
+  int gdWakeupSymbolRxLow = 55;         // [bit]
+  int gdWakeupSymbolRxWindow = 301;     // [bit]
+  int gClusterDriftDamping = 2;         // [uT]
+  std::int64_t gdMaxPropagationDelay_ps = 2'500'000;
+  std::int64_t gdMinPropagationDelay_ps = 0;
+  std::int64_t gdMaxMicrotick_ps = 25'000;
+
+  // gdCycle = gMacroPerCycle * gdMacrotick.
+  std::int64_t cycle_ps() const { return gMacroPerCycle * gdMacrotick_ps; }
+};
+
+// Node parameters: of one controller.
+struct NodeParameters {
+  std::int64_t pdMicrotick_ps = 25'000;
+  int pSamplesPerMicrotick = 2;
+  int pMicroPerCycle = 200'000;         // [uT] nominal, before rate correction
+  int pKeySlotId = 0;                   // 0: none
+  bool pKeySlotUsedForStartup = false;
+  bool pKeySlotUsedForSync = false;
+  bool pKeySlotOnlyEnabled = false;
+  int pClusterDriftDamping = 2;         // [uT]
+  int pOffsetCorrectionOut = 0;         // [uT]
+  int pRateCorrectionOut = 0;           // [uT]
+  int pDecodingCorrection = 56;         // [uT]
+  int pDelayCompensationA = 0;          // [uT]
+  int pDelayCompensationB = 0;          // [uT]
+  int pdAcceptedStartupRange = 0;       // [uT]
+  int pdListenTimeout = 0;              // [uT]
+  int pMacroInitialOffsetA = 0;         // [MT]
+  int pMacroInitialOffsetB = 0;         // [MT]
+  int pMicroInitialOffsetA = 0;         // [uT]
+  int pMicroInitialOffsetB = 0;         // [uT]
+  int pLatestTx = 0;                    // minislots
+  int pAllowPassiveToActive = 0;        // even/odd cycle pairs, 0: never
+  bool pAllowHaltDueToClock = false;
+  int pWakeupPattern = 2;
+};
+
+}  // namespace ttf::schedules

@@ -1,0 +1,54 @@
+// The synchronised clock of one node: where its microticks stand in the cluster's cycles and macroticks.
+//
+// A communication cycle lasts pMicroPerCycle + rate correction microticks, spread evenly over gMacroPerCycle
+// macroticks; an offset correction lengthens (positive) or shortens (negative) the macroticks from
+// gOffsetCorrectionStart to the cycle's end (FlexRay 2.1A, chapter 8.6.4 and figure 8-12). Macrotick m starts at the
+// first microtick at or after its exact share, so no rounding accumulates within or across cycles.
+#pragma once
+
+#include <cstdint>
+
+#include "core/time.h"
+
+namespace ttf::timebase {
+
+// The parameters a clock needs (timebase does not know schedules beyond this struct).
+struct CycleGeometry {
+  int macro_per_cycle = 0;             // [MT]
+  std::int64_t macrotick_ps = 0;
+  int micro_per_cycle = 0;             // [uT]
+  int offset_correction_start = 0;     // [MT]
+};
+
+class CycleClock {
+ public:
+  // Cycle 0 starts at microtick `start`; `rate` [uT per cycle] is in force from the first cycle on.
+  CycleClock(CycleGeometry geometry, Microticks start, int rate);
+
+  std::int64_t cycle() const { return cycle_; }           // running number, never wraps
+  Microticks cycle_start() const { return start_; }
+  Microticks cycle_end() const;                           // start of the next cycle, offset correction included
+  Microticks start_of(Macroticks m) const;                // microtick at which macrotick m (0..gMacroPerCycle) starts
+  int rate_correction() const { return rate_; }
+  int offset_correction() const { return offset_; }
+
+  // Global time at microtick t of this cycle, [cycle_start, cycle_end): whole macroticks plus the share of the current
+  // one, in nanoseconds, rounded down.
+  GlobalTime global_time(Microticks t) const;
+  // First microtick of this cycle at which global_time is at or after `time`; the cycle's end where it is later.
+  Microticks when(GlobalTime time) const;
+
+  // To be applied in this cycle's correction phase; must be set before start_of(offset_correction_start).
+  void set_offset_correction(int microticks) { offset_ = microticks; }
+  // Goes to the next cycle; `rate` is in force from there on. The offset correction is used up.
+  void next_cycle(int rate);
+
+ private:
+  CycleGeometry geometry_;
+  std::int64_t cycle_ = 0;
+  Microticks start_{0};
+  int rate_ = 0;
+  int offset_ = 0;
+};
+
+}  // namespace ttf::timebase
