@@ -1,0 +1,351 @@
+#include "nodes/executive.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "bus/wire/flexray_frame.h"
+#include "core/check.h"
+#include "core/random.h"
+
+namespace ttf::nodes {
+namespace {
+
+constexpr Microticks kNever{std::numeric_limits<std::int64_t>::max()};
+
+bool in_cycle(const schedules::CycleInstant& at, std::int64_t cycle) {
+  return cycle % at.repetition == at.base_cycle;
+}
+
+}  // namespace
+
+struct Executive::TaskState {
+  const schedules::Task* task = nullptr;
+  std::shared_ptr<Step> step;
+  std::vector<Input> inputs;
+  std::vector<Output> outputs;
+  std::vector<std::optional<std::uint32_t>> unread;   // per input: complete, not read yet
+  std::uint32_t activations = 0;
+  std::uint32_t measurement = 0;
+  bool armed = false;            // activation by time, still due in this cycle
+  bool waiting = false;
+  Microticks activated{};
+  records::Stamp start;
+  bool deadline_met = true;
+};
+
+struct Executive::SensorState {
+  SensorId id{};
+  const schedules::Sensor* sensor = nullptr;
+  bool is_device = false, is_host = false;
+  std::size_t task = 0;          // the device's measuring task
+  std::uint32_t measured = 0;    // device: measurements so far
+  bool armed = false;            // host: trigger still due in this cycle
+  LocalTime first{};             // device, free-running: first measurement
+};
+
+Executive::Executive(const ExecutiveConfig& config, std::vector<std::shared_ptr<Step>> steps,
+                     bus::FlexRayPort* flexray, std::vector<bus::CanPort*> cans, SensorLines& lines,
+                     records::Sink& sink)
+    : config_(config),
+      cluster_(*config.cluster),
+      node_(cluster_.node(config.node)),
+      lines_(lines),
+      sink_(sink),
+      strobes_(cluster_.sensors.size()) {
+  TTF_CHECK(steps.size() == node_.tasks.size(), "{} steps for {} tasks", steps.size(), node_.tasks.size());
+  if (node_.flexray) {
+    TTF_CHECK(flexray != nullptr, "{} needs a FlexRay port", node_.name);
+    flexray_ = std::make_unique<bus::FlexRayController>(cluster_, config.node, config.clock, *flexray, *this);
+  }
+  frame_duration_ = {wire::frame_duration_ps(cluster_.flexray, cluster_.flexray.gPayloadLengthStatic) / 1000};
+  cans_.resize(cluster_.can_buses.size());
+  for (std::size_t b = 0; b < cans_.size(); ++b)
+    if (b < cans.size() && cans[b] != nullptr)
+      cans_[b] = std::make_unique<bus::CanController>(cluster_, config.node, b, *cans[b]);
+  for (std::size_t t = 0; t < steps.size(); ++t) {
+    TaskState state;
+    state.task = &node_.tasks[t];
+    state.step = std::move(steps[t]);
+    for (const auto& binding : state.task->reads)
+      state.inputs.push_back({binding.port, binding.pdu, &cluster_.pdu(binding.pdu), std::nullopt, false});
+    state.unread.resize(state.inputs.size());
+    for (const auto& binding : state.task->writes)
+      state.outputs.emplace_back(binding.port, binding.pdu, cluster_.pdu(binding.pdu));
+    tasks_.push_back(std::move(state));
+  }
+  ready_.reserve(tasks_.size());
+  for (std::size_t s = 0; s < cluster_.sensors.size(); ++s) {
+    const schedules::Sensor& sensor = cluster_.sensors[s];
+    SensorState state;
+    state.id = static_cast<SensorId>(s);
+    state.sensor = &sensor;
+    state.is_device = sensor.device == config.node;
+    state.is_host = sensor.host == config.node;
+    if (!state.is_device && !state.is_host) continue;
+    if (state.is_device) {
+      const auto measuring = std::find_if(node_.tasks.begin(), node_.tasks.end(), [&](const schedules::Task& task) {
+        return task.activation.kind == schedules::ActivationKind::kSensor && task.activation.sensor == state.id;
+      });
+      TTF_CHECK(measuring != node_.tasks.end(), "{} has no measuring task for {}", node_.name, sensor.name);
+      state.task = static_cast<std::size_t>(measuring - node_.tasks.begin());
+      if (!sensor.scheduled) {
+        RandomStream phase({config.seed, config.replication, Purpose::kSensorPhase, static_cast<std::uint16_t>(s), 0});
+        const Duration start = sensor.phase ? *sensor.phase : Duration{phase.integer(0, sensor.period.ns - 1)};
+        state.first = config_.oscillator.local_time(config.power_on) + start;
+      }
+    }
+    sensors_.push_back(state);
+  }
+  arm_cycle();
+}
+
+Executive::~Executive() = default;
+
+const timebase::CycleClock* Executive::clock() const { return flexray_ ? &flexray_->clock() : nullptr; }
+
+records::Stamp Executive::stamp(Microticks at) const {
+  records::Stamp stamp;
+  stamp.true_time = config_.oscillator.time_of(at);
+  stamp.local = config_.oscillator.local_time(at);
+  // A node off the bus has no global time; its own is all it knows.
+  stamp.global = flexray_ ? flexray_->clock().global_time(at) : GlobalTime{stamp.local.ns};
+  stamp.node = config_.node;
+  return stamp;
+}
+
+Microticks Executive::ticks(Duration duration) const {
+  const std::int64_t period = config_.oscillator.nominal_period_ps();
+  return {(duration.ns * 1000 + period - 1) / period};
+}
+
+Microticks Executive::next_event() const {
+  Microticks next = running_ ? running_end_ : kNever;
+  if (!running_ && !ready_.empty()) next = tasks_[ready_.front()].activated;
+  if (flexray_) {
+    next = std::min(next, flexray_->next_event());
+    for (const TaskState& state : tasks_)
+      if (state.armed) next = std::min(next, flexray_->clock().start_of(state.task->activation.at.offset));
+    for (const SensorState& state : sensors_)
+      if (state.armed) next = std::min(next, flexray_->clock().start_of(state.sensor->at.offset));
+  }
+  for (const SensorState& state : sensors_)
+    if (state.is_device && !state.sensor->scheduled)
+      next = std::min(next, ticks((state.first - LocalTime{}) + state.sensor->period * state.measured));
+  return next;
+}
+
+void Executive::arm_cycle() {
+  if (!flexray_ || flexray_->clock().cycle() == armed_cycle_) return;
+  armed_cycle_ = flexray_->clock().cycle();
+  for (TaskState& state : tasks_)
+    state.armed = state.task->activation.kind == schedules::ActivationKind::kTime &&
+                  in_cycle(state.task->activation.at, armed_cycle_);
+  for (SensorState& state : sensors_)
+    state.armed = state.is_host && state.sensor->scheduled && in_cycle(state.sensor->at, armed_cycle_);
+}
+
+void Executive::advance(Microticks now) {
+  if (running_ && running_end_ <= now) finish(now);
+  if (flexray_) flexray_->advance(now);
+  arm_cycle();
+  activate_due(now);
+  start_next(now);
+}
+
+void Executive::activate_due(Microticks now) {
+  for (SensorState& state : sensors_) {
+    if (state.armed && flexray_->clock().start_of(state.sensor->at.offset) <= now) {
+      state.armed = false;
+      lines_.trigger(state.id);
+    }
+    if (state.is_device && !state.sensor->scheduled &&
+        ticks((state.first - LocalTime{}) + state.sensor->period * state.measured) <= now)
+      measure(state, now);
+  }
+  for (std::size_t t = 0; t < tasks_.size(); ++t)
+    if (tasks_[t].armed && flexray_->clock().start_of(tasks_[t].task->activation.at.offset) <= now) {
+      tasks_[t].armed = false;
+      activate(t, now);
+    }
+}
+
+void Executive::measure(SensorState& sensor, Microticks now) {
+  tasks_[sensor.task].measurement = sensor.measured;
+  lines_.strobe(sensor.id, sensor.measured);
+  ++sensor.measured;
+  activate(sensor.task, now);
+}
+
+void Executive::trigger(SensorId sensor, Microticks now) {
+  for (SensorState& state : sensors_)
+    if (state.id == sensor && state.is_device) measure(state, now);
+}
+
+void Executive::strobe(SensorId sensor, std::uint32_t sequence, Microticks now) {
+  const records::Stamp at = stamp(now);
+  strobes_[index_of(sensor)].strobe(sequence, at.global);
+}
+
+void Executive::activate(std::size_t task, Microticks now) {
+  TaskState& state = tasks_[task];
+  if (state.waiting) {
+    ++counts_.overruns;
+    return;
+  }
+  state.waiting = true;
+  state.activated = now;
+  ready_.push_back(task);
+}
+
+void Executive::fill_inputs(TaskState& state, Microticks now) {
+  for (std::size_t i = 0; i < state.inputs.size(); ++i) {
+    const schedules::PortBinding& binding = state.task->reads[i];
+    bus::IncomingList& list = incoming(binding);
+    Input& input = state.inputs[i];
+    input.list = list.latest();
+    input.fresh = list.mark_read();
+    state.unread[i].reset();
+    if (input.fresh)
+      hop(now, records::Hop::kRead, binding.pdu, input.list->sequence,
+          binding.can_bus ? static_cast<int>(*binding.can_bus) : -1);
+  }
+}
+
+void Executive::start_next(Microticks now) {
+  while (!running_ && !ready_.empty()) {
+    const std::size_t index = ready_.front();
+    ready_.erase(ready_.begin());
+    TaskState& state = tasks_[index];
+    state.waiting = false;
+    state.start = stamp(now);
+    fill_inputs(state, now);
+    StepContext context;
+    context.stamp = state.start;
+    context.activation = state.activations;
+    context.measurement = state.measurement;
+    context.inputs = state.inputs;
+    context.outputs = state.outputs;
+    context.strobes = strobes_;
+    context.sink = &sink_;
+    state.step->run(context);
+
+    Duration execution = state.task->worst_case;
+    if (state.task->draw == schedules::ExecutionDraw::kUniform) {
+      const auto entity = static_cast<std::uint16_t>(index_of(config_.node) * 16 + index);
+      RandomStream stream(
+          {config_.seed, config_.replication, Purpose::kExecutionTime, entity, state.activations});
+      execution = Duration{stream.integer(state.task->best_case.ns, state.task->worst_case.ns)};
+    }
+    ++state.activations;
+    running_ = index;
+    running_end_ = now + ticks(execution);
+    state.deadline_met = running_end_ - state.activated <= ticks(state.task->deadline);
+    if (!state.deadline_met) ++counts_.deadlines_missed;
+    if (running_end_ <= now) finish(now);
+  }
+}
+
+void Executive::finish(Microticks now) {
+  TaskState& state = tasks_[*running_];
+  running_.reset();
+  for (std::size_t o = 0; o < state.outputs.size(); ++o) {
+    Output& output = state.outputs[o];
+    counts_.saturated_signals += static_cast<std::uint64_t>(output.take_saturated());
+    if (!output.written()) continue;
+    const auto& can_bus = state.task->writes[o].can_bus;
+    hop(now, records::Hop::kWritten, output.pdu(), output.view().sequence,
+        can_bus ? static_cast<int>(*can_bus) : -1);
+    if (can_bus)
+      cans_[*can_bus]->send(output.pdu(), output.view());
+    else
+      flexray_->outgoing(output.pdu()).write(output.view());
+    output.clear();
+  }
+  records::TaskRun run;
+  run.start = state.start;
+  run.task = static_cast<std::uint8_t>(&state - tasks_.data());
+  run.activated = config_.oscillator.time_of(state.activated);
+  run.end = config_.oscillator.time_of(now);
+  run.deadline_met = state.deadline_met;
+  sink_.on(run);
+  for (std::size_t t = 0; t < tasks_.size(); ++t)
+    if (tasks_[t].task->activation.kind == schedules::ActivationKind::kCompletion &&
+        tasks_[t].task->activation.after == state.task->name)
+      activate(t, now);
+}
+
+bus::IncomingList& Executive::incoming(const schedules::PortBinding& binding) {
+  return binding.can_bus ? cans_[*binding.can_bus]->incoming(binding.pdu) : flexray_->incoming(binding.pdu);
+}
+
+void Executive::receive(const bus::Reception& reception) { flexray_->receive(reception); }
+
+void Executive::receive_can(std::size_t can_bus, const bus::CanFrame& frame, Microticks now) {
+  if (!cans_[can_bus]) return;
+  if (const auto arrival = cans_[can_bus]->receive(frame))
+    arrived(arrival->pdu, static_cast<int>(can_bus), arrival->effect, arrival->sequence, now);
+}
+
+void Executive::list_arrived(PduId pdu, bus::ArrivalEffect effect, std::uint32_t sequence, Microticks at) {
+  arrived(pdu, -1, effect, sequence, at);
+}
+
+void Executive::arrived(PduId pdu, int can_bus, bus::ArrivalEffect effect, std::uint32_t sequence, Microticks at) {
+  if (effect != bus::ArrivalEffect::kTorn && effect != bus::ArrivalEffect::kCompleted) return;
+  bool reported = false;   // one hop per arrival, however many tasks read it; none where nobody does
+  for (std::size_t t = 0; t < tasks_.size(); ++t) {
+    TaskState& state = tasks_[t];
+    for (std::size_t i = 0; i < state.inputs.size(); ++i) {
+      const schedules::PortBinding& binding = state.task->reads[i];
+      if (binding.pdu != pdu || (binding.can_bus ? static_cast<int>(*binding.can_bus) : -1) != can_bus) continue;
+      const bool torn = effect == bus::ArrivalEffect::kTorn;
+      if (!reported) hop(at, torn ? records::Hop::kTorn : records::Hop::kReceived, pdu, sequence, can_bus);
+      if (!reported && torn) ++counts_.torn_lists;
+      reported = true;
+      if (torn) continue;
+      if (state.unread[i]) {
+        ++counts_.overwritten_lists;
+        hop(at, records::Hop::kOverwritten, pdu, *state.unread[i], can_bus);
+      }
+      state.unread[i] = sequence;
+      const schedules::Activation& activation = state.task->activation;
+      if (activation.kind == schedules::ActivationKind::kMessage && activation.port == binding.port) activate(t, at);
+    }
+  }
+}
+
+void Executive::frame_sent(const bus::Transmission& transmission, std::int64_t cycle, bool null_frame, PduId pdu,
+                           std::uint32_t sequence, int fragment, bool last) {
+  records::SlotFrameSent sent;
+  sent.stamp = stamp(transmission.start);
+  sent.end = sent.stamp.true_time + frame_duration_;
+  sent.cycle = cycle;
+  sent.slot = static_cast<std::uint16_t>(transmission.slot);
+  sent.channel = static_cast<std::uint8_t>(transmission.channel);
+  sent.null_frame = null_frame;
+  sent.pdu = pdu;
+  sent.sequence = sequence;
+  sent.fragment = static_cast<std::uint8_t>(fragment);
+  sent.bytes = transmission.bytes;
+  sink_.on(sent);
+  if (last) hop(transmission.start, records::Hop::kSent, pdu, sequence, -1);
+}
+
+void Executive::slot_problem(std::int64_t cycle, int slot, schedules::Channel channel, bus::SlotStatus status,
+                             Microticks at) {
+  ++counts_.slot_problems;
+  sink_.on(records::SlotProblem{stamp(at), cycle, static_cast<std::uint16_t>(slot),
+                                static_cast<std::uint8_t>(channel), static_cast<std::uint8_t>(status)});
+}
+
+void Executive::clock_corrected(std::int64_t cycle, const timebase::Correction& offset,
+                                const timebase::Correction& rate, Microticks at) {
+  sink_.on(records::ClockCorrected{stamp(at), cycle, offset.value, rate.value, offset.missing, rate.missing,
+                                   offset.limit_reached, rate.limit_reached});
+}
+
+void Executive::hop(Microticks at, records::Hop what, PduId pdu, std::uint32_t sequence, int can_bus) {
+  sink_.on(records::ListHop{stamp(at), what, pdu, sequence, static_cast<std::int8_t>(can_bus)});
+}
+
+}  // namespace ttf::nodes

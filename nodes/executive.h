@@ -1,0 +1,123 @@
+// One node at work: its controllers, its CNI buffers and its tasks, driven from outside in its own microticks.
+//
+// The executive obeys one law under every crank: a task reads its inputs when it starts, and its outputs become visible at
+// its end. One processor, no preemption; tasks activated while it is busy wait in order of activation (ties: file
+// order), and an activation that meets a still waiting one of the same task is an overrun, counted.
+//
+// At one microtick things happen in this order: arrivals (by the crank), ends of tasks, the bus controller, activations,
+// starts. So what becomes visible at a tick is still sent or read at that tick.
+//   L1  after advance(t) and without further arrivals, next_event() is after t
+//   L2  nothing allocates or throws after construction
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "bus/can_controller.h"
+#include "bus/can_port.h"
+#include "bus/controller.h"
+#include "core/ids.h"
+#include "nodes/step.h"
+#include "recording/records/records.h"
+#include "schedules/cluster.h"
+#include "timebase/oscillator.h"
+
+namespace ttf::nodes {
+
+// The wires between a sensor and its host: a trigger to the device, a strobe back at the instant of measuring.
+class SensorLines {
+ public:
+  virtual ~SensorLines() = default;
+  virtual void trigger(SensorId sensor) = 0;
+  virtual void strobe(SensorId sensor, std::uint32_t sequence) = 0;
+};
+
+struct ExecutiveConfig {
+  const schedules::Cluster* cluster = nullptr;
+  NodeId node{};
+  timebase::Oscillator oscillator;
+  bus::InitialClock clock;                 // for nodes on FlexRay
+  std::uint64_t seed = 0;                  // of the execution times
+  std::uint32_t replication = 0;
+  Microticks power_on{};                   // free-running sensors count their phase from here
+};
+
+struct ExecutiveCounts {
+  std::uint64_t overruns = 0;              // activations that met a waiting one
+  std::uint64_t deadlines_missed = 0;
+  std::uint64_t torn_lists = 0;
+  std::uint64_t overwritten_lists = 0;
+  std::uint64_t slot_problems = 0;
+  std::uint64_t saturated_signals = 0;
+};
+
+class Executive final : private bus::ControllerEvents {
+ public:
+  // `steps`: one per task of the node, in file order. `flexray` may be null for a node off FlexRay; `cans` has one entry per
+  // CAN of the cluster, null where this node is not on it.
+  Executive(const ExecutiveConfig& config, std::vector<std::shared_ptr<Step>> steps, bus::FlexRayPort* flexray,
+            std::vector<bus::CanPort*> cans, SensorLines& lines, records::Sink& sink);
+  ~Executive() override;
+
+  Microticks next_event() const;
+  void advance(Microticks now);
+
+  // Arrivals. `now` is the node's microtick of the arrival. What they set off happens at the next advance(), which
+  // next_event() then asks for.
+  void receive(const bus::Reception& reception);
+  void receive_can(std::size_t can_bus, const bus::CanFrame& frame, Microticks now);
+  void trigger(SensorId sensor, Microticks now);                          // at a device
+  void strobe(SensorId sensor, std::uint32_t sequence, Microticks now);   // at a host
+
+  // The node's synchronised clock, nothing for a node off FlexRay.
+  const timebase::CycleClock* clock() const;
+  const timebase::Oscillator& oscillator() const { return config_.oscillator; }
+  records::Stamp stamp(Microticks at) const;
+  const ExecutiveCounts& counts() const { return counts_; }
+
+ private:
+  struct TaskState;
+  struct SensorState;
+
+  void list_arrived(PduId pdu, bus::ArrivalEffect effect, std::uint32_t sequence, Microticks at) override;
+  void frame_sent(const bus::Transmission& transmission, std::int64_t cycle, bool null_frame, PduId pdu,
+                  std::uint32_t sequence, int fragment, bool last) override;
+  void slot_problem(std::int64_t cycle, int slot, schedules::Channel channel, bus::SlotStatus status,
+                    Microticks at) override;
+  void clock_corrected(std::int64_t cycle, const timebase::Correction& offset, const timebase::Correction& rate,
+                       Microticks at) override;
+
+  void arrived(PduId pdu, int can_bus, bus::ArrivalEffect effect, std::uint32_t sequence, Microticks at);
+  void arm_cycle();
+  void activate_due(Microticks now);
+  void activate(std::size_t task, Microticks now);
+  void start_next(Microticks now);
+  void finish(Microticks now);
+  void measure(SensorState& sensor, Microticks now);
+  void fill_inputs(TaskState& task, Microticks now);
+  void hop(Microticks at, records::Hop what, PduId pdu, std::uint32_t sequence, int can_bus);
+  bus::IncomingList& incoming(const schedules::PortBinding& binding);
+  Microticks ticks(Duration duration) const;
+
+  ExecutiveConfig config_;
+  const schedules::Cluster& cluster_;
+  const schedules::Node& node_;
+  SensorLines& lines_;
+  records::Sink& sink_;
+  std::unique_ptr<bus::FlexRayController> flexray_;
+  std::vector<std::unique_ptr<bus::CanController>> cans_;
+  std::vector<TaskState> tasks_;
+  std::vector<SensorState> sensors_;        // those this node is device or host of
+  std::vector<StrobeLatch> strobes_;        // by SensorId
+  std::vector<std::size_t> ready_;          // waiting tasks, oldest first
+  std::optional<std::size_t> running_;
+  Microticks running_end_{};
+  std::int64_t armed_cycle_ = -1;
+  Duration frame_duration_{};               // of a static frame on the bus
+  ExecutiveCounts counts_;
+};
+
+}  // namespace ttf::nodes

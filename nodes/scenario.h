@@ -1,0 +1,47 @@
+// A drive: what the world does, what the sensors are like, which cluster each strategy runs on, and the seed. One YAML file
+// under scenarios/; everything it leaves open has a documented default in the room that uses it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/strict_yaml.h"
+#include "core/time.h"
+#include "fusion/strategy.h"
+#include "fusion/tracker_config.h"
+#include "nodes/camera/triangulation.h"
+#include "nodes/laser/laser_preprocessor.h"
+#include "schedules/cluster.h"
+#include "sim/world/camera.h"
+#include "sim/world/laser.h"
+#include "sim/world/reference.h"
+#include "sim/world/world.h"
+
+namespace ttf::nodes {
+
+struct Scenario {
+  std::string name;
+  std::string description;
+  std::string file;
+  std::string text;                 // the YAML as read, attached to logs
+  std::uint64_t seed = 1;
+  Duration duration{};              // of the drive, from the start of cycle 0
+  Duration evaluate_from{};         // measures and pictures start here; before it the tracker warms up
+  std::string cluster_files[3];     // by StrategyKind, as paths that can be opened
+  world::WorldConfig world;
+  world::LaserConfig laser;
+  world::CameraConfig camera;
+  world::ReferenceConfig reference;
+  LaserPreprocessingConfig laser_preprocessing;
+  CameraCalibration camera_calibration;
+  fusion::TrackerConfig tracker;
+};
+
+// Throws InputError with every finding in the file. The clusters it names are not opened here.
+Scenario load_scenario(const std::string& path);
+
+// "buff", "adva", "tt".
+std::string_view name_of(fusion::StrategyKind strategy);
+
+}  // namespace ttf::nodes

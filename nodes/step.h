@@ -1,0 +1,104 @@
+// The code of a task: a pure step from what its input ports held at its start to what its output ports will show at its end.
+//
+// Who turns the crank is not a step's business: it is handed the instants, never asks for them. Its outputs become
+// visible at the task's end, also where computing them took no time at all.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "bus/list_buffer.h"
+#include "core/ids.h"
+#include "core/time.h"
+#include "recording/records/records.h"
+#include "schedules/pdu.h"
+
+namespace ttf::nodes {
+
+// An input port as the task found it at its start.
+struct Input {
+  std::string_view port;
+  PduId pdu{};
+  const schedules::PduLayout* layout = nullptr;
+  std::optional<bus::ListView> list;   // the newest complete list, if any ever arrived
+  bool fresh = false;                  // first time this task sees it
+};
+
+// An output port: a list under construction. Capacity is the layout's maximum, taken once.
+class Output {
+ public:
+  Output(std::string_view port, PduId pdu, const schedules::PduLayout& layout);
+
+  std::string_view port() const { return port_; }
+  PduId pdu() const { return pdu_; }
+  const schedules::PduLayout& layout() const { return *layout_; }
+
+  // Starts a list of `count` elements (at most layout().max_elements), zeroed, and fills in the headers. `time_stamp` goes
+  // into the header's "timestamp" where the layout has one.
+  void begin(std::uint32_t sequence, int count, GlobalTime time_stamp);
+  // Sets signal `signal` of element `index` from its physical value, saturating at the signal's range.
+  void set(int index, std::size_t signal, double physical);
+  // Takes over a list whose layout has the same fragments, as a gateway does.
+  void copy(const bus::ListView& list);
+
+  bool written() const { return written_; }
+  bus::ListView view() const;
+  void clear() { written_ = false; }
+  int take_saturated();   // values outside their signal's range since the last call
+
+ private:
+  std::string_view port_;
+  PduId pdu_;
+  const schedules::PduLayout* layout_;
+  std::vector<std::byte> bytes_;
+  std::uint32_t sequence_ = 0;
+  int fragments_ = 0;
+  bool written_ = false;
+  int saturated_ = 0;
+};
+
+// A host's latch for its sensor's strobe: the global time of the newest measurements.
+class StrobeLatch {
+ public:
+  void strobe(std::uint32_t sequence, GlobalTime at);
+  std::optional<GlobalTime> time_of(std::uint32_t sequence) const;
+
+ private:
+  static constexpr std::size_t kDepth = 16;
+  struct Entry {
+    std::uint32_t sequence = 0;
+    GlobalTime at{};
+    bool valid = false;
+  };
+  Entry entries_[kDepth];
+};
+
+struct StepContext {
+  records::Stamp stamp;                    // the task's start on all clocks; true time is for emulators and records
+  std::uint32_t activation = 0;            // how many times the task ran before
+  std::uint32_t measurement = 0;           // sensor devices: the sequence number of this measurement
+  std::span<Input> inputs;                 // in the order of the task's `reads`
+  std::span<Output> outputs;               // in the order of the task's `writes`
+  std::span<const StrobeLatch> strobes;    // by SensorId
+  records::Sink* sink = nullptr;
+};
+
+class Step {
+ public:
+  virtual ~Step() = default;
+  virtual void run(StepContext& context) = 0;
+};
+
+// Unwraps a list's microsecond time stamp of the "timestamp" header signal: the instant nearest to `near` that
+// has these low bits.
+GlobalTime time_stamp(const schedules::PduLayout& layout, const bus::ListView& list, GlobalTime near);
+// Elements in the list.
+int element_count(const schedules::PduLayout& layout, const bus::ListView& list);
+// Physical value of signal `signal` of element `index` of the whole list.
+double element_value(const schedules::PduLayout& layout, const bus::ListView& list, int index, std::size_t signal);
+
+}  // namespace ttf::nodes

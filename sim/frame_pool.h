@@ -1,0 +1,50 @@
+// Bytes of frames that are on their way. Slots are reused, so that a long run needs no more memory than a short one.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/check.h"
+
+namespace ttf::sim {
+
+class FramePool {
+ public:
+  static constexpr std::size_t kMaxBytes = 264;   // the longest FlexRay frame is 262
+
+  explicit FramePool(std::size_t capacity) : frames_(capacity) {
+    free_.reserve(capacity);
+    for (std::size_t i = capacity; i-- > 0;) free_.push_back(static_cast<std::uint32_t>(i));
+  }
+
+  // Stores a copy for `uses` deliveries.
+  std::uint32_t put(std::span<const std::byte> bytes, int uses) {
+    TTF_CHECK(!free_.empty() && bytes.size() <= kMaxBytes && uses > 0, "{} bytes, {} uses", bytes.size(), uses);
+    const std::uint32_t index = free_.back();
+    free_.pop_back();
+    Frame& frame = frames_[index];
+    std::copy(bytes.begin(), bytes.end(), frame.bytes.begin());
+    frame.size = bytes.size();
+    frame.uses = uses;
+    return index;
+  }
+  std::span<const std::byte> bytes(std::uint32_t index) const { return {frames_[index].bytes.data(), frames_[index].size}; }
+  void release(std::uint32_t index) {
+    if (--frames_[index].uses == 0) free_.push_back(index);
+  }
+
+ private:
+  struct Frame {
+    std::array<std::byte, kMaxBytes> bytes{};
+    std::size_t size = 0;
+    int uses = 0;
+  };
+  std::vector<Frame> frames_;
+  std::vector<std::uint32_t> free_;
+};
+
+}  // namespace ttf::sim

@@ -1,0 +1,135 @@
+#include "sim/media.h"
+
+#include <algorithm>
+
+#include "bus/wire/can_timing.h"
+#include "bus/wire/flexray_frame.h"
+#include "bus/wire/pdu_codec.h"
+#include "core/check.h"
+
+namespace ttf::sim {
+
+FlexRayMedium::FlexRayMedium(const schedules::Cluster& cluster, MediumQueue& queue, FramePool& pool)
+    : queue_(queue),
+      pool_(pool),
+      position_(cluster.nodes.size(), -1),
+      min_delay_ps_(cluster.flexray.gdMinPropagationDelay_ps),
+      max_delay_ps_(cluster.flexray.gdMaxPropagationDelay_ps),
+      bit_ps_(cluster.flexray.gdBit_ps),
+      tss_bits_(cluster.flexray.gdTSSTransmitter) {
+  for (std::size_t n = 0; n < cluster.nodes.size(); ++n)
+    if (cluster.nodes[n].flexray) {
+      position_[n] = static_cast<int>(nodes_.size());
+      nodes_.push_back(static_cast<NodeId>(n));
+    }
+}
+
+Duration FlexRayMedium::delay(NodeId from, NodeId to) const {
+  const int hops = position_[index_of(from)] - position_[index_of(to)];
+  const auto ends = static_cast<std::int64_t>(nodes_.size()) - 1;
+  if (ends == 0) return {};
+  const std::int64_t ps = min_delay_ps_ + (max_delay_ps_ - min_delay_ps_) * (hops < 0 ? -hops : hops) / ends;
+  return {(ps + 999) / 1000};
+}
+
+void FlexRayMedium::transmit(NodeId sender, schedules::Channel channel, TrueTime start,
+                             std::span<const std::byte> bytes) {
+  if (nodes_.size() < 2) return;
+  const std::uint32_t frame = pool_.put(bytes, static_cast<int>(nodes_.size()) - 1);
+  // TSS, FSS, ten bits per byte, FES.
+  const std::int64_t bits = tss_bits_ + 1 + 10 * static_cast<std::int64_t>(bytes.size()) + 2;
+  const Duration length{(bits * bit_ps_ + 999) / 1000};
+  for (const NodeId node : nodes_) {
+    if (node == sender) continue;
+    MediumEvent event;
+    event.kind = MediumEvent::Kind::kFlexRayArrival;
+    event.node = static_cast<std::uint8_t>(node);
+    event.channel_or_bus = static_cast<std::uint8_t>(channel);
+    event.frame = frame;
+    event.start = start + delay(sender, node);
+    queue_.schedule(event.start + length, Phase::kArrival, event.node, event);
+  }
+}
+
+CanMedium::CanMedium(const schedules::Cluster& cluster, std::size_t bus, std::span<const NodeId> nodes,
+                     MediumQueue& queue, FramePool& pool, records::Sink& sink)
+    : cluster_(cluster), bus_(bus), nodes_(nodes.begin(), nodes.end()), queue_(queue), pool_(pool), sink_(sink) {
+  pending_.reserve(1024);
+}
+
+void CanMedium::send(NodeId sender, TrueTime now, const bus::CanFrame& frame) {
+  TTF_CHECK(pending_.size() < pending_.capacity(), "{} frames wait on {}", pending_.size(),
+            cluster_.can_buses[bus_].name);
+  const int receivers = static_cast<int>(nodes_.size()) - 1;
+  // One use more than there are receivers: the medium itself, until the frame has been sent.
+  pending_.push_back({sender, next_order_++, frame.identifier, frame.flexible_data_rate,
+                      pool_.put(frame.data, receivers + 1)});
+  if (arbitration_due_) return;
+  arbitration_due_ = true;
+  MediumEvent event;
+  event.kind = MediumEvent::Kind::kCanArbitration;
+  event.node = event.channel_or_bus = static_cast<std::uint8_t>(bus_);
+  queue_.schedule(std::max(now, idle_from_), Phase::kArbitration, event.node, event);
+}
+
+void CanMedium::arbitrate(TrueTime now) {
+  arbitration_due_ = false;
+  if (pending_.empty()) return;
+  // A node offers its oldest frame of an identifier first; across nodes the lowest identifier wins.
+  const auto winner = std::min_element(pending_.begin(), pending_.end(), [](const Pending& a, const Pending& b) {
+    if (a.identifier != b.identifier) return a.identifier < b.identifier;
+    if (a.sender != b.sender) return a.sender < b.sender;
+    return a.order < b.order;
+  });
+  const Pending frame = *winner;
+  pending_.erase(winner);
+  const Duration length =
+      wire::can_frame_duration(cluster_.can_buses[bus_], frame.identifier, pool_.bytes(frame.frame));
+  const TrueTime end = now + length;
+  busy_ += length;
+  idle_from_ = end;
+  for (const NodeId node : nodes_) {
+    if (node == frame.sender) continue;
+    MediumEvent event;
+    event.kind = MediumEvent::Kind::kCanArrival;
+    event.node = static_cast<std::uint8_t>(node);
+    event.channel_or_bus = static_cast<std::uint8_t>(bus_);
+    event.flexible_data_rate = frame.flexible_data_rate;
+    event.identifier = frame.identifier;
+    event.frame = frame.frame;
+    event.start = now;
+    queue_.schedule(end, Phase::kArrival, event.node, event);
+  }
+  report(frame, now, end);
+  pool_.release(frame.frame);
+  if (!pending_.empty()) {
+    arbitration_due_ = true;
+    MediumEvent next;
+    next.kind = MediumEvent::Kind::kCanArbitration;
+    next.node = next.channel_or_bus = static_cast<std::uint8_t>(bus_);
+    queue_.schedule(end, Phase::kArbitration, next.node, next);
+  }
+}
+
+void CanMedium::report(const Pending& frame, TrueTime start, TrueTime end) {
+  records::CanFrameSent sent;
+  sent.bus = static_cast<std::uint8_t>(bus_);
+  sent.sender = frame.sender;
+  sent.start = start;
+  sent.end = end;
+  sent.identifier = frame.identifier;
+  sent.flexible_data_rate = frame.flexible_data_rate;
+  sent.data = pool_.bytes(frame.frame);
+  for (const schedules::CanMessage& message : cluster_.can_buses[bus_].messages) {
+    if (message.identifier != frame.identifier) continue;
+    const schedules::PduLayout& layout = cluster_.pdu(message.pdu);
+    const auto payload = sent.data.first(static_cast<std::size_t>(layout.fragment_bytes));
+    sent.pdu = message.pdu;
+    sent.sequence = wire::read_header_raw(layout, payload, *schedules::find_signal(layout.header, "sequence"));
+    sent.fragment = static_cast<std::uint8_t>(
+        wire::read_header_raw(layout, payload, *schedules::find_signal(layout.header, "fragment")));
+  }
+  sink_.on(sent);
+}
+
+}  // namespace ttf::sim
