@@ -23,8 +23,8 @@ struct Stamp {
   NodeId node{};
 };
 
-// A sensor measured. Its host latched the strobe: `stamp.node` is the host, `stamp.global` is the time stamp that
-// travels with the observations.
+// A sensor measured, as its device saw it (`stamp.node`). The time stamp that travels with the observations is its host's
+// latched global time (FusionInput::measured).
 struct Measured {
   Stamp stamp;
   MeasurementId id;

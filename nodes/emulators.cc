@@ -1,0 +1,66 @@
+#include "nodes/emulators.h"
+
+#include <algorithm>
+
+#include "nodes/signals.h"
+
+namespace ttf::nodes {
+namespace {
+
+const schedules::PduLayout& raw_layout(const EmulatorConfig& config) {
+  return config.cluster->pdu(binding_of(config.task->writes, "raw").pdu);
+}
+
+void record_measurement(const StepContext& context, SensorId sensor, std::span<const ObjectId> truth) {
+  records::Measured measured;
+  measured.stamp = context.stamp;
+  measured.id = {sensor, context.measurement};
+  measured.truth_ids = truth;
+  context.sink->on(measured);
+}
+
+}  // namespace
+
+LaserEmulator::LaserEmulator(const EmulatorConfig& config, const world::LaserConfig& laser)
+    : config_(config),
+      laser_(laser),
+      signals_(bind_element<3>(*config.cluster, raw_layout(config), {"layer", "azimuth", "range"})) {}
+
+void LaserEmulator::run(StepContext& context) {
+  config_.scene->states_at(context.stamp.true_time, states_);
+  world::measure_laser(laser_, states_, config_.seed, config_.replication,
+                       static_cast<std::uint16_t>(config_.sensor), context.measurement, hits_, truth_);
+  Output& raw = context.outputs[0];
+  const int count = std::min(static_cast<int>(hits_.size()), raw.layout().max_elements);
+  raw.begin(context.measurement, count, GlobalTime{});
+  for (int i = 0; i < count; ++i) {
+    const world::HitPoint& hit = hits_[static_cast<std::size_t>(i)];
+    raw.set(i, signals_[0], hit.layer);
+    raw.set(i, signals_[1], hit.azimuth);
+    raw.set(i, signals_[2], hit.range);
+  }
+  record_measurement(context, config_.sensor, truth_);
+}
+
+CameraEmulator::CameraEmulator(const EmulatorConfig& config, const world::CameraConfig& camera)
+    : config_(config),
+      camera_(camera),
+      signals_(bind_element<3>(*config.cluster, raw_layout(config), {"bearing", "disparity", "width"})) {}
+
+void CameraEmulator::run(StepContext& context) {
+  config_.scene->states_at(context.stamp.true_time, states_);
+  world::measure_camera(camera_, states_, config_.seed, config_.replication,
+                        static_cast<std::uint16_t>(config_.sensor), context.measurement, detections_, truth_);
+  Output& raw = context.outputs[0];
+  const int count = std::min(static_cast<int>(detections_.size()), raw.layout().max_elements);
+  raw.begin(context.measurement, count, GlobalTime{});
+  for (int i = 0; i < count; ++i) {
+    const world::CameraDetection& detection = detections_[static_cast<std::size_t>(i)];
+    raw.set(i, signals_[0], detection.bearing);
+    raw.set(i, signals_[1], detection.disparity);
+    raw.set(i, signals_[2], detection.width_px);
+  }
+  record_measurement(context, config_.sensor, truth_);
+}
+
+}  // namespace ttf::nodes

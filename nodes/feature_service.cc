@@ -1,0 +1,62 @@
+#include "nodes/feature_service.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "nodes/fusion_host.h"
+#include "nodes/signals.h"
+
+namespace ttf::nodes {
+
+FeatureConfig load_feature(YamlMap& yaml) {
+  FeatureConfig config;
+  config.own_speed_mps = yaml.number_or("own_speed", config.own_speed_mps, {0.0, 100.0}, "m/s");
+  config.corridor_half_width_m = yaml.number_or("corridor_half_width", config.corridor_half_width_m, {0.1, 20.0}, "m");
+  config.warning_time_s = yaml.number_or("warning_time", config.warning_time_s, {0.1, 10.0}, "s");
+  return config;
+}
+
+records::FeatureObject judge(const records::ImageObject& object, const FeatureConfig& config) {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  records::FeatureObject result;
+  result.image = object;
+  const double range = std::hypot(object.x, object.y);
+  const double distance = std::max(0.0, range - 0.5 * object.length);
+  const double relative_x = object.speed * std::cos(object.heading) - config.own_speed_mps;
+  const double relative_y = object.speed * std::sin(object.heading);
+  const double closing = range > 0.0 ? -(relative_x * object.x + relative_y * object.y) / range : 0.0;
+  result.time_gap_s = config.own_speed_mps > 0.0 && object.x > 0.0 ? distance / config.own_speed_mps : kNone;
+  // Closing slower than walking pace is no collision course: the sign of a speed near zero is noise.
+  constexpr double kSlowestClosing_mps = 0.5;
+  result.time_to_collision_s = closing > kSlowestClosing_mps ? distance / closing : kNone;
+  result.warning = object.x > 0.0 && std::abs(object.y) <= config.corridor_half_width_m &&
+                   result.time_to_collision_s < config.warning_time_s;
+  return result;
+}
+
+FeatureService::FeatureService(const schedules::Cluster& cluster, const schedules::Task& task,
+                               const FeatureConfig& config)
+    : config_(config) {
+  const schedules::PduLayout& layout = cluster.pdu(binding_of(task.reads, "image").pdu);
+  signals_ = bind_image(cluster, layout);
+  objects_.reserve(static_cast<std::size_t>(layout.max_elements));
+}
+
+void FeatureService::run(StepContext& context) {
+  const Input& image = context.inputs[0];
+  if (!image.list) return;   // no image has arrived yet: nothing is made up
+  objects_.clear();
+  const int count = element_count(*image.layout, *image.list);
+  for (int i = 0; i < count; ++i)
+    objects_.push_back(judge(decode_image_object(*image.layout, *image.list, i, signals_), config_));
+  records::FeatureUsed used;
+  used.stamp = context.stamp;
+  used.image_sequence = image.list->sequence;
+  used.image_valid_at = time_stamp(*image.layout, *image.list, context.stamp.global);
+  used.fresh = image.fresh;
+  used.objects = objects_;
+  context.sink->on(used);
+}
+
+}  // namespace ttf::nodes

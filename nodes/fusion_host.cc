@@ -1,0 +1,192 @@
+#include "nodes/fusion_host.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/check.h"
+#include "nodes/signals.h"
+#include "schedules/ages.h"
+
+namespace ttf::nodes {
+namespace {
+
+// When the task that reads the image starts.
+schedules::CycleInstant image_use(const schedules::Cluster& cluster, PduId image) {
+  for (const schedules::Node& node : cluster.nodes)
+    for (const schedules::Task& task : node.tasks)
+      for (const schedules::PortBinding& binding : task.reads)
+        if (binding.pdu == image && task.activation.kind == schedules::ActivationKind::kTime)
+          return task.activation.at;
+  throw InputError({cluster.file, cluster.pdu(image).line, "pdus." + cluster.pdu(image).name, "",
+                    "needs a reader that is activated by time: the image is predicted to that instant"});
+}
+
+}  // namespace
+
+std::vector<fusion::SensorTiming> sensor_timings(const schedules::Cluster& cluster) {
+  std::vector<fusion::SensorTiming> timings;
+  for (const schedules::AgePath& path : schedules::measurement_ages(cluster)) {
+    const schedules::Sensor& sensor = cluster.sensor(path.sensor);
+    fusion::SensorTiming timing{};
+    timing.sensor = path.sensor;
+    timing.worst_delay = path.fusion_worst;
+    timing.scheduled = sensor.scheduled;
+    timing.first = sensor.scheduled ? schedules::next_occurrence(cluster.flexray, sensor.at, GlobalTime{}).time
+                                    : GlobalTime{};
+    timing.period = sensor.scheduled ? cluster.cycle() * sensor.at.repetition : sensor.period;
+    timings.push_back(timing);
+  }
+  return timings;
+}
+
+FusionHost::FusionHost(const schedules::Cluster& cluster, fusion::StrategyKind kind,
+                       const fusion::TrackerConfig& tracker)
+    : strategy(fusion::make_strategy(kind, tracker, sensor_timings(cluster))) {}
+
+FusionStep::FusionStep(const schedules::Cluster& cluster, const schedules::Task& task,
+                       std::shared_ptr<FusionHost> host)
+    : cluster_(cluster), host_(std::move(host)) {
+  std::size_t most = 0;
+  for (const schedules::PortBinding& binding : task.reads) {
+    codecs_.emplace_back(cluster, binding.pdu);
+    most = std::max(most, static_cast<std::size_t>(cluster.pdu(binding.pdu).max_elements));
+  }
+  observations_.reserve(most);
+}
+
+void FusionStep::run(StepContext& context) {
+  ++host_->step;
+  const GlobalTime now = context.stamp.global;
+  for (std::size_t i = 0; i < context.inputs.size(); ++i) {
+    const Input& input = context.inputs[i];
+    if (!input.fresh || !input.list) continue;   // each list is taken exactly once
+    const GlobalTime measured = time_stamp(*input.layout, *input.list, now);
+    codecs_[i].decode(*input.list, observations_);
+    record(context, input, measured);
+    host_->strategy->accept({{input.layout->sensor, input.list->sequence}, measured, observations_});
+  }
+  host_->strategy->fuse(now);
+  record_result(context);
+}
+
+void FusionStep::record(const StepContext& context, const Input& input, GlobalTime measured) const {
+  records::FusionInput in;
+  in.stamp = context.stamp;
+  in.step = host_->step;
+  in.pdu = input.pdu;
+  in.sequence = input.list->sequence;
+  in.measured = measured;
+  in.count = static_cast<std::uint16_t>(observations_.size());
+  in.fragments = input.list->bytes;
+  context.sink->on(in);
+  for (std::size_t i = 0; i < observations_.size(); ++i) {
+    const fusion::Observation& observation = observations_[i];
+    records::ObservationSeen seen;
+    seen.stamp = context.stamp;
+    seen.id = {input.layout->sensor, input.list->sequence};
+    seen.measured = measured;
+    seen.index = static_cast<std::uint16_t>(i);
+    if (observation.kind == fusion::ObservationKind::kPosition) {
+      seen.x = observation.z(0);
+      seen.y = observation.z(1);
+      seen.sxx = observation.r(0, 0);
+      seen.sxy = observation.r(0, 1);
+      seen.syy = observation.r(1, 1);
+    } else {
+      // First-order transformation of range and bearing to the plane.
+      const double c = std::cos(observation.z(1)), s = std::sin(observation.z(1)), r = observation.z(0);
+      const double along = observation.r(0, 0), across = r * r * observation.r(1, 1);
+      seen.x = r * c;
+      seen.y = r * s;
+      seen.sxx = c * c * along + s * s * across;
+      seen.sxy = c * s * (along - across);
+      seen.syy = s * s * along + c * c * across;
+    }
+    context.sink->on(seen);
+  }
+}
+
+void FusionStep::record_result(const StepContext& context) const {
+  const fusion::Strategy& strategy = *host_->strategy;
+  for (const fusion::FusedScan& scan : strategy.last_fused())
+    context.sink->on(records::ListFused{context.stamp, host_->step, scan.id, scan.measured,
+                                        static_cast<records::Disposition>(scan.disposition)});
+  for (const fusion::TrackView& track : strategy.tracks()) {
+    if (!track.confirmed) continue;
+    records::TrackState state{context.stamp, host_->step, track.id, track.valid_at,
+                              std::span<const double, 6>(track.state.data(), 6),
+                              std::span<const double, 36>(track.covariance.data(), 36), false};
+    context.sink->on(state);
+  }
+  context.sink->on(records::FusionStep{context.stamp, host_->step,
+                                       static_cast<std::uint16_t>(strategy.confirmed_count()),
+                                       static_cast<std::uint16_t>(strategy.tentative_count())});
+}
+
+std::array<std::size_t, 17> bind_image(const schedules::Cluster& cluster, const schedules::PduLayout& layout) {
+  return bind_element<17>(cluster, layout,
+                          {"id", "x", "y", "heading", "speed", "acceleration", "length", "width", "sigma_x", "sigma_y",
+                           "correlation", "sigma_heading", "sigma_speed", "sigma_acceleration", "sigma_length",
+                           "sigma_width", "status"});
+}
+
+records::ImageObject decode_image_object(const schedules::PduLayout& layout, const bus::ListView& list, int index,
+                                         const std::array<std::size_t, 17>& signals) {
+  const auto value = [&](std::size_t s) { return element_value(layout, list, index, signals[s]); };
+  records::ImageObject object;
+  object.track = static_cast<TrackId>(std::lround(value(0)));
+  double* const fields[] = {&object.x, &object.y, &object.heading, &object.speed, &object.acceleration,
+                            &object.length, &object.width, &object.sigma_x, &object.sigma_y,
+                            &object.correlation_xy, &object.sigma_heading, &object.sigma_speed,
+                            &object.sigma_acceleration, &object.sigma_length, &object.sigma_width};
+  for (std::size_t f = 0; f < std::size(fields); ++f) *fields[f] = value(f + 1);
+  return object;
+}
+
+ImageOutput::ImageOutput(const schedules::Cluster& cluster, const schedules::Task& task,
+                         std::shared_ptr<FusionHost> host)
+    : cluster_(cluster), host_(std::move(host)) {
+  const PduId pdu = binding_of(task.writes, "image").pdu;
+  use_ = image_use(cluster, pdu);
+  signals_ = bind_image(cluster, cluster.pdu(pdu));
+  views_.reserve(256);
+  objects_.reserve(static_cast<std::size_t>(cluster.pdu(pdu).max_elements));
+}
+
+void ImageOutput::run(StepContext& context) {
+  const GlobalTime use = schedules::next_occurrence(cluster_.flexray, use_, context.stamp.global).time;
+  host_->strategy->image(use, views_);
+  // The list holds the nearest objects; the order is theirs, so that it never depends on how tracks are stored.
+  std::sort(views_.begin(), views_.end(), [](const fusion::TrackView& a, const fusion::TrackView& b) {
+    const double ra = a.state.head<2>().squaredNorm(), rb = b.state.head<2>().squaredNorm();
+    return ra != rb ? ra < rb : a.id < b.id;
+  });
+  Output& out = context.outputs[0];
+  const int count = std::min(static_cast<int>(views_.size()), out.layout().max_elements);
+  out.begin(sequence_, count, use);
+  objects_.clear();
+  for (int i = 0; i < count; ++i) {
+    const fusion::TrackView& view = views_[static_cast<std::size_t>(i)];
+    const double sigma_x = std::sqrt(view.covariance(0, 0)), sigma_y = std::sqrt(view.covariance(1, 1));
+    const double values[] = {static_cast<double>(index_of(view.id)), view.state(0), view.state(1), view.heading,
+                             view.speed, view.acceleration, view.length, view.width, sigma_x, sigma_y,
+                             view.covariance(0, 1) / (sigma_x * sigma_y), view.sigma_heading, view.sigma_speed,
+                             view.sigma_acceleration, view.sigma_length, view.sigma_width};
+    for (std::size_t s = 0; s < std::size(values); ++s) out.set(i, signals_[s], values[s]);
+    objects_.push_back(decode_image_object(out.layout(), out.view(), i, signals_));
+    context.sink->on(records::TrackState{context.stamp, host_->step, view.id, use,
+                                         std::span<const double, 6>(view.state.data(), 6),
+                                         std::span<const double, 36>(view.covariance.data(), 36), true});
+  }
+  records::ImageWritten written;
+  written.stamp = context.stamp;
+  written.sequence = sequence_;
+  written.valid_at = use;
+  written.objects = objects_;
+  written.newest = host_->strategy->newest();
+  written.newest_measurement = host_->strategy->newest_measured();
+  context.sink->on(written);
+  ++sequence_;
+}
+
+}  // namespace ttf::nodes

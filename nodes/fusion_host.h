@@ -1,0 +1,66 @@
+// The fusion node: decodes what its controller received, hands it to a strategy, and writes the real-time image.
+//
+// It knows only bytes from its controller, the schedule and its own clock. Two tasks share one FusionHost: `fusion` at every
+// fusion instant, `image_output` before the image's slots. The image is predicted to the instant at which the feature
+// service will use it, which the schedule says beforehand; predicting never touches the filter state.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "fusion/strategy.h"
+#include "fusion/tracker_config.h"
+#include "nodes/observation_codec.h"
+#include "nodes/step.h"
+#include "schedules/cluster.h"
+
+namespace ttf::nodes {
+
+// What the schedule promises the strategy about each sensor (schedules/ages.h computes the worst delays).
+std::vector<fusion::SensorTiming> sensor_timings(const schedules::Cluster& cluster);
+
+struct FusionHost {
+  FusionHost(const schedules::Cluster& cluster, fusion::StrategyKind kind, const fusion::TrackerConfig& tracker);
+  std::unique_ptr<fusion::Strategy> strategy;
+  std::uint32_t step = 0;          // numbered fusion instants, from 1
+};
+
+// Ports: one per sensor list, any number.
+class FusionStep final : public Step {
+ public:
+  FusionStep(const schedules::Cluster& cluster, const schedules::Task& task, std::shared_ptr<FusionHost> host);
+  void run(StepContext& context) override;
+
+ private:
+  void record(const StepContext& context, const Input& input, GlobalTime measured) const;
+  void record_result(const StepContext& context) const;
+
+  const schedules::Cluster& cluster_;
+  std::shared_ptr<FusionHost> host_;
+  std::vector<ObservationCodec> codecs_;         // per port
+  std::vector<fusion::Observation> observations_;
+};
+
+// Port `image`.
+class ImageOutput final : public Step {
+ public:
+  ImageOutput(const schedules::Cluster& cluster, const schedules::Task& task, std::shared_ptr<FusionHost> host);
+  void run(StepContext& context) override;
+
+ private:
+  const schedules::Cluster& cluster_;
+  std::shared_ptr<FusionHost> host_;
+  schedules::CycleInstant use_;                  // when the feature service reads
+  std::array<std::size_t, 17> signals_;
+  std::uint32_t sequence_ = 0;
+  std::vector<fusion::TrackView> views_;
+  std::vector<records::ImageObject> objects_;
+};
+
+// Element `index` of an image list, as whoever receives it understands it.
+records::ImageObject decode_image_object(const schedules::PduLayout& layout, const bus::ListView& list, int index,
+                                         const std::array<std::size_t, 17>& signals);
+std::array<std::size_t, 17> bind_image(const schedules::Cluster& cluster, const schedules::PduLayout& layout);
+
+}  // namespace ttf::nodes

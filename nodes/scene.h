@@ -1,0 +1,34 @@
+// What is really there: the port through which sensor emulators see the world at an instant. Nothing downstream of a sensor
+// has it.
+#pragma once
+
+#include <vector>
+
+#include "core/time.h"
+#include "sim/world/world.h"
+
+namespace ttf::nodes {
+
+class Scene {
+ public:
+  virtual ~Scene() = default;
+  // States of all objects at `at`, into `out` (which keeps its capacity).
+  virtual void states_at(TrueTime at, std::vector<world::ObjectState>& out) const = 0;
+};
+
+// The scenario's simulated world; drives start at `start`.
+class WorldScene final : public Scene {
+ public:
+  WorldScene(const world::WorldConfig& config, std::uint64_t seed, std::uint32_t replication, TrueTime start)
+      : world_(config, seed, replication), start_(start) {}
+  void states_at(TrueTime at, std::vector<world::ObjectState>& out) const override {
+    world_.states_at(TrueTime{} + (at - start_), out);
+  }
+  const world::World& world() const { return world_; }
+
+ private:
+  world::World world_;
+  TrueTime start_;
+};
+
+}  // namespace ttf::nodes
