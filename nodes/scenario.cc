@@ -69,6 +69,14 @@ Scenario load_scenario(const std::string& path) {
     scenario.tracker = fusion::load_tracker(*tracker);
     tracker->finish();
   }
+  if (auto recorded = root.map_if("recorded")) {
+    scenario.recorded_noise = load_recorded_noise(*recorded);
+    recorded->finish();
+  }
+  if (auto feature = root.map_if("feature_service")) {
+    scenario.feature = load_feature(*feature);
+    feature->finish();
+  }
   root.finish();
   findings.throw_if_any();
   return scenario;

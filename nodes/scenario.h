@@ -11,7 +11,9 @@
 #include "fusion/strategy.h"
 #include "fusion/tracker_config.h"
 #include "nodes/camera/triangulation.h"
+#include "nodes/feature_service.h"
 #include "nodes/laser/laser_preprocessor.h"
+#include "nodes/recorded.h"
 #include "schedules/cluster.h"
 #include "sim/world/camera.h"
 #include "sim/world/laser.h"
@@ -36,6 +38,8 @@ struct Scenario {
   LaserPreprocessingConfig laser_preprocessing;
   CameraCalibration camera_calibration;
   fusion::TrackerConfig tracker;
+  RecordedNoise recorded_noise;
+  FeatureConfig feature;
 };
 
 // Throws InputError with every finding in the file. The clusters it names are not opened here.

@@ -1,0 +1,127 @@
+#include "sim/drive.h"
+
+#include <optional>
+
+#include "bus/wire/flexray_frame.h"
+#include "nodes/catalog.h"
+#include "nodes/recorded.h"
+#include "recording/records/tee.h"
+#include "sim/world/reference.h"
+
+namespace ttf::sim {
+namespace {
+
+// Adds what nobody in the cluster knows to the records of the run.
+class Observer final : public records::Sink {
+ public:
+  Observer(const nodes::Scene& scene, records::Sink& out) : scene_(scene), out_(out) {}
+
+  void follow(const world::Reference* reference, const world::World* world, TrueTime start) {
+    reference_ = reference;
+    world_ = world;
+    start_ = start;
+  }
+
+  void on(const records::Measured& measured) override { truth(measured.stamp.true_time); }
+  void on(const records::FeatureUsed& used) override { truth(used.stamp.true_time); }
+  void on(const records::FusionStep& step) override {
+    if (reference_ == nullptr) return;
+    while (true) {
+      const world::Fix fix = reference_->fix(next_fix_, *world_);
+      const Duration since_start = start_ - TrueTime{};
+      if (fix.available + since_start > step.stamp.true_time) return;
+      records::ReferenceFix record;
+      record.measured_true = fix.measured + since_start;
+      // GPS time is the reference's own: it is on the cluster's scale by its offset to cycle 0, known after the drive.
+      record.measured = GlobalTime{} + (record.measured_true - kFirstCycle);
+      record.available = GlobalTime{} + (fix.available + since_start - kFirstCycle);
+      record.object = fix.object;
+      record.x = fix.x;
+      record.y = fix.y;
+      record.sigma = reference_->sigma();
+      out_.on(record);
+      ++next_fix_;
+    }
+  }
+
+ private:
+  void truth(TrueTime at) {
+    if (last_truth_ && *last_truth_ == at) return;
+    last_truth_ = at;
+    scene_.states_at(at, states_);
+    for (const world::ObjectState& state : states_)
+      out_.on(records::TruthState{at, state.id, state.x, state.y, state.heading, state.speed, state.acceleration,
+                                  state.yaw_rate, state.length, state.width});
+  }
+
+  const nodes::Scene& scene_;
+  records::Sink& out_;
+  const world::Reference* reference_ = nullptr;
+  const world::World* world_ = nullptr;
+  TrueTime start_{};
+  std::uint32_t next_fix_ = 0;
+  std::vector<world::ObjectState> states_;
+  std::optional<TrueTime> last_truth_;
+};
+
+}  // namespace
+
+TrueTime drive_start(const schedules::Cluster& cluster) {
+  if (!nodes::is_recorded(cluster)) return kFirstCycle;
+  // Row 0 of the recording is the first measurement of the first sensor.
+  const schedules::Sensor& sensor = cluster.sensors.front();
+  const GlobalTime first = sensor.scheduled
+                               ? schedules::next_occurrence(cluster.flexray, sensor.at, GlobalTime{}).time
+                               : GlobalTime{} + sensor.phase.value_or(Duration{});
+  return kFirstCycle + (first - GlobalTime{});
+}
+
+DriveOutcome run_drive(const DriveConfig& config, records::Sink& sink) {
+  const schedules::Cluster& cluster = *config.cluster;
+  const nodes::Scenario& scenario = *config.scenario;
+  const bool recorded = nodes::is_recorded(cluster);
+  const TrueTime start = drive_start(cluster);
+
+  std::shared_ptr<const nodes::Scene> scene;
+  std::shared_ptr<const nodes::WorldScene> world;
+  std::optional<world::Reference> reference;
+  if (recorded) {
+    if (!config.recorded)
+      throw InputError({scenario.file, 0, "clusters", cluster.file, "needs a recording: give one with --input"});
+    scene = std::make_shared<nodes::RecordedScene>(*config.recorded, start);
+  } else {
+    world = std::make_shared<nodes::WorldScene>(scenario.world, config.seed, config.replication, start);
+    scene = world;
+    for (const world::ObjectConfig& object : scenario.world.objects)
+      if (object.reference && !reference)
+        reference.emplace(scenario.reference, scenario.world, config.seed, config.replication);
+  }
+
+  Observer observer(*scene, sink);
+  if (reference) observer.follow(&*reference, &world->world(), start);
+  records::Tee tee({&sink, &observer});
+
+  const nodes::NodeSetConfig nodes{&scenario, &cluster, config.strategy, config.seed, config.replication, scene,
+                                   config.recorded};
+  SimulationConfig simulation_config;
+  simulation_config.cluster = &cluster;
+  simulation_config.seed = config.seed;
+  simulation_config.replication = config.replication;
+  simulation_config.make_steps = [&](NodeId node) { return nodes::make_steps(nodes, node); };
+  ClusterSimulation simulation(simulation_config, tee);
+  simulation.run_until(kFirstCycle + scenario.duration);
+
+  DriveOutcome outcome;
+  outcome.precision = simulation.precision();
+  outcome.counts = simulation.counts();
+  outcome.frames_sent = simulation.frames_sent();
+  const double elapsed = scenario.duration.seconds();
+  const double frame = 1e-12 * static_cast<double>(wire::frame_duration_ps(
+                                   cluster.flexray, cluster.flexray.gPayloadLengthStatic));
+  outcome.flexray_load = 0.5 * static_cast<double>(outcome.frames_sent) * frame / elapsed;
+  for (std::size_t b = 0; b < cluster.can_buses.size(); ++b)
+    outcome.can_load.push_back(simulation.can_busy(b).seconds() / elapsed);
+  return outcome;
+}
+
+}  // namespace ttf::sim

@@ -1,0 +1,45 @@
+// One drive of a scenario with one strategy: the cluster, the world it drives through, and the reference beside it.
+//
+// Truth and reference fixes are recorded here, not by any node: the truth whenever a sensor measures and whenever the
+// feature service uses an image, a fix when it becomes available.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "fusion/strategy.h"
+#include "nodes/scenario.h"
+#include "nodes/scene.h"
+#include "recording/recorded_input.h"
+#include "recording/records/records.h"
+#include "schedules/cluster.h"
+#include "sim/cluster_simulation.h"
+
+namespace ttf::sim {
+
+struct DriveConfig {
+  const nodes::Scenario* scenario = nullptr;
+  const schedules::Cluster* cluster = nullptr;
+  fusion::StrategyKind strategy{};
+  std::uint64_t seed = 0;
+  std::uint32_t replication = 0;
+  std::shared_ptr<const recording::RecordedInput> recorded;
+};
+
+// What only the whole run knows.
+struct DriveOutcome {
+  Duration precision{};
+  nodes::ExecutiveCounts counts;
+  double flexray_load = 0.0;          // share of the time in which a channel carries a frame
+  std::vector<double> can_load;       // by Cluster::can_buses
+  std::uint64_t frames_sent = 0;
+};
+
+// Runs the drive to its end. Throws InputError where scenario, cluster and code do not fit together.
+DriveOutcome run_drive(const DriveConfig& config, records::Sink& sink);
+
+// True time at which the drive (world or recording) starts in this cluster.
+TrueTime drive_start(const schedules::Cluster& cluster);
+
+}  // namespace ttf::sim
