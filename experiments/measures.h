@@ -1,0 +1,116 @@
+// What a drive was worth: errors, ages, order of arrival and consistency, from its records alone.
+//
+// A sink: it sees the run as the log does, so measures of a live run and of its log are the same. Position and velocity are
+// judged where they matter, at the instants the feature service used the image, against the truth at that true time and
+// against the DGPS reference interpolated to it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "core/ids.h"
+#include "core/time.h"
+#include "recording/records/records.h"
+
+namespace ttf::experiments {
+
+// Mean and largest of a duration, with the number of samples.
+struct AgeStatistics {
+  std::uint64_t count = 0;
+  Duration sum{};
+  Duration worst{};
+  void add(Duration age);
+  Duration mean() const { return count == 0 ? Duration{} : Duration{sum.ns / static_cast<std::int64_t>(count)}; }
+};
+
+struct DriveSummary {
+  // Root mean square over all matched objects and uses; x, y [m], vx, vy [m/s].
+  std::array<double, 4> rmse_truth{};
+  double position_rmse_truth = 0.0;        // of the plane distance [m]
+  double velocity_rmse_truth = 0.0;        // of the plane velocity difference [m/s]
+  double position_rmse_reference = 0.0;    // against the DGPS [m]
+  double velocity_rmse_reference = 0.0;    // against the DGPS' differences [m/s]
+  std::uint64_t matched = 0;               // object uses compared with the truth
+  std::uint64_t missed = 0;                // true objects without an image within the gate
+  std::uint64_t spurious = 0;              // image objects without a true object within the gate
+  std::uint64_t reference_compared = 0;
+  std::uint64_t uses = 0;                  // times the feature service used an image
+  // Normalised estimation error squared of (x, y, vx, vy) predicted to the use, averaged, and the band in which the
+  // average lies with 95 % if the samples are independent and the model is right.
+  double nees = 0.0;
+  std::uint64_t nees_samples = 0;
+  double nees_low = 0.0, nees_high = 0.0;
+  // Age of a measurement when it was fused, and of the newest of each sensor when its image was used.
+  AgeStatistics age_fused;
+  AgeStatistics age_used;
+  std::map<SensorId, AgeStatistics> age_fused_by_sensor;
+  std::map<SensorId, AgeStatistics> age_used_by_sensor;
+  // Observation lists over the whole drive.
+  std::uint64_t received = 0;              // lists the fusion node took in
+  std::uint64_t out_of_sequence = 0;       // of them older than one taken in before
+  std::uint64_t fused = 0;
+  std::uint64_t fused_late = 0;            // retrodicted
+  std::uint64_t held = 0;                  // fusion instants at which a list was kept back
+  std::uint64_t dropped = 0;               // too old for the history
+  std::uint64_t duplicates = 0;
+  std::uint64_t warnings = 0;              // uses in which an object warned
+};
+
+class DriveMeasures final : public records::Sink {
+ public:
+  // Uses before `from` are not judged; image and truth further apart than `gate_m` do not belong together.
+  explicit DriveMeasures(TrueTime from, double gate_m = 4.0);
+
+  // Completes what waits for its truth. Call once, at the end.
+  DriveSummary finish();
+
+  void on(const records::FusionInput&) override;
+  void on(const records::ListFused&) override;
+  void on(const records::TrackState&) override;
+  void on(const records::ImageWritten&) override;
+  void on(const records::FeatureUsed&) override;
+  void on(const records::TruthState&) override;
+  void on(const records::ReferenceFix&) override;
+
+ private:
+  struct Estimate {
+    double x, y, vx, vy;
+  };
+  struct Predicted {
+    GlobalTime valid_at;
+    std::array<double, 6> state;
+    std::array<double, 36> covariance;
+  };
+  struct Use {
+    TrueTime at;
+    GlobalTime image_valid_at;
+    std::vector<Estimate> objects;
+  };
+  struct ReferenceUse {
+    TrueTime at;
+    std::vector<Estimate> objects;
+  };
+  void judge(const Use& use);
+  void judge_references();
+  void judge_nees(const Use& use);
+
+  TrueTime from_;
+  double gate_;
+  DriveSummary summary_;
+  std::array<double, 4> squares_{};
+  double nees_sum_ = 0.0;
+  GlobalTime newest_received_{};
+  bool any_received_ = false;
+  std::map<MeasurementId, GlobalTime> measured_;                  // of fused lists
+  std::map<std::uint32_t, std::vector<MeasurementId>> newest_;    // by image sequence
+  std::vector<Predicted> predicted_;
+  std::optional<Use> pending_;
+  std::vector<records::TruthState> truth_;                        // of one instant
+  std::vector<records::ReferenceFix> fixes_;
+  std::vector<ReferenceUse> reference_uses_;
+};
+
+}  // namespace ttf::experiments
