@@ -1,0 +1,36 @@
+#!/usr/bin/env bash
+# Installs what ttfusion needs on Debian 12, and nothing when it is all there. Runs as root or with sudo.
+set -euo pipefail
+
+packages=(
+  # compilers and build
+  g++ cmake ninja-build ccache pkg-config git ca-certificates python3
+  # libraries
+  libeigen3-dev libfmt-dev libyaml-cpp-dev libcli11-dev nlohmann-json3-dev
+  libzstd-dev zlib1g-dev protobuf-compiler libprotobuf-dev
+  librsvg2-dev libcairo2-dev fonts-dejavu-core
+  # tests
+  libgtest-dev libgmock-dev libbenchmark-dev
+)
+# The slower gates (.ci/run) also need a second compiler, sanitizers' runtime and the formatter.
+if [[ ${1:-} == --gates ]]; then
+  packages+=(clang clang-tidy clang-format libclang-rt-14-dev)
+fi
+
+missing=()
+for package in "${packages[@]}"; do
+  dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'install ok installed' || missing+=("$package")
+done
+if [[ ${#missing[@]} -eq 0 ]]; then
+  echo "dependencies: all ${#packages[@]} packages are installed"
+  exit 0
+fi
+
+sudo=()
+if [[ $(id -u) -ne 0 ]]; then
+  command -v sudo >/dev/null || { echo "error: run as root, or install sudo, to install: ${missing[*]}" >&2; exit 2; }
+  sudo=(sudo)
+fi
+echo "dependencies: installing ${missing[*]}"
+"${sudo[@]}" apt-get update -qq
+"${sudo[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}"
