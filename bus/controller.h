@@ -85,6 +85,8 @@ class FlexRayController {
 
  private:
   struct State;
+  void send_slot(Microticks at);
+  void close_static_segment(Microticks at);
   timebase::CycleClock clock_;
   std::unique_ptr<State> state_;
 };

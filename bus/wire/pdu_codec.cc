@@ -1,0 +1,84 @@
+#include "bus/wire/pdu_codec.h"
+
+#include <cmath>
+
+#include "core/check.h"
+
+namespace ttf::wire {
+namespace {
+
+// Bits first .. first + count - 1 of the payload, most significant bit first.
+std::uint32_t read_bits(std::span<const std::byte> payload, int first, int count) {
+  std::uint64_t value = 0;
+  const int last = first + count - 1;
+  for (int byte = first / 8; byte <= last / 8; ++byte)
+    value = (value << 8) | static_cast<std::uint64_t>(payload[static_cast<std::size_t>(byte)]);
+  return static_cast<std::uint32_t>((value >> (7 - last % 8)) & ((std::uint64_t{1} << count) - 1));
+}
+
+void write_bits(std::span<std::byte> payload, int first, int count, std::uint32_t value) {
+  for (int bit = 0; bit < count; ++bit) {
+    const int at = first + bit;
+    const std::byte mask{static_cast<unsigned char>(0x80 >> (at % 8))};
+    std::byte& byte = payload[static_cast<std::size_t>(at / 8)];
+    byte = (value >> (count - 1 - bit)) & 1u ? byte | mask : byte & ~mask;
+  }
+}
+
+const schedules::Signal& signal_at(const std::vector<schedules::Signal>& signals, std::size_t index) {
+  TTF_CHECK(index < signals.size(), "signal {} of {}", index, signals.size());
+  return signals[index];
+}
+
+void check_payload(const schedules::PduLayout& layout, std::size_t size) {
+  TTF_CHECK(size == static_cast<std::size_t>(layout.fragment_bytes), "{} bytes for {} of {}", size, layout.name,
+            layout.fragment_bytes);
+}
+
+int element_start(const schedules::PduLayout& layout, int index) {
+  TTF_CHECK(index >= 0 && index < layout.elements_per_fragment, "element {} in {}", index, layout.name);
+  return layout.header_bits + index * layout.element_bits;
+}
+
+}  // namespace
+
+std::uint32_t to_raw(const schedules::Signal& signal, double physical, int* saturated) {
+  TTF_CHECK(!std::isnan(physical), "{} is not a number", signal.name);
+  const double bounded = physical < signal.low ? signal.low : physical > signal.high ? signal.high : physical;
+  if (bounded != physical && saturated != nullptr) ++*saturated;
+  return static_cast<std::uint32_t>(std::llround((bounded - signal.low) / signal.resolution));
+}
+
+double to_physical(const schedules::Signal& signal, std::uint32_t raw) {
+  return signal.low + static_cast<double>(raw) * signal.resolution;
+}
+
+std::uint32_t read_header_raw(const schedules::PduLayout& layout, std::span<const std::byte> payload,
+                              std::size_t signal) {
+  check_payload(layout, payload.size());
+  const schedules::Signal& s = signal_at(layout.header, signal);
+  return read_bits(payload, s.bit_offset, s.bits);
+}
+
+void write_header_raw(const schedules::PduLayout& layout, std::span<std::byte> payload, std::size_t signal,
+                      std::uint32_t raw) {
+  check_payload(layout, payload.size());
+  const schedules::Signal& s = signal_at(layout.header, signal);
+  write_bits(payload, s.bit_offset, s.bits, raw);
+}
+
+std::uint32_t read_element_raw(const schedules::PduLayout& layout, std::span<const std::byte> payload, int index,
+                               std::size_t signal) {
+  check_payload(layout, payload.size());
+  const schedules::Signal& s = signal_at(layout.element, signal);
+  return read_bits(payload, element_start(layout, index) + s.bit_offset, s.bits);
+}
+
+void write_element_raw(const schedules::PduLayout& layout, std::span<std::byte> payload, int index, std::size_t signal,
+                       std::uint32_t raw) {
+  check_payload(layout, payload.size());
+  const schedules::Signal& s = signal_at(layout.element, signal);
+  write_bits(payload, element_start(layout, index) + s.bit_offset, s.bits, raw);
+}
+
+}  // namespace ttf::wire
