@@ -1,0 +1,60 @@
+// Recorded measurements in: text files that other people's sensors wrote.
+//
+// Each broken line is one finding (file, line, column name, value, what is expected); all are thrown at once as one
+// InputError, as are a file that cannot be read and one without a single row.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace ttf::recording {
+
+// What one sensor saw at one instant. Position: x, y in metres. Range-bearing-rate: range in metres, bearing in radians
+// (0 ahead, positive left), range rate in m/s (positive: going away). The sensor stands at the origin.
+struct RecordedObservation {
+  enum class Kind : std::uint8_t { kPosition = 1, kRangeBearingRate = 2 };
+  std::string sensor;                    // "laser" or "radar"
+  std::int64_t time_us_from_start = 0;   // since the file's first row
+  Kind kind = Kind::kPosition;
+  double x = 0, y = 0;                               // kPosition
+  double range = 0, bearing = 0, range_rate = 0;     // kRangeBearingRate
+};
+
+// The truth that came with the recording at the same instant.
+struct RecordedTruth {
+  std::int64_t time_us_from_start = 0;
+  double x = 0, y = 0, vx = 0, vy = 0, yaw = 0, yaw_rate = 0;
+};
+
+// observations[i] and truth[i] belong together; times never decrease.
+struct RecordedInput {
+  std::int64_t first_time_us = 0;        // the first row's own time stamp
+  std::vector<RecordedObservation> observations;
+  std::vector<RecordedTruth> truth;
+};
+
+// Tab-separated rows, times in microseconds:
+//   L  px  py  t_us  gt_x  gt_y  gt_vx  gt_vy  gt_yaw  gt_yawrate
+//   R  range  bearing  range_rate  t_us  gt_x  gt_y  gt_vx  gt_vy  gt_yaw  gt_yawrate
+RecordedInput read_laser_radar(const std::string& path);
+RecordedInput parse_laser_radar(const std::string& text, const std::string& name);
+
+// One turn of a laser scanner: returns in order of the file, azimuth 0 ahead, positive left.
+struct RecordedReturn {
+  double azimuth_rad = 0, range_m = 0, intensity = 0;
+};
+struct RecordedScan {
+  std::int64_t frame = 0;
+  std::vector<RecordedReturn> returns;
+};
+
+// Comma-separated rows "frame, azimuth_rad, range_m, intensity", with or without a header line; frames never decrease.
+std::vector<RecordedScan> read_lidar_scans(const std::string& path);
+std::vector<RecordedScan> parse_lidar_scans(const std::string& text, const std::string& name);
+
+// Which reader a file is for, told by how it begins. Throws InputError if by none.
+enum class RecordingFormat : std::uint8_t { kLog = 1, kLaserRadar = 2, kLidarScans = 3 };
+RecordingFormat sniff_recording(const std::string& path);
+
+}  // namespace ttf::recording
