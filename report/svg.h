@@ -1,0 +1,93 @@
+// A small SVG writer: shapes, text, groups and arrows in the order they are to be painted.
+//
+// Coordinates are SVG user units (y down), sizes in the same unit. Numbers are written with at most two decimals, so
+// equal input gives equal bytes. Text is measured with the advance widths of DejaVu Sans, the font the pictures ask
+// for, so that layout can avoid overlaps without a renderer.
+#pragma once
+
+#include <cstdint>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace ttf::report {
+
+struct Point {
+  double x = 0, y = 0;
+};
+
+struct Area {
+  double x = 0, y = 0, width = 0, height = 0;
+  bool overlaps(const Area& o) const {
+    return x < o.x + o.width && o.x < x + width && y < o.y + o.height && o.y < y + height;
+  }
+};
+
+// Two decimals at most, no trailing zeros, no "-0".
+std::string number(double value);
+// & < > " and control characters as XML needs them.
+std::string escape(std::string_view text);
+// Width of one line of UTF-8 in DejaVu Sans at `size`.
+double text_width(std::string_view text, double size, bool bold = false);
+
+struct Paint {
+  std::string_view fill = "none";
+  std::string_view stroke = "none";
+  double width = 1.0;
+  std::string_view dash = {};        // as stroke-dasharray, e.g. "4 3"
+  double opacity = 1.0;
+};
+
+enum class Anchor : std::uint8_t { kStart, kMiddle, kEnd };
+
+struct TextStyle {
+  double size = 11;
+  Anchor anchor = Anchor::kStart;
+  std::string_view fill = "#000000";
+  bool bold = false;
+  double rotate = 0;                 // degrees clockwise about the anchor point
+  bool halo = false;                 // white outline, for text over lines
+};
+
+// Area a text covers when drawn unrotated at `at` (the baseline).
+Area text_area(Point at, std::string_view text, const TextStyle& style);
+
+enum class Marker : std::uint8_t { kCircle, kCross, kTriangle, kSquare, kDiamond, kDownTriangle };
+
+class Svg {
+ public:
+  Svg(double width, double height, std::string_view title);
+
+  double width() const { return width_; }
+  double height() const { return height_; }
+
+  void open_group(std::string_view css_class);
+  // A group of which only the part inside `clip` is shown.
+  void open_group(std::string_view css_class, const Area& clip);
+  void close_group();
+
+  // `hover` becomes the shape's <title>.
+  void rect(const Area& area, const Paint& paint, std::string_view hover = {}, std::string_view css_class = {});
+  void line(Point a, Point b, const Paint& paint, std::string_view css_class = {});
+  void polyline(std::span<const Point> points, const Paint& paint, bool closed = false, std::string_view hover = {},
+                std::string_view css_class = {});
+  void arrow(Point a, Point b, const Paint& paint, std::string_view hover = {}, std::string_view css_class = "arrow");
+  void marker(Marker kind, Point at, double size, const Paint& paint, std::string_view hover = {},
+              std::string_view css_class = {});
+  void text(Point at, std::string_view text, const TextStyle& style = {});
+
+  std::string str() const;
+
+ private:
+  void finish_element(std::string_view name, std::string_view hover);
+
+  double width_, height_;
+  std::string title_;
+  std::string defs_;
+  std::string body_;
+  std::set<std::string, std::less<>> heads_;   // colours that have an arrow head defined
+  int clips_ = 0;
+};
+
+}  // namespace ttf::report

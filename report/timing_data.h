@@ -1,0 +1,44 @@
+// What the timing diagram keeps of the records: plain values without spans, in the order they came.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "recording/records/records.h"
+
+namespace ttf::report {
+
+struct TimingData {
+  struct Measurement { TrueTime at; MeasurementId id; };
+  struct CanFrame { std::size_t bus; TrueTime start, end; PduId pdu; std::uint32_t sequence; };
+  struct SlotFrame {
+    TrueTime start, end;
+    GlobalTime global;
+    NodeId node;
+    std::int64_t cycle;
+    std::uint16_t slot;
+    std::uint8_t channel;
+    bool null_frame;
+    PduId pdu;
+    std::uint32_t sequence;
+    std::uint8_t fragment;
+  };
+  struct HopAt { TrueTime at; NodeId node; records::Hop hop; PduId pdu; std::uint32_t sequence; };
+  struct Run { TrueTime activated, start, end; NodeId node; std::uint8_t task; bool deadline_met; };
+  struct Fused { TrueTime at; NodeId node; std::uint32_t step; MeasurementId id; GlobalTime measured; records::Disposition what; };
+  struct Step { TrueTime at; NodeId node; std::uint32_t step; };
+  struct Image { TrueTime at; NodeId node; std::uint32_t sequence; std::vector<MeasurementId> newest; };
+  struct Use { TrueTime at; NodeId node; std::uint32_t image; bool fresh; };
+
+  std::vector<Measurement> measurements;
+  std::vector<CanFrame> can_frames;
+  std::vector<SlotFrame> slot_frames;
+  std::vector<HopAt> hops;
+  std::vector<Run> runs;
+  std::vector<Fused> fused;
+  std::vector<Step> steps;
+  std::vector<Image> images;
+  std::vector<Use> uses;
+};
+
+}  // namespace ttf::report
