@@ -1,0 +1,38 @@
+// What a sensor says about one object, and all it says at one instant.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+
+#include "core/ids.h"
+#include "core/time.h"
+
+namespace ttf::fusion {
+
+enum class ObservationKind : std::uint8_t {
+  kPosition,           // z = (x, y) [m] in the sensor car's frame (ISO 8855)
+  kRangeBearingRate,   // z = (range [m], bearing [rad], range rate [m/s]), sensor at the origin
+};
+
+constexpr int dimension_of(ObservationKind kind) { return kind == ObservationKind::kPosition ? 2 : 3; }
+
+// Only the first dimension_of(kind) rows and columns of z and r are meaningful; r is symmetric positive definite there.
+struct Observation {
+  ObservationKind kind = ObservationKind::kPosition;
+  Eigen::Vector3d z = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d r = Eigen::Matrix3d::Zero();
+  bool has_heading = false, has_length = false, has_width = false;
+  double heading = 0.0, sigma_heading = 0.0;   // [rad], of the object's axis: known up to half a turn
+  double length = 0.0, sigma_length = 0.0;     // [m]
+  double width = 0.0, sigma_width = 0.0;       // [m]
+};
+
+// One list of a sensor: everything in it was measured at `measured`.
+struct Scan {
+  MeasurementId id;
+  GlobalTime measured{};
+  std::span<const Observation> observations;
+};
+
+}  // namespace ttf::fusion

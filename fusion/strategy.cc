@@ -1,0 +1,186 @@
+#include "fusion/strategy.h"
+
+#include <algorithm>
+
+#include "core/check.h"
+#include "fusion/timeline.h"
+
+namespace ttf::fusion {
+namespace {
+
+// What the three share: the scans that wait, the timeline, and the account of what happened. They differ in which waiting
+// scan may be fused.
+class TimelineStrategy : public Strategy {
+ public:
+  TimelineStrategy(const TrackerConfig& config, std::span<const SensorTiming> sensors)
+      : config_(config), sensors_(sensors.begin(), sensors.end()), timeline_(config, kMaxObservations) {
+    pending_.resize(kMaxPending);
+    for (std::size_t i = 0; i < kMaxPending; ++i) free_.push_back(kMaxPending - 1 - i);
+    waiting_.reserve(kMaxPending);
+    report_.reserve(4 * kMaxPending);
+    duplicates_.reserve(kMaxPending);
+    views_.reserve(256);
+    newest_.reserve(sensors_.size());
+    newest_received_.resize(sensors_.size());
+    any_received_.resize(sensors_.size());
+  }
+
+  void accept(const Scan& scan) final {
+    const bool waiting = std::any_of(waiting_.begin(), waiting_.end(),
+                                     [&](std::size_t w) { return pending_[w].id == scan.id; });
+    if (waiting || timeline_.contains(scan.id)) {
+      if (duplicates_.size() < duplicates_.capacity()) duplicates_.push_back({scan.id, scan.measured, Disposition::kDuplicate});
+      return;
+    }
+    TTF_CHECK(!free_.empty(), "{} scans wait", waiting_.size());
+    const std::size_t slot = free_.back();
+    free_.pop_back();
+    pending_[slot].assign(scan);
+    const auto place = std::find_if(waiting_.begin(), waiting_.end(), [&](std::size_t w) {
+      return before(scan.id, scan.measured, pending_[w].id, pending_[w].measured);
+    });
+    waiting_.insert(place, slot);
+    for (std::size_t s = 0; s < sensors_.size(); ++s)
+      if (sensors_[s].sensor == scan.id.sensor) {
+        newest_received_[s] = any_received_[s] ? std::max(newest_received_[s], scan.measured) : scan.measured;
+        any_received_[s] = 1;
+      }
+  }
+
+  void fuse(GlobalTime now) final {
+    report_.assign(duplicates_.begin(), duplicates_.end());
+    duplicates_.clear();
+    std::size_t kept = 0;
+    bool blocked = false;
+    for (std::size_t i = 0; i < waiting_.size(); ++i) {
+      const std::size_t slot = waiting_[i];
+      const StoredScan& scan = pending_[slot];
+      // In chronological order: what must wait holds back all that is younger.
+      blocked = blocked || !may_fuse(scan, now);
+      if (blocked) {
+        report_.push_back({scan.id, scan.measured, Disposition::kHeld});
+        waiting_[kept++] = slot;
+        continue;
+      }
+      take(scan);
+      free_.push_back(slot);
+    }
+    waiting_.resize(kept);
+    show();
+  }
+
+  std::span<const FusedScan> last_fused() const final { return report_; }
+  std::span<const TrackView> tracks() const final { return views_; }
+  std::span<const MeasurementId> newest() const final { return newest_; }
+  GlobalTime newest_measured() const final { return timeline_.current().time; }
+  int confirmed_count() const final { return static_cast<int>(views_.size()); }
+  int tentative_count() const final {
+    return static_cast<int>(timeline_.current().tracks.size()) - confirmed_count();
+  }
+
+  void image(GlobalTime at, std::vector<TrackView>& out) const final {
+    out.clear();
+    const TrackSet& set = timeline_.current();
+    for (const Track& track : set.tracks)
+      if (track.confirmed) out.push_back(view_of(track, set.time, at, config_));
+  }
+
+ protected:
+  virtual bool may_fuse(const StoredScan& scan, GlobalTime now) const = 0;
+
+  std::size_t sensor_count() const { return sensors_.size(); }
+  const SensorTiming& sensor(std::size_t s) const { return sensors_[s]; }
+  // A scan of sensor s that is not older than `instant` has arrived.
+  bool arrived_since(std::size_t s, GlobalTime instant) const {
+    return any_received_[s] && newest_received_[s] >= instant;
+  }
+
+ private:
+  void take(const StoredScan& scan) {
+    Disposition disposition = Disposition::kFused;
+    switch (timeline_.insert(scan.view())) {
+      case Timeline::Insertion::kInOrder: break;
+      case Timeline::Insertion::kLate: disposition = Disposition::kFusedLate; break;
+      case Timeline::Insertion::kTooOld: disposition = Disposition::kDroppedTooOld; break;
+    }
+    report_.push_back({scan.id, scan.measured, disposition});
+    if (disposition == Disposition::kDroppedTooOld) return;
+    const auto known = std::find_if(newest_.begin(), newest_.end(),
+                                    [&](const MeasurementId& id) { return id.sensor == scan.id.sensor; });
+    if (known == newest_.end())
+      newest_.push_back(scan.id);
+    else if (scan.id.sequence > known->sequence)
+      *known = scan.id;
+  }
+
+  void show() {
+    views_.clear();
+    const TrackSet& set = timeline_.current();
+    for (const Track& track : set.tracks)
+      if (track.confirmed) views_.push_back(view_of(track, set.time, set.time, config_));
+  }
+
+  TrackerConfig config_;
+  std::vector<SensorTiming> sensors_;
+  Timeline timeline_;
+  std::vector<StoredScan> pending_;          // storage
+  std::vector<std::size_t> free_, waiting_;  // waiting: chronological
+  std::vector<FusedScan> report_, duplicates_;
+  std::vector<TrackView> views_;
+  std::vector<MeasurementId> newest_;
+  std::vector<GlobalTime> newest_received_;
+  std::vector<char> any_received_;
+};
+
+class Buff final : public TimelineStrategy {
+  using TimelineStrategy::TimelineStrategy;
+
+ private:
+  bool may_fuse(const StoredScan& scan, GlobalTime now) const override {
+    for (std::size_t s = 0; s < sensor_count(); ++s) {
+      if (sensor(s).sensor == scan.id.sensor) continue;
+      if (!arrived_since(s, scan.measured) && now < scan.measured + sensor(s).worst_delay) return false;
+    }
+    return true;
+  }
+};
+
+class Adva final : public TimelineStrategy {
+  using TimelineStrategy::TimelineStrategy;
+
+ private:
+  bool may_fuse(const StoredScan&, GlobalTime) const override { return true; }
+};
+
+class TimeTriggered final : public TimelineStrategy {
+  using TimelineStrategy::TimelineStrategy;
+
+ private:
+  bool may_fuse(const StoredScan& scan, GlobalTime now) const override {
+    for (std::size_t s = 0; s < sensor_count(); ++s) {
+      const SensorTiming& other = sensor(s);
+      if (other.sensor == scan.id.sensor || !other.scheduled || scan.measured < other.first) continue;
+      // The other sensor's newest instant that is not after this measurement. Time stamps are clock readings: an instant
+      // is matched within a quarter of the period.
+      const Duration tolerance{other.period.ns / 4};
+      const std::int64_t cycles = (scan.measured - other.first).ns / other.period.ns;
+      const GlobalTime instant = other.first + other.period * cycles;
+      if (!arrived_since(s, instant - tolerance) && now < instant + other.worst_delay) return false;
+    }
+    return true;
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Strategy> make_strategy(StrategyKind kind, const TrackerConfig& config,
+                                        std::span<const SensorTiming> sensors) {
+  switch (kind) {
+    case StrategyKind::kBuff: return std::make_unique<Buff>(config, sensors);
+    case StrategyKind::kAdva: return std::make_unique<Adva>(config, sensors);
+    case StrategyKind::kTt: return std::make_unique<TimeTriggered>(config, sensors);
+  }
+  TTF_CHECK(false, "strategy {}", static_cast<int>(kind));
+}
+
+}  // namespace ttf::fusion

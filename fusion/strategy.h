@@ -1,0 +1,76 @@
+// The three ways to fuse observations that arrive late and out of order (paper, section II-B), behind one interface.
+//
+// BUFF  keeps a scan back until chronological order is certain: for every other sensor, a scan that is not older has
+//       arrived, or none can arrive any more (its worst delay has passed). Then fuses in order.
+// ADVA  takes scans as they come. One that is older than what is fused already is taken in exactly: the tracker goes back to
+//       before it, takes it in, and takes in again what came after, associations included. That is bit-identical to
+//       having received everything in order.
+// TT    relies on the schedule: the instants of all measurements are known beforehand. A scan waits only for scheduled
+//       older measurements of other sensors that have not arrived and are not yet due; one that misses its due instant is
+//       not waited for.
+// Whatever a strategy fused too early (a broken promise) is repaired as in ADVA and reported as late. Scans older than the
+// history are dropped and reported. Order among scans: (measured, sensor, sequence).
+//
+// After construction nothing allocates.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/ids.h"
+#include "core/time.h"
+#include "fusion/observation.h"
+#include "fusion/tracker.h"
+#include "fusion/tracker_config.h"
+
+namespace ttf::fusion {
+
+enum class StrategyKind : std::uint8_t { kBuff = 0, kAdva = 1, kTt = 2 };
+
+// What the schedule promises about a sensor.
+struct SensorTiming {
+  SensorId sensor{};
+  Duration worst_delay{};      // from the measurement until fusion can have it
+  bool scheduled = false;      // the instants below are known beforehand
+  GlobalTime first{};
+  Duration period{};
+};
+
+enum class Disposition : std::uint8_t { kFused = 1, kFusedLate = 2, kHeld = 3, kDroppedTooOld = 4, kDuplicate = 5 };
+struct FusedScan {
+  MeasurementId id;
+  GlobalTime measured{};
+  Disposition disposition = Disposition::kFused;
+};
+
+// Most scans that can wait, and most observations in one.
+inline constexpr std::size_t kMaxPending = 32;
+inline constexpr std::size_t kMaxObservations = 64;
+
+class Strategy {
+ public:
+  virtual ~Strategy() = default;
+  // Takes a scan from the controller (copied). Fuses nothing yet.
+  virtual void accept(const Scan& scan) = 0;
+  // The fusion instant: fuses what may be fused at `now`.
+  virtual void fuse(GlobalTime now) = 0;
+  // What became of each scan at the last fusion instant, and which are held.
+  virtual std::span<const FusedScan> last_fused() const = 0;
+  // Confirmed tracks predicted to `at`, into `out` (which keeps its capacity). Never touches the filter state; where `at` is
+  // before the newest measurement, the tracks are shown as of that measurement.
+  virtual void image(GlobalTime at, std::vector<TrackView>& out) const = 0;
+  // Confirmed tracks at the instant of the newest fused measurement, as of the last fuse().
+  virtual std::span<const TrackView> tracks() const = 0;
+  // The newest fused measurement of each sensor that has one, and the newest of all.
+  virtual std::span<const MeasurementId> newest() const = 0;
+  virtual GlobalTime newest_measured() const = 0;
+  virtual int confirmed_count() const = 0;
+  virtual int tentative_count() const = 0;
+};
+
+std::unique_ptr<Strategy> make_strategy(StrategyKind kind, const TrackerConfig& config,
+                                        std::span<const SensorTiming> sensors);
+
+}  // namespace ttf::fusion

@@ -1,0 +1,65 @@
+// The tracker's past, so that it can be gone back to: recent scans in chronological order and the tracks after each.
+//
+//      base | scan 0 | scan 1 | ... | scan n-1
+//   tracks  ^        ^        ^               ^  current
+//
+// Inserting at the end is a step of the tracker; inserting before goes back to the tracks before the gap and takes in
+// again all scans from there, so the result is bit-identical to in-order processing for every order of arrival. The
+// oldest scan is dropped into the base when the history is full; older scans than the base cannot be taken in.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "fusion/tracker.h"
+
+namespace ttf::fusion {
+
+// A scan with its own copy of the observations.
+struct StoredScan {
+  MeasurementId id;
+  GlobalTime measured{};
+  std::vector<Observation> observations;
+
+  StoredScan() { observations.reserve(64); }
+  void assign(const Scan& scan) {
+    id = scan.id;
+    measured = scan.measured;
+    observations.assign(scan.observations.begin(), scan.observations.end());
+  }
+  Scan view() const { return {id, measured, observations}; }
+};
+
+// The chronological order of scans, ties included.
+inline bool before(const MeasurementId& a, GlobalTime a_time, const MeasurementId& b, GlobalTime b_time) {
+  if (a_time != b_time) return a_time < b_time;
+  return a < b;
+}
+
+class Timeline {
+ public:
+  Timeline(const TrackerConfig& config, std::size_t max_observations);
+
+  enum class Insertion { kInOrder, kLate, kTooOld };
+  Insertion insert(const Scan& scan);
+  const TrackSet& current() const;
+  bool contains(const MeasurementId& id) const;
+
+ private:
+  struct Entry {
+    StoredScan scan;
+    TrackSet after;
+  };
+  void process(std::size_t position);
+
+  Tracker tracker_;
+  std::vector<Entry> entries_;            // storage, used in any order
+  std::vector<std::size_t> order_;        // chronological
+  std::vector<std::size_t> free_;
+  TrackSet base_;
+  MeasurementId base_id_{};
+  GlobalTime base_time_{};
+  bool base_is_scan_ = false;             // something was dropped into the base
+};
+
+}  // namespace ttf::fusion

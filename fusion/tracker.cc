@@ -1,0 +1,233 @@
+#include "fusion/tracker.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "core/check.h"
+#include "fusion/metrics.h"
+
+namespace ttf::fusion {
+namespace {
+
+// An object's axis is measured up to half a turn: the turn that fits the expected direction better is meant.
+double nearest_half_turn(double axis, double expected) {
+  const double difference = wrap_angle(axis - expected);
+  return std::abs(difference) <= 0.5 * M_PI ? axis : wrap_angle(axis + M_PI);
+}
+
+void correct_scalar(Scalar& scalar, double innovation, double measured, double sigma) {
+  const double variance = sigma * sigma;
+  if (!scalar.known) {
+    scalar = {measured, variance, true};
+    return;
+  }
+  const double gain = scalar.variance / (scalar.variance + variance);
+  scalar.value += gain * innovation;
+  scalar.variance = (1.0 - gain) * (1.0 - gain) * scalar.variance + gain * gain * variance;
+}
+
+// Confirmed tracks take precedence over tentative ones for the same observation.
+constexpr double kConfirmedBonus = 100.0;
+
+}  // namespace
+
+void TrackSet::assign(const TrackSet& other) {
+  TTF_CHECK(other.tracks.size() <= tracks.capacity(), "{} tracks into {}", other.tracks.size(), tracks.capacity());
+  tracks.assign(other.tracks.begin(), other.tracks.end());
+  time = other.time;
+  next_id = other.next_id;
+  started = other.started;
+}
+
+Tracker::Tracker(const TrackerConfig& config, std::size_t max_observations)
+    : config_(config),
+      max_observations_(max_observations),
+      max_tracks_(static_cast<std::size_t>(config.max_objects) + 3 * max_observations),
+      assignment_(max_observations, max_tracks_),
+      near_track_(max_observations),
+      observation_of_(max_tracks_) {
+  candidates_.reserve(max_observations * max_tracks_);
+  for (int dimension = 1; dimension <= 3; ++dimension)
+    gate_[dimension] = chi_square_quantile(config.gate_probability, dimension);
+}
+
+void Tracker::step(TrackSet& set, const Scan& scan) {
+  TTF_CHECK(scan.observations.size() <= max_observations_, "{} observations", scan.observations.size());
+  if (!set.started) {
+    set.started = true;
+    set.time = scan.measured;
+  }
+  predict_all(set, scan.measured);
+  associate(set, scan);
+  for (std::size_t t = 0; t < set.tracks.size(); ++t) {
+    Track& track = set.tracks[t];
+    const int observation = observation_of_[t];
+    ++track.scans;
+    track.hits = (track.hits << 1) | (observation >= 0 ? 1u : 0u);
+    track.misses = observation >= 0 ? 0 : track.misses + 1;
+    if (observation >= 0) {
+      const Observation& z = scan.observations[static_cast<std::size_t>(observation)];
+      correct(track, z, innovate(track.estimate, z));
+    }
+  }
+  give_birth(set, scan);
+  prune(set);
+}
+
+void Tracker::predict_all(TrackSet& set, GlobalTime to) const {
+  const double dt = (to - set.time).seconds();
+  for (Track& track : set.tracks) {
+    predict(track.estimate, config_.motion, config_.process_noise, dt);
+    track.heading = predicted(track.heading, config_.heading_noise, dt);
+    track.length = predicted(track.length, config_.extent_noise, dt);
+    track.width = predicted(track.width, config_.extent_noise, dt);
+  }
+  set.time = to;
+}
+
+void Tracker::associate(const TrackSet& set, const Scan& scan) {
+  candidates_.clear();
+  std::fill(near_track_.begin(), near_track_.end(), 0);
+  for (std::size_t o = 0; o < scan.observations.size(); ++o) {
+    const Observation& z = scan.observations[o];
+    const double gate = gate_[dimension_of(z.kind)];
+    for (std::size_t t = 0; t < set.tracks.size(); ++t) {
+      const Track& track = set.tracks[t];
+      if (z.kind == ObservationKind::kPosition) {
+        // Cheap bound first: outside the gate on one axis alone is outside the gate.
+        const double dx = z.z(0) - track.estimate.x(0), dy = z.z(1) - track.estimate.x(1);
+        if (dx * dx > gate * (track.estimate.p(0, 0) + z.r(0, 0)) ||
+            dy * dy > gate * (track.estimate.p(1, 1) + z.r(1, 1)))
+          continue;
+      }
+      const Innovation innovation = innovate(track.estimate, z);
+      if (!innovation.valid || innovation.distance_squared > gate) continue;
+      if (track.confirmed) near_track_[o] = 1;
+      // Never exactly zero: a pair on the gate's edge is still better than none.
+      const double gain = gate - innovation.distance_squared + 1e-9 + (track.confirmed ? kConfirmedBonus : 0.0);
+      candidates_.push_back({static_cast<int>(o), static_cast<int>(t), gain});
+    }
+  }
+  assignment_.solve(candidates_, scan.observations.size(), set.tracks.size());
+  std::fill(observation_of_.begin(), observation_of_.end(), -1);
+  const auto columns = assignment_.column_of();
+  for (std::size_t o = 0; o < columns.size(); ++o)
+    if (columns[o] >= 0) observation_of_[static_cast<std::size_t>(columns[o])] = static_cast<int>(o);
+}
+
+void Tracker::correct(Track& track, const Observation& z, const Innovation& innovation) const {
+  update(track.estimate, z, innovation);
+  if (z.has_heading) {
+    const double vx = track.estimate.x(2), vy = track.estimate.x(3);
+    const double expected = track.heading.known ? track.heading.value
+                            : std::hypot(vx, vy) > 1.0 ? std::atan2(vy, vx)
+                                                       : z.heading;
+    const double measured = nearest_half_turn(z.heading, expected);
+    correct_scalar(track.heading, wrap_angle(measured - track.heading.value), measured, z.sigma_heading);
+    track.heading.value = wrap_angle(track.heading.value);
+  }
+  if (z.has_length) correct_scalar(track.length, z.length - track.length.value, z.length, z.sigma_length);
+  if (z.has_width) correct_scalar(track.width, z.width - track.width.value, z.width, z.sigma_width);
+}
+
+// An observation no track took becomes a tentative track, unless it lies in the gate of a confirmed one: that is a second
+// echo of an object which is known already.
+void Tracker::give_birth(TrackSet& set, const Scan& scan) {
+  const auto columns = assignment_.column_of();
+  for (std::size_t o = 0; o < scan.observations.size(); ++o) {
+    if (columns[o] >= 0 || near_track_[o] || set.tracks.size() == max_tracks_) continue;
+    const Observation& z = scan.observations[o];
+    Track track;
+    track.id = static_cast<TrackId>(set.next_id++);
+    track.estimate = initial_estimate(z, config_);
+    if (z.has_heading) track.heading = {z.heading, z.sigma_heading * z.sigma_heading, true};
+    if (z.has_length) track.length = {z.length, z.sigma_length * z.sigma_length, true};
+    if (z.has_width) track.width = {z.width, z.sigma_width * z.sigma_width, true};
+    track.hits = 1;
+    track.scans = 1;
+    set.tracks.push_back(track);
+  }
+}
+
+void Tracker::prune(TrackSet& set) const {
+  const std::uint32_t window =
+      config_.confirm_window >= 32 ? ~0u : (1u << config_.confirm_window) - 1u;
+  auto confirmed = std::count_if(set.tracks.begin(), set.tracks.end(), [](const Track& t) { return t.confirmed; });
+  for (Track& track : set.tracks)
+    if (!track.confirmed && confirmed < config_.max_objects &&
+        std::popcount(track.hits & window) >= config_.confirm_hits) {
+      track.confirmed = true;
+      ++confirmed;
+    }
+  const double largest = config_.delete_position_sigma * config_.delete_position_sigma;
+  std::erase_if(set.tracks, [&](const Track& track) {
+    if (track.estimate.p(0, 0) > largest || track.estimate.p(1, 1) > largest) return track.misses > 0;
+    if (track.confirmed) return track.misses >= config_.delete_misses;
+    // A tentative track goes when M hits cannot be reached within its window any more.
+    const int hits = std::popcount(track.hits & window);
+    const int left = config_.confirm_window - std::min(track.scans, config_.confirm_window);
+    return hits + left < config_.confirm_hits;
+  });
+}
+
+Scalar predicted(const Scalar& scalar, double noise, double dt) {
+  Scalar later = scalar;
+  if (later.known) later.variance += noise * dt;
+  return later;
+}
+
+TrackView view_of(const Track& track, GlobalTime time, GlobalTime at, const TrackerConfig& config) {
+  Estimate estimate = track.estimate;
+  const double dt = std::max(0.0, (at - time).seconds());
+  predict(estimate, config.motion, config.process_noise, dt);
+  TrackView view;
+  view.id = track.id;
+  view.valid_at = at;
+  view.state = estimate.x;
+  view.covariance = estimate.p;
+  view.confirmed = track.confirmed;
+
+  const double vx = estimate.x(2), vy = estimate.x(3);
+  view.speed = std::hypot(vx, vy);
+  const Eigen::Vector2d along = view.speed > 1e-9 ? Eigen::Vector2d(vx / view.speed, vy / view.speed)
+                                                  : Eigen::Vector2d(1.0, 0.0);
+  const Eigen::Vector2d across(-along(1), along(0));
+  const Eigen::Matrix2d velocity = estimate.p.block<2, 2>(2, 2);
+  view.sigma_speed = std::sqrt(along.dot(velocity * along));
+
+  // The direction of motion tells the heading the better, the faster the object is.
+  const Scalar axis = predicted(track.heading, config.heading_noise, dt);
+  const double course = std::atan2(along(1), along(0));
+  const double course_variance = across.dot(velocity * across) / std::max(1e-6, view.speed * view.speed);
+  constexpr double kUnknown = M_PI * M_PI / 3.0;   // variance of an angle of which nothing is known
+  const bool moving = course_variance < kUnknown / 4.0;
+  if (moving && axis.known) {
+    const double difference = wrap_angle(nearest_half_turn(axis.value, course) - course);
+    const double weight = course_variance / (course_variance + axis.variance);
+    view.heading = wrap_angle(course + weight * difference);
+    view.sigma_heading = std::sqrt(course_variance * axis.variance / (course_variance + axis.variance));
+  } else if (moving) {
+    view.heading = course;
+    view.sigma_heading = std::sqrt(course_variance);
+  } else if (axis.known) {
+    view.heading = wrap_angle(axis.value);
+    view.sigma_heading = std::sqrt(axis.variance);
+  } else {
+    view.heading = course;
+    view.sigma_heading = std::sqrt(kUnknown);
+  }
+  const Eigen::Vector2d facing(std::cos(view.heading), std::sin(view.heading));
+  const Eigen::Matrix2d acceleration = estimate.p.block<2, 2>(4, 4);
+  view.acceleration = facing.dot(estimate.x.segment<2>(4));
+  view.sigma_acceleration = std::sqrt(std::max(0.0, facing.dot(acceleration * facing)));
+  const Scalar length = predicted(track.length, config.extent_noise, dt);
+  const Scalar width = predicted(track.width, config.extent_noise, dt);
+  view.length = length.value;
+  view.sigma_length = std::sqrt(length.variance);
+  view.width = width.value;
+  view.sigma_width = std::sqrt(width.variance);
+  return view;
+}
+
+}  // namespace ttf::fusion

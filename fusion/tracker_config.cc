@@ -1,0 +1,28 @@
+#include "fusion/tracker_config.h"
+
+namespace ttf::fusion {
+
+TrackerConfig load_tracker(YamlMap& yaml) {
+  TrackerConfig c;
+  c.motion = yaml.choice_or<MotionModel>("motion", c.motion,
+                                         {{"constant_velocity", MotionModel::kConstantVelocity},
+                                          {"constant_acceleration", MotionModel::kConstantAcceleration}});
+  c.process_noise = yaml.number_or("process_noise", c.process_noise, {1e-6, 1e4});
+  c.initial_velocity_sigma = yaml.number_or("initial_velocity_sigma", c.initial_velocity_sigma, {0.01, 100.0}, "m/s");
+  c.initial_acceleration_sigma =
+      yaml.number_or("initial_acceleration_sigma", c.initial_acceleration_sigma, {0.01, 100.0}, "m/s^2");
+  c.gate_probability = yaml.number_or("gate_probability", c.gate_probability, {0.5, 0.999999});
+  c.confirm_window = static_cast<int>(yaml.integer_or("confirm_window", c.confirm_window, {1, 32}, "scans"));
+  c.confirm_hits = static_cast<int>(yaml.integer_or("confirm_hits", c.confirm_hits, {1, c.confirm_window}, "scans"));
+  c.delete_misses = static_cast<int>(yaml.integer_or("delete_misses", c.delete_misses, {1, 1000}, "scans"));
+  c.delete_position_sigma =
+      yaml.number_or("delete_position_sigma", c.delete_position_sigma, {0.1, 100.0}, "m");
+  c.max_objects = static_cast<int>(yaml.integer_or("max_objects", c.max_objects, {1, 1000}));
+  c.history_scans = static_cast<std::size_t>(
+      yaml.integer_or("history_scans", static_cast<std::int64_t>(c.history_scans), {2, 4096}, "scans"));
+  c.heading_noise = yaml.number_or("heading_noise", c.heading_noise, {0.0, 100.0}, "rad^2/s");
+  c.extent_noise = yaml.number_or("extent_noise", c.extent_noise, {0.0, 100.0}, "m^2/s");
+  return c;
+}
+
+}  // namespace ttf::fusion
