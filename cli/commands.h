@@ -1,0 +1,17 @@
+// The commands of the one program. Each registers itself and runs when the command line names it; exit codes: 0 done, 1 a
+// stated condition does not hold, 2 bad usage or input.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace ttf::cli {
+
+// Set by the command that was chosen; run after parsing.
+using Action = std::function<int()>;
+
+void add_run(CLI::App& app, Action& action);
+void add_diagram(CLI::App& app, Action& action);
+void add_schedule(CLI::App& app, Action& action);
+
+}  // namespace ttf::cli

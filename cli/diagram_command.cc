@@ -1,0 +1,107 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+
+#include "cli/commands.h"
+#include "core/errors.h"
+#include "recording/log_reader.h"
+#include "report/position_plot.h"
+#include "report/render.h"
+#include "report/timing_diagram.h"
+
+namespace ttf::cli {
+namespace {
+
+struct Options {
+  std::vector<std::string> logs;
+  double from_s = -1.0, to_s = -1.0;
+  std::string kind = "timing";
+  std::string out;
+};
+
+TrueTime at_seconds(double s) { return {static_cast<std::int64_t>(s * 1e9 + 0.5)}; }
+
+report::Names names_of(const recording::LogManifest& manifest) {
+  report::Names names;
+  names.nodes = manifest.node_names;
+  names.tasks = manifest.task_names;
+  names.pdus = manifest.pdu_names;
+  names.sensors = manifest.sensor_names;
+  names.can_buses = manifest.can_bus_names;
+  return names;
+}
+
+// Where a log begins and ends, and what it says of itself.
+struct Extent final : records::Sink {
+  TrueTime last{};
+  void on(const records::TaskRun& run) override { last = std::max(last, run.end); }
+};
+
+recording::LogInfo read(const std::string& path, records::Sink& sink) {
+  recording::LogInfo info = recording::read_log(path, sink);
+  if (!info.warning.empty()) fmt::print(stderr, "warning: {}\n", info.warning);
+  return info;
+}
+
+int run(const Options& options) {
+  report::check_picture_path(options.out);
+  if (options.to_s >= 0.0 && options.to_s <= std::max(0.0, options.from_s))
+    throw InputError({"command line", 0, "--to", fmt::format("{}", options.to_s), "must be after --from"});
+  Extent extent;
+  std::vector<recording::LogInfo> infos;
+  for (const std::string& log : options.logs) infos.push_back(read(log, extent));
+  const TrueTime from = at_seconds(std::max(0.0, options.from_s));
+  // A timing diagram of a whole drive is unreadable: 160 ms unless told.
+  const bool timing = options.kind == "timing";
+  const TrueTime to = options.to_s >= 0.0 ? at_seconds(options.to_s)
+                      : timing           ? from + Duration::milliseconds(160)
+                                         : extent.last;
+  std::string svg;
+  if (timing) {
+    if (options.logs.size() != 1)
+      throw InputError({"command line", 0, "--kind", "timing", "takes one log"});
+    report::TimingDiagram diagram(names_of(infos[0].manifest), {infos[0].manifest.cycle_ns}, from, to);
+    recording::read_log(options.logs[0], diagram);
+    svg = diagram.svg();
+  } else {
+    std::vector<std::unique_ptr<report::PositionPlots>> plots;
+    std::vector<const report::PositionPlots*> panels;
+    std::vector<std::string> titles;
+    for (std::size_t i = 0; i < options.logs.size(); ++i) {
+      report::PositionOptions position;
+      position.title = fmt::format("{}, {}", infos[i].manifest.scenario_name, infos[i].manifest.strategy);
+      position.from = from;
+      position.to = to;
+      plots.push_back(std::make_unique<report::PositionPlots>(names_of(infos[i].manifest), position));
+      recording::read_log(options.logs[i], *plots.back());
+      panels.push_back(plots.back().get());
+      titles.push_back(infos[i].manifest.strategy);
+    }
+    const bool plane = options.kind == "plane";
+    if (plots.size() > 1)
+      svg = report::comparison_svg(panels, titles,
+                                   plane ? report::PositionView::kPlane : report::PositionView::kXOverTime);
+    else
+      svg = plane ? plots[0]->plane_svg() : plots[0]->over_time_svg();
+  }
+  report::write_picture(svg, options.out);
+  return 0;
+}
+
+}  // namespace
+
+void add_diagram(CLI::App& app, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("diagram", "Timing diagram and position plots from logs");
+  command->footer("Example: ttfusion diagram out/drive/tt.mcap --from 1.5 --to 1.65 -o timing.svg");
+  command->add_option("logs", options->logs, "Logs; several are drawn side by side")->required();
+  command->add_option("--from", options->from_s, "Start of the window, true time in seconds")->check(CLI::NonNegativeNumber);
+  command->add_option("--to", options->to_s, "End of the window, true time in seconds")->check(CLI::NonNegativeNumber);
+  command->add_option("--kind", options->kind, "timing, position (x and y over time) or plane (y over x)")
+      ->check(CLI::IsMember({"timing", "position", "plane"}))->capture_default_str();
+  command->add_option("-o,--out", options->out, "Picture to write: .svg, .png or .pdf")->required();
+  command->callback([options, &action] { action = [options] { return run(*options); }; });
+}
+
+}  // namespace ttf::cli

@@ -1,0 +1,35 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+
+#include "cli/commands.h"
+#include "core/errors.h"
+
+int main(int argc, char** argv) {
+  CLI::App app{"ttfusion: time-triggered distributed fusion in virtual time", "ttfusion"};
+  app.require_subcommand(1);
+  app.set_version_flag("--version", TTF_VERSION);
+  ttf::cli::Action action;
+  ttf::cli::add_run(app, action);
+  ttf::cli::add_diagram(app, action);
+  ttf::cli::add_schedule(app, action);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    // --help and --version come this way too, with exit code 0.
+    const int code = app.exit(error);
+    return code == 0 ? 0 : 2;
+  }
+  try {
+    return action();
+  } catch (const ttf::InputError& error) {
+    for (const ttf::Finding& finding : error.findings())
+      fmt::print(stderr, "error: {}\n", finding.sentence());
+    return 2;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "error: {}\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,151 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <optional>
+
+#include "cli/commands.h"
+#include "cli/run_outputs.h"
+#include "core/errors.h"
+#include "nodes/catalog.h"
+#include "recording/log_writer.h"
+#include "recording/recorded_input.h"
+#include "recording/records/tee.h"
+#include "schedules/checker.h"
+#include "schedules/loader.h"
+
+namespace ttf::cli {
+namespace {
+
+struct Options {
+  std::string scenario;
+  std::string strategy;
+  std::optional<std::uint64_t> seed;
+  std::string input;
+  std::string out;
+  bool json = false;
+  bool no_log = false;
+  bool no_pictures = false;
+};
+
+std::string hex_hash(const std::string& text) {
+  // FNV-1a, 64 bits: names the exact input a log was made from.
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  return fmt::format("{:016x}", hash);
+}
+
+schedules::Cluster checked_cluster(const std::string& file) {
+  schedules::Cluster cluster = schedules::load_cluster(file);
+  if (auto findings = schedules::check(cluster); !findings.empty()) throw InputError(std::move(findings));
+  schedules::bind_ports(cluster, nodes::step_ports());
+  return cluster;
+}
+
+recording::LogManifest manifest_of(const nodes::Scenario& scenario, const schedules::Cluster& cluster,
+                                   fusion::StrategyKind strategy, std::uint64_t seed) {
+  recording::LogManifest manifest;
+  manifest.version = TTF_VERSION;
+  manifest.seed = seed;
+  manifest.scenario_name = scenario.name;
+  manifest.cluster_name = cluster.name;
+  manifest.strategy = nodes::name_of(strategy);
+  manifest.cycle_ns = cluster.cycle().ns;
+  manifest.hashes = {{"scenario", hex_hash(scenario.text)}, {"cluster", hex_hash(cluster.text)}};
+  for (const schedules::Node& node : cluster.nodes) {
+    manifest.node_names.push_back(node.name);
+    manifest.task_names.emplace_back();
+    for (const schedules::Task& task : node.tasks) manifest.task_names.back().push_back(task.name);
+  }
+  for (const schedules::PduLayout& pdu : cluster.pdus) manifest.pdu_names.push_back(pdu.name);
+  for (const schedules::Sensor& sensor : cluster.sensors) manifest.sensor_names.push_back(sensor.name);
+  for (const schedules::CanBus& bus : cluster.can_buses) manifest.can_bus_names.push_back(bus.name);
+  return manifest;
+}
+
+std::vector<fusion::StrategyKind> chosen(const std::string& name) {
+  std::vector<fusion::StrategyKind> strategies;
+  for (const auto kind : {fusion::StrategyKind::kBuff, fusion::StrategyKind::kAdva, fusion::StrategyKind::kTt})
+    if (name.empty() || nodes::name_of(kind) == name) strategies.push_back(kind);
+  return strategies;
+}
+
+StrategyResult run_strategy(const Options& options, const nodes::Scenario& scenario, fusion::StrategyKind strategy,
+                            std::uint64_t seed, std::shared_ptr<const recording::RecordedInput> recorded,
+                            const std::string& folder) {
+  StrategyResult result;
+  result.strategy = strategy;
+  result.cluster = checked_cluster(scenario.cluster_files[static_cast<std::size_t>(strategy)]);
+  const TrueTime from = sim::kFirstCycle + scenario.evaluate_from;
+  experiments::DriveMeasures measures(from);
+  std::vector<records::Sink*> sinks{&measures};
+  std::unique_ptr<recording::LogWriter> log;
+  if (!options.no_log) {
+    result.log_path = fmt::format("{}/{}.mcap", folder, nodes::name_of(strategy));
+    log = std::make_unique<recording::LogWriter>(result.log_path,
+                                                 manifest_of(scenario, result.cluster, strategy, seed));
+    log->attach(std::filesystem::path(scenario.file).filename().string(), "application/yaml", scenario.text);
+    log->attach(std::filesystem::path(result.cluster.file).filename().string(), "application/yaml",
+                result.cluster.text);
+    sinks.push_back(log.get());
+  }
+  records::Tee tee(sinks);
+  const sim::DriveConfig config{&scenario, &result.cluster, strategy, seed, 0, std::move(recorded)};
+  result.outcome = sim::run_drive(config, tee);
+  result.summary = measures.finish();
+  if (log) {
+    log->close();
+    result.content_hash = log->content_hash_text();
+  }
+  return result;
+}
+
+int run(const Options& options) {
+  const nodes::Scenario scenario = nodes::load_scenario(options.scenario);
+  const std::uint64_t seed = options.seed.value_or(scenario.seed);
+  std::shared_ptr<const recording::RecordedInput> recorded;
+  if (!options.input.empty())
+    recorded = std::make_shared<recording::RecordedInput>(recording::read_laser_radar(options.input));
+  const std::string folder = options.out.empty() ? "out/" + scenario.name : options.out;
+  std::error_code failure;
+  std::filesystem::create_directories(folder, failure);
+  if (failure) throw InputError({folder, 0, "--out", "", "cannot be created: " + failure.message()});
+
+  std::vector<StrategyResult> results;
+  for (const fusion::StrategyKind strategy : chosen(options.strategy)) {
+    fmt::print(stderr, "{}: {} with {} ...\n", scenario.name, scenario.duration.seconds(), nodes::name_of(strategy));
+    results.push_back(run_strategy(options, scenario, strategy, seed, recorded, folder));
+  }
+  if (!options.no_pictures && !options.no_log) write_pictures(scenario, results, folder);
+  const nlohmann::ordered_json json = to_json(scenario, seed, results);
+  std::ofstream(folder + "/summary.json") << json.dump(2) << '\n';
+  if (options.json)
+    fmt::print("{}\n", json.dump(2));
+  else
+    fmt::print("{}\n{}", scenario.description, comparison_table(results));
+  fmt::print(stderr, "written to {}\n", folder);
+  return 0;
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("run", "One drive in virtual time: log, summary table and pictures");
+  command->footer("Example: ttfusion run scenarios/paper_scenario1.yaml --seed 7 --out out/drive");
+  command->add_option("scenario", options->scenario, "Scenario file")->required();
+  command->add_option("--strategy", options->strategy, "Only one strategy; all three otherwise")
+      ->check(CLI::IsMember({"buff", "adva", "tt"}));
+  command->add_option("--seed", options->seed, "Seed of every random stream, instead of the scenario's");
+  command->add_option("--input", options->input, "Recorded observations in place of the sensor models");
+  command->add_option("--out", options->out, "Folder for logs and pictures (default: out/<scenario>)");
+  command->add_flag("--json", options->json, "Summary as JSON on standard output");
+  command->add_flag("--no-log", options->no_log, "Write no logs (and so no pictures)");
+  command->add_flag("--no-pictures", options->no_pictures, "Write logs only");
+  command->callback([options, &action] { action = [options] { return run(*options); }; });
+}
+
+}  // namespace ttf::cli

@@ -1,0 +1,188 @@
+#include "cli/run_outputs.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "recording/log_reader.h"
+#include "recording/records/tee.h"
+#include "report/index_page.h"
+#include "report/position_plot.h"
+#include "report/render.h"
+#include "report/schedule_picture.h"
+#include "report/tables.h"
+#include "report/timing_diagram.h"
+
+namespace ttf::cli {
+namespace {
+
+double ms(Duration d) { return static_cast<double>(d.ns) * 1e-6; }
+double us(Duration d) { return static_cast<double>(d.ns) * 1e-3; }
+
+using Value = std::string (*)(const StrategyResult&);
+struct Row {
+  const char* name;
+  Value value;
+};
+
+std::string number(std::uint64_t n) { return fmt::format("{}", n); }
+
+const Row kRows[] = {
+    {"position RMSE against truth [m]", [](const StrategyResult& r) { return report::cell(r.summary.position_rmse_truth, 3); }},
+    {"velocity RMSE against truth [m/s]", [](const StrategyResult& r) { return report::cell(r.summary.velocity_rmse_truth, 3); }},
+    {"  x, y, vx, vy", [](const StrategyResult& r) {
+       return fmt::format("{:.2f} {:.2f} {:.2f} {:.2f}", r.summary.rmse_truth[0], r.summary.rmse_truth[1],
+                          r.summary.rmse_truth[2], r.summary.rmse_truth[3]);
+     }},
+    {"position RMSE against DGPS [m]", [](const StrategyResult& r) {
+       return r.summary.reference_compared ? report::cell(r.summary.position_rmse_reference, 3) : std::string("-");
+     }},
+    {"velocity RMSE against DGPS [m/s]", [](const StrategyResult& r) {
+       return r.summary.reference_compared ? report::cell(r.summary.velocity_rmse_reference, 3) : std::string("-");
+     }},
+    {"NEES (4 degrees of freedom)", [](const StrategyResult& r) { return report::cell(r.summary.nees, 2); }},
+    {"  95 % band", [](const StrategyResult& r) {
+       return fmt::format("{:.2f}..{:.2f}", r.summary.nees_low, r.summary.nees_high);
+     }},
+    {"age when fused, mean [ms]", [](const StrategyResult& r) { return report::cell(ms(r.summary.age_fused.mean()), 1); }},
+    {"age when fused, worst [ms]", [](const StrategyResult& r) { return report::cell(ms(r.summary.age_fused.worst), 1); }},
+    {"age when used, mean [ms]", [](const StrategyResult& r) { return report::cell(ms(r.summary.age_used.mean()), 1); }},
+    {"age when used, worst [ms]", [](const StrategyResult& r) { return report::cell(ms(r.summary.age_used.worst), 1); }},
+    {"observation lists received", [](const StrategyResult& r) { return number(r.summary.received); }},
+    {"  arrived out of sequence", [](const StrategyResult& r) { return number(r.summary.out_of_sequence); }},
+    {"  fused late (retrodicted)", [](const StrategyResult& r) { return number(r.summary.fused_late); }},
+    {"  times held back", [](const StrategyResult& r) { return number(r.summary.held); }},
+    {"  dropped", [](const StrategyResult& r) {
+       return number(r.summary.dropped + r.outcome.counts.torn_lists + r.outcome.counts.overwritten_lists);
+     }},
+    {"objects compared / missed / spurious", [](const StrategyResult& r) {
+       return fmt::format("{} / {} / {}", r.summary.matched, r.summary.missed, r.summary.spurious);
+     }},
+    {"uses with a warning", [](const StrategyResult& r) { return number(r.summary.warnings); }},
+    {"precision of the time base [us]", [](const StrategyResult& r) { return report::cell(us(r.outcome.precision), 3); }},
+    {"slot problems", [](const StrategyResult& r) { return number(r.outcome.counts.slot_problems); }},
+    {"deadlines missed", [](const StrategyResult& r) { return number(r.outcome.counts.deadlines_missed); }},
+    {"FlexRay load per channel [%]", [](const StrategyResult& r) { return report::cell(100 * r.outcome.flexray_load, 1); }},
+    {"content hash of the log", [](const StrategyResult& r) { return r.content_hash.empty() ? std::string("-") : r.content_hash; }},
+};
+
+nlohmann::ordered_json ages(const experiments::AgeStatistics& statistics) {
+  return {{"count", statistics.count}, {"mean_ms", ms(statistics.mean())}, {"worst_ms", ms(statistics.worst)}};
+}
+
+report::PositionOptions position_options(const nodes::Scenario& scenario, const StrategyResult& result) {
+  report::PositionOptions options;
+  options.title = fmt::format("{}, {}", scenario.name, nodes::name_of(result.strategy));
+  const TrueTime start = sim::drive_start(result.cluster);
+  options.from = start + scenario.evaluate_from;
+  options.to = start + scenario.duration;
+  for (std::size_t o = 0; o < scenario.world.objects.size(); ++o)
+    if (scenario.world.objects[o].reference) options.object = static_cast<ObjectId>(o);
+  return options;
+}
+
+}  // namespace
+
+std::string comparison_table(const std::vector<StrategyResult>& results) {
+  std::vector<std::string> header{"measure"};
+  for (const StrategyResult& result : results) header.emplace_back(nodes::name_of(result.strategy));
+  report::Table table(header);
+  for (const Row& row : kRows) {
+    std::vector<std::string> cells{row.name};
+    for (const StrategyResult& result : results) cells.push_back(row.value(result));
+    table.add(std::move(cells));
+  }
+  for (std::size_t b = 0; !results.empty() && b < results.front().cluster.can_buses.size(); ++b) {
+    std::vector<std::string> cells{fmt::format("{} load [%]", results.front().cluster.can_buses[b].name)};
+    for (const StrategyResult& result : results)
+      cells.push_back(b < result.outcome.can_load.size() ? report::cell(100 * result.outcome.can_load[b], 1) : "-");
+    table.add(std::move(cells));
+  }
+  return table.text();
+}
+
+nlohmann::ordered_json to_json(const nodes::Scenario& scenario, std::uint64_t seed,
+                               const std::vector<StrategyResult>& results) {
+  nlohmann::ordered_json json;
+  json["scenario"] = scenario.name;
+  json["seed"] = seed;
+  json["duration_s"] = scenario.duration.seconds();
+  for (const StrategyResult& result : results) {
+    const experiments::DriveSummary& s = result.summary;
+    nlohmann::ordered_json one;
+    one["strategy"] = nodes::name_of(result.strategy);
+    one["cluster"] = result.cluster.name;
+    one["rmse_truth"] = {{"position_m", s.position_rmse_truth}, {"velocity_mps", s.velocity_rmse_truth},
+                         {"x", s.rmse_truth[0]}, {"y", s.rmse_truth[1]}, {"vx", s.rmse_truth[2]},
+                         {"vy", s.rmse_truth[3]}};
+    one["rmse_reference"] = {{"position_m", s.position_rmse_reference}, {"velocity_mps", s.velocity_rmse_reference},
+                             {"compared", s.reference_compared}};
+    one["nees"] = {{"mean", s.nees}, {"samples", s.nees_samples}, {"degrees_of_freedom", 4},
+                   {"band_95", {s.nees_low, s.nees_high}}};
+    one["age_when_fused"] = ages(s.age_fused);
+    one["age_when_used"] = ages(s.age_used);
+    for (const auto& [sensor, statistics] : s.age_used_by_sensor)
+      one["age_when_used_by_sensor"][result.cluster.sensor(sensor).name] = ages(statistics);
+    one["observations"] = {{"received", s.received}, {"out_of_sequence", s.out_of_sequence}, {"fused", s.fused},
+                           {"late", s.fused_late}, {"held", s.held}, {"dropped", s.dropped},
+                           {"duplicates", s.duplicates}, {"torn", result.outcome.counts.torn_lists},
+                           {"overwritten", result.outcome.counts.overwritten_lists}};
+    one["objects"] = {{"compared", s.matched}, {"missed", s.missed}, {"spurious", s.spurious}};
+    one["uses"] = s.uses;
+    one["uses_with_warning"] = s.warnings;
+    one["precision_us"] = us(result.outcome.precision);
+    one["slot_problems"] = result.outcome.counts.slot_problems;
+    one["deadlines_missed"] = result.outcome.counts.deadlines_missed;
+    one["overruns"] = result.outcome.counts.overruns;
+    one["saturated_signals"] = result.outcome.counts.saturated_signals;
+    one["frames_sent"] = result.outcome.frames_sent;
+    one["flexray_load"] = result.outcome.flexray_load;
+    for (std::size_t b = 0; b < result.outcome.can_load.size(); ++b)
+      one["can_load"][result.cluster.can_buses[b].name] = result.outcome.can_load[b];
+    one["content_hash"] = result.content_hash;
+    one["log"] = result.log_path;
+    json["strategies"].push_back(std::move(one));
+  }
+  return json;
+}
+
+void write_pictures(const nodes::Scenario& scenario, const std::vector<StrategyResult>& results,
+                    const std::string& folder) {
+  std::vector<report::IndexEntry> entries;
+  entries.push_back({scenario.description, "", "", comparison_table(results), {"summary.json"}});
+  const auto picture = [&](const std::string& name, const std::string& heading, const std::string& caption,
+                           const std::string& svg) {
+    report::write_picture(svg, folder + "/" + name + ".svg");
+    report::write_picture(svg, folder + "/" + name + ".png");
+    report::write_picture(svg, folder + "/" + name + ".pdf");
+    entries.push_back({heading, name + ".svg", caption, "", {name + ".png", name + ".pdf"}});
+  };
+
+  std::vector<std::unique_ptr<report::PositionPlots>> plots;
+  std::vector<const report::PositionPlots*> panels;
+  std::vector<std::string> titles;
+  for (const StrategyResult& result : results) {
+    const report::Names names = report::names_of(result.cluster);
+    const std::string strategy(nodes::name_of(result.strategy));
+    // The timing diagram shows 160 ms, four images, from where the drive is judged.
+    const TrueTime from = sim::kFirstCycle + scenario.evaluate_from;
+    report::TimingDiagram timing(names, result.cluster.cycle(), from, from + Duration::milliseconds(160));
+    plots.push_back(std::make_unique<report::PositionPlots>(names, position_options(scenario, result)));
+    records::Tee tee({&timing, plots.back().get()});
+    recording::read_log(result.log_path, tee);
+    picture(strategy + "_timing", strategy + ": timing", "Slots, tasks and every measurement's way.", timing.svg());
+    picture(strategy + "_over_time", strategy + ": x and y over time", "", plots.back()->over_time_svg());
+    picture(strategy + "_plane", strategy + ": y over x", "", plots.back()->plane_svg());
+    panels.push_back(plots.back().get());
+    titles.push_back(strategy);
+  }
+  if (panels.size() > 1)
+    picture("comparison", "The strategies side by side", "y over x, the same axes.",
+            report::comparison_svg(panels, titles));
+  picture("schedule", "Schedule of " + results.back().cluster.name, "One communication cycle and the multiplexing.",
+          report::schedule_svg(results.back().cluster));
+  report::write_index(folder, scenario.name, entries);
+}
+
+}  // namespace ttf::cli

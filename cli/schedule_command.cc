@@ -1,0 +1,88 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands.h"
+#include "core/errors.h"
+#include "nodes/catalog.h"
+#include "report/render.h"
+#include "report/schedule_picture.h"
+#include "report/tables.h"
+#include "schedules/ages.h"
+#include "schedules/checker.h"
+#include "schedules/loader.h"
+#include "schedules/ports.h"
+#include "schedules/show.h"
+
+namespace ttf::cli {
+namespace {
+
+struct Options {
+  std::string file;
+  std::string out;
+  bool json = false;
+};
+
+std::string ms(Duration d) { return report::cell(static_cast<double>(d.ns) * 1e-6, 3); }
+
+int check(const Options& options) {
+  const schedules::Cluster cluster = schedules::load_cluster(options.file);
+  if (auto findings = schedules::check(cluster); !findings.empty()) throw InputError(std::move(findings));
+  schedules::bind_ports(cluster, nodes::step_ports());
+  nlohmann::ordered_json json;
+  json["cluster"] = cluster.name;
+  json["consistent"] = true;
+  std::string text = fmt::format("{}: consistent\n", cluster.name);
+  for (const schedules::AgePath& path : schedules::measurement_ages(cluster)) {
+    const std::string& sensor = cluster.sensor(path.sensor).name;
+    report::Table table({sensor + ": age of a measurement", "best [ms]", "worst [ms]"});
+    nlohmann::ordered_json one{{"sensor", sensor}};
+    for (const schedules::Contribution& contribution : path.contributions) {
+      table.add({"  " + contribution.name, ms(contribution.best), ms(contribution.worst)});
+      one["contributions"].push_back({{"name", contribution.name},
+                                      {"best_ms", static_cast<double>(contribution.best.ns) * 1e-6},
+                                      {"worst_ms", static_cast<double>(contribution.worst.ns) * 1e-6}});
+    }
+    table.add({"when the fusion node can have it", ms(path.fusion_best), ms(path.fusion_worst)});
+    table.add({"when the feature service first uses it", ms(path.use_best), ms(path.use_worst)});
+    one["fusion_ms"] = {static_cast<double>(path.fusion_best.ns) * 1e-6,
+                        static_cast<double>(path.fusion_worst.ns) * 1e-6};
+    one["use_ms"] = {static_cast<double>(path.use_best.ns) * 1e-6, static_cast<double>(path.use_worst.ns) * 1e-6};
+    json["ages"].push_back(std::move(one));
+    text += table.text();
+  }
+  fmt::print("{}", options.json ? json.dump(2) + "\n" : text);
+  return 0;
+}
+
+int show(const Options& options) {
+  if (!options.out.empty()) report::check_picture_path(options.out);
+  const schedules::Cluster cluster = schedules::load_cluster(options.file);
+  if (options.out.empty())
+    fmt::print("{}", schedules::show_text(cluster));
+  else
+    report::write_picture(report::schedule_svg(cluster), options.out);
+  return 0;
+}
+
+}  // namespace
+
+void add_schedule(CLI::App& app, Action& action) {
+  CLI::App* command = app.add_subcommand("schedule", "Validate and draw schedules");
+  command->require_subcommand(1);
+  auto options = std::make_shared<Options>();
+  CLI::App* checking = command->add_subcommand("check", "Prove a cluster consistent and bound its measurements' ages");
+  checking->footer("Example: ttfusion schedule check schedules/paper_synchronised.yaml");
+  checking->add_option("file", options->file, "Cluster file")->required();
+  checking->add_flag("--json", options->json, "Result as JSON on standard output");
+  checking->callback([options, &action] { action = [options] { return check(*options); }; });
+  CLI::App* showing = command->add_subcommand("show", "Draw one communication cycle as text, or as a picture with -o");
+  showing->footer("Example: ttfusion schedule show schedules/paper_synchronised.yaml -o schedule.svg");
+  showing->add_option("file", options->file, "Cluster file")->required();
+  showing->add_option("-o,--out", options->out, "Picture to write: .svg, .png or .pdf");
+  showing->callback([options, &action] { action = [options] { return show(*options); }; });
+}
+
+}  // namespace ttf::cli
