@@ -44,7 +44,10 @@ struct GlobalParameters {
   std::int64_t gdMinPropagationDelay_ps = 0;
   std::int64_t gdMaxMicrotick_ps = 25'000;
 
-  // gdCycle = gMacroPerCycle * gdMacrotick.
+  std::int64_t gdCycle_ps = 5'000'000'000;
+  std::int64_t baudrate = 10'000'000;   // bit/s
+
+  // gMacroPerCycle * gdMacrotick, which the checker proves to be gdCycle.
   std::int64_t cycle_ps() const { return gMacroPerCycle * gdMacrotick_ps; }
 };
 

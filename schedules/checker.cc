@@ -1,0 +1,197 @@
+#include "schedules/checker.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "core/int128.h"
+
+namespace ttf::schedules {
+namespace {
+
+// FlexRay 2.1A, annex B: cClockDeviationMax = 0.0015, as parts of 10000; cdCAS and cChannelIdleDelimiter in gdBit; and
+// a bus driver's longest reaction from idle to activity (electrical physical layer 2.1A, dBDRxai).
+constexpr std::int64_t kDeviation = 15, kWhole = 10'000;
+constexpr std::int64_t kCasBits = 30, kIdleDelimiterBits = 11;
+constexpr std::int64_t kDriverReaction_ps = 400'000;
+constexpr int kMostSlots = 2047;          // cSlotIDMax
+
+std::int64_t ceil_div(Int128 a, Int128 b) { return static_cast<std::int64_t>((a + b - 1) / b); }
+
+// 2 gdActionPointOffset + ceil((bits gdBitMax + delays) / (gdMacrotick (1 - cClockDeviationMax))).
+std::int64_t around_action_points(const GlobalParameters& g, std::int64_t bits, std::int64_t extra_ps) {
+  const Int128 time = static_cast<Int128>(bits) * g.gdBit_ps * (kWhole + kDeviation) +
+                      static_cast<Int128>(g.gdMinPropagationDelay_ps + g.gdMaxPropagationDelay_ps + extra_ps) * kWhole;
+  return 2 * g.gdActionPointOffset + ceil_div(time, static_cast<Int128>(g.gdMacrotick_ps) * (kWhole - kDeviation));
+}
+
+std::string us(std::int64_t ps) { return fmt::format("{} us", static_cast<double>(ps) * 1e-6); }
+
+}  // namespace
+
+void ClusterFindings::parameter(const std::string& path, const std::string& value, const std::string& expected) {
+  const auto line = cluster_.parameter_lines.find(path);
+  at(line == cluster_.parameter_lines.end() ? 0 : line->second, path, value, expected);
+}
+
+void ClusterFindings::at(int line, const std::string& key, const std::string& value, const std::string& expected) {
+  list_.push_back({cluster_.file, line, key, value, expected});
+}
+
+std::int64_t assumed_precision_ps(const GlobalParameters& g) {
+  return (34 + 20 * static_cast<std::int64_t>(g.gClusterDriftDamping)) * g.gdMaxMicrotick_ps +
+         2 * g.gdMaxPropagationDelay_ps;
+}
+
+std::int64_t shortest_static_slot(const GlobalParameters& g) {
+  // TSS, FSS, 8 bytes of header and trailer and the payload at 10 bits each, FES, idle delimiter.
+  const std::int64_t bits = g.gdTSSTransmitter + 1 + 80 + 20 * g.gPayloadLengthStatic + 2 + kIdleDelimiterBits;
+  return around_action_points(g, bits, 0);
+}
+
+void check_cycle(const Cluster& cluster, ClusterFindings& findings) {
+  const GlobalParameters& g = cluster.flexray;
+  const auto wrong = [&](const char* name, std::int64_t value, const std::string& expected) {
+    findings.parameter(fmt::format("flexray.{}", name), fmt::format("{}", value), expected);
+  };
+  // Constraint 18.
+  const int difference = g.gNumberOfMinislots == 0
+                             ? 0 : std::max(0, g.gdActionPointOffset - g.gdMinislotActionPointOffset);
+  const int sum = g.gdStaticSlot * g.gNumberOfStaticSlots + difference + g.gdMinislot * g.gNumberOfMinislots +
+                  g.gdSymbolWindow + g.gdNIT;
+  if (sum != g.gMacroPerCycle)
+    wrong("gMacroPerCycle", g.gMacroPerCycle,
+          fmt::format("must be {} macroticks: {} slots x {} + {} (action point difference) + {} minislots x {} + symbol "
+                      "window {} + gdNIT {} (constraint 18)",
+                      sum, g.gNumberOfStaticSlots, g.gdStaticSlot, difference, g.gNumberOfMinislots, g.gdMinislot,
+                      g.gdSymbolWindow, g.gdNIT));
+  if (g.cycle_ps() != g.gdCycle_ps)
+    findings.parameter("flexray.gdCycle", us(g.gdCycle_ps),
+                       fmt::format("must be gMacroPerCycle * gdMacrotick = {}", us(g.cycle_ps())));
+  if (const auto needed = shortest_static_slot(g); g.gdStaticSlot < needed)
+    wrong("gdStaticSlot", g.gdStaticSlot,
+          fmt::format("must be at least {} macroticks to hold a frame of {} words between its action points", needed,
+                      g.gPayloadLengthStatic));
+  const std::int64_t precision = assumed_precision_ps(g);
+  const std::int64_t action_point = ceil_div(std::max<std::int64_t>(precision - g.gdMinPropagationDelay_ps, 0),
+                                             g.gdMacrotick_ps);
+  if (g.gdActionPointOffset < action_point)
+    wrong("gdActionPointOffset", g.gdActionPointOffset,
+          fmt::format("must be at least {} macroticks: the assumed precision is {}", action_point, us(precision)));
+  if (g.gdSymbolWindow > 0) {
+    const std::int64_t needed = around_action_points(g, g.gdTSSTransmitter + kCasBits + kIdleDelimiterBits,
+                                                     kDriverReaction_ps);
+    if (g.gdSymbolWindow < needed)
+      wrong("gdSymbolWindow", g.gdSymbolWindow,
+            fmt::format("must be 0 (none) or at least {} macroticks (constraint 16)", needed));
+  }
+  if (g.gOffsetCorrectionStart < g.gMacroPerCycle - g.gdNIT || g.gOffsetCorrectionStart >= g.gMacroPerCycle)
+    wrong("gOffsetCorrectionStart", g.gOffsetCorrectionStart,
+          fmt::format("must lie in the network idle time, {}..{} macroticks", g.gMacroPerCycle - g.gdNIT,
+                      g.gMacroPerCycle - 1));
+  if (static_cast<Int128>(g.gdBit_ps) * g.baudrate != 1'000'000'000'000)
+    wrong("baudrate", g.baudrate, fmt::format("must be 1 / gdBit, with gdBit = {}", us(g.gdBit_ps)));
+  if (g.gNumberOfStaticSlots + g.gNumberOfMinislots > kMostSlots)
+    wrong("gNumberOfMinislots", g.gNumberOfMinislots,
+          fmt::format("must be at most {}: frame ids end at {}", kMostSlots - g.gNumberOfStaticSlots, kMostSlots));
+  if (g.gMaxWithoutClockCorrectionFatal < g.gMaxWithoutClockCorrectionPassive)
+    wrong("gMaxWithoutClockCorrectionFatal", g.gMaxWithoutClockCorrectionFatal,
+          fmt::format("must be {}..15: not below gMaxWithoutClockCorrectionPassive",
+                      g.gMaxWithoutClockCorrectionPassive));
+  if (g.gdMinPropagationDelay_ps > g.gdMaxPropagationDelay_ps)
+    findings.parameter("flexray.gdMinPropagationDelay", us(g.gdMinPropagationDelay_ps),
+                       fmt::format("must be at most gdMaxPropagationDelay = {}", us(g.gdMaxPropagationDelay_ps)));
+  if (g.gNumberOfMinislots > 0 && g.gdMinislotActionPointOffset >= g.gdMinislot)
+    wrong("gdMinislotActionPointOffset", g.gdMinislotActionPointOffset,
+          fmt::format("must be below gdMinislot = {} macroticks", g.gdMinislot));
+}
+
+void check_clocks(const Cluster& cluster, ClusterFindings& findings) {
+  const GlobalParameters& g = cluster.flexray;
+  std::int64_t worst_drift = 0;
+  int sync = 0, startup = 0, controllers = 0;
+  for (const Node& node : cluster.nodes)
+    if (node.flexray) {
+      worst_drift = std::max(worst_drift, node.drift_ppb ? std::abs(*node.drift_ppb) : node.max_drift_ppb);
+      ++controllers;
+      sync += node.flexray->pKeySlotUsedForSync ? 1 : 0;
+      startup += node.flexray->pKeySlotUsedForStartup ? 1 : 0;
+    }
+  for (std::size_t n = 0; n < cluster.nodes.size(); ++n) {
+    const Node& node = cluster.nodes[n];
+    if (node.drift_ppb && std::abs(*node.drift_ppb) > node.max_drift_ppb)
+      findings.at(node.line, fmt::format("nodes.{}.drift_ppm", node.name),
+                  fmt::format("{}", static_cast<double>(*node.drift_ppb) * 1e-3),
+                  fmt::format("must be within +-max_drift_ppm = {}", static_cast<double>(node.max_drift_ppb) * 1e-3));
+    if (!node.flexray) continue;
+    const NodeParameters& p = *node.flexray;
+    const auto wrong = [&](const char* name, const std::string& value, const std::string& expected) {
+      findings.parameter(fmt::format("nodes.{}.flexray.{}", node.name, name), value, expected);
+    };
+    const auto text = [](std::int64_t value) { return fmt::format("{}", value); };
+    if (static_cast<Int128>(p.pMicroPerCycle) * p.pdMicrotick_ps != g.gdCycle_ps)
+      wrong("pMicroPerCycle", text(p.pMicroPerCycle),
+            fmt::format("must make gdCycle = {} out of microticks of {} ns", us(g.gdCycle_ps),
+                        static_cast<double>(p.pdMicrotick_ps) * 1e-3));
+    if (p.pdMicrotick_ps > g.gdMaxMicrotick_ps)
+      wrong("pdMicrotick", text(p.pdMicrotick_ps) + " ps",
+            fmt::format("must be at most gdMaxMicrotick = {} ps", g.gdMaxMicrotick_ps));
+    if (8 * p.pdMicrotick_ps != p.pSamplesPerMicrotick * g.gdBit_ps)
+      wrong("pSamplesPerMicrotick", text(p.pSamplesPerMicrotick),
+            fmt::format("must be 1, 2 or 4 samples of gdBit / 8 that make pdMicrotick = {} ns",
+                        static_cast<double>(p.pdMicrotick_ps) * 1e-3));
+    // Against the node that is farthest off to the other side, counted in own microticks.
+    const std::int64_t own = node.drift_ppb ? std::abs(*node.drift_ppb) : node.max_drift_ppb;
+    const std::int64_t rate = ceil_div(static_cast<Int128>(p.pMicroPerCycle) * (own + worst_drift),
+                                       1'000'000'000 - worst_drift);
+    if (p.pRateCorrectionOut < rate)
+      wrong("pRateCorrectionOut", text(p.pRateCorrectionOut),
+            fmt::format("must be at least {} microticks to follow the worst drift between two nodes", rate));
+    const std::int64_t offset = ceil_div(assumed_precision_ps(g), p.pdMicrotick_ps);
+    const std::int64_t room = (g.gMacroPerCycle - g.gOffsetCorrectionStart) * g.gdMacrotick_ps / p.pdMicrotick_ps;
+    if (p.pOffsetCorrectionOut < offset || p.pOffsetCorrectionOut >= room)
+      wrong("pOffsetCorrectionOut", text(p.pOffsetCorrectionOut),
+            fmt::format("must be {}..{} microticks: from the assumed precision to what fits behind "
+                        "gOffsetCorrectionStart", offset, room - 1));
+    if (static_cast<std::int64_t>(p.pClusterDriftDamping) * p.pdMicrotick_ps >
+        static_cast<std::int64_t>(g.gClusterDriftDamping) * g.gdMaxMicrotick_ps)
+      wrong("pClusterDriftDamping", text(p.pClusterDriftDamping),
+            fmt::format("must not exceed gClusterDriftDamping = {} longest microticks", g.gClusterDriftDamping));
+    if (p.pLatestTx > g.gNumberOfMinislots)
+      wrong("pLatestTx", text(p.pLatestTx),
+            fmt::format("must be at most gNumberOfMinislots = {}", g.gNumberOfMinislots));
+    if (p.pKeySlotUsedForStartup && !p.pKeySlotUsedForSync)
+      wrong("pKeySlotUsedForStartup", "true", "needs pKeySlotUsedForSync: a startup frame is a sync frame");
+    const bool owns = std::any_of(cluster.frames.begin(), cluster.frames.end(), [&](const FrameSlot& frame) {
+      return frame.slot == p.pKeySlotId && frame.sender == static_cast<NodeId>(n) && frame.repetition == 1 &&
+             frame.channels == Channels::kAB;
+    });
+    if (!owns)
+      wrong("pKeySlotId", text(p.pKeySlotId),
+            fmt::format("must be a slot that {} owns on both channels in every cycle", node.name));
+  }
+  if (controllers < 2)
+    findings.at(0, "nodes", fmt::format("{}", controllers), "must have at least 2 nodes on FlexRay");
+  if (sync < 2 || sync > g.gSyncNodeMax)
+    findings.parameter("flexray.gSyncNodeMax", fmt::format("{}", g.gSyncNodeMax),
+                       fmt::format("must allow the nodes with pKeySlotUsedForSync, which must be at least 2: there are {}",
+                                   sync));
+  const int needed = std::min(controllers, 3);
+  if (startup < std::max(needed, 2))
+    findings.at(0, "nodes", fmt::format("{}", startup),
+                fmt::format("must have at least {} nodes with pKeySlotUsedForStartup", std::max(needed, 2)));
+}
+
+std::vector<Finding> check(const Cluster& cluster) {
+  ClusterFindings findings(cluster);
+  check_cycle(cluster, findings);
+  check_clocks(cluster, findings);
+  check_slots(cluster, findings);
+  check_can(cluster, findings);
+  check_tasks(cluster, findings);
+  check_flow(cluster, findings);
+  return findings.take();
+}
+
+}  // namespace ttf::schedules

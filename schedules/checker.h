@@ -1,0 +1,49 @@
+// Proves a cluster consistent before anything runs: what the loader cannot see key by key.
+//
+// The rules and where they come from:
+//   cycle        constraints 16 and 18, static slot length, action point against the assumed precision, durations of cycle,
+//                macrotick, microtick and bit against each other (FlexRay 2.1A, annex B)
+//   clocks       sync and startup nodes, key slots, correction limits against the drifts the file allows
+//   slots        nobody owns a slot another owns in the same cycle and channel; payload fits; a PDU's fragments complete
+//   CAN          frames fit, identifiers are unique, worst-case load (schedules/can_load.h)
+//   tasks        no overlap, deadlines, every reader has a writer and the other way round, sensors have their tasks
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/errors.h"
+#include "schedules/cluster.h"
+
+namespace ttf::schedules {
+
+// Everything that is wrong, in a fixed order; empty for a cluster that may run.
+std::vector<Finding> check(const Cluster& cluster);
+
+// Collects findings about one cluster; shared by the checker's parts (checker_*.cc).
+class ClusterFindings {
+ public:
+  explicit ClusterFindings(const Cluster& cluster) : cluster_(cluster) {}
+  // About a parameter of the file, by its path ("flexray.gdNIT"): its line is looked up.
+  void parameter(const std::string& path, const std::string& value, const std::string& expected);
+  void at(int line, const std::string& key, const std::string& value, const std::string& expected);
+  std::vector<Finding> take() { return std::move(list_); }
+
+ private:
+  const Cluster& cluster_;
+  std::vector<Finding> list_;
+};
+
+void check_cycle(const Cluster& cluster, ClusterFindings& findings);
+void check_clocks(const Cluster& cluster, ClusterFindings& findings);
+void check_slots(const Cluster& cluster, ClusterFindings& findings);
+void check_can(const Cluster& cluster, ClusterFindings& findings);
+void check_tasks(const Cluster& cluster, ClusterFindings& findings);
+void check_flow(const Cluster& cluster, ClusterFindings& findings);   // readers, writers, sensors
+
+// gAssumedPrecision = (34 + 20 gClusterDriftDamping) gdMaxMicrotick + 2 gdMaxPropagationDelay, in picoseconds.
+std::int64_t assumed_precision_ps(const GlobalParameters& flexray);
+// Shortest static slot that holds a frame of gPayloadLengthStatic words, in macroticks.
+std::int64_t shortest_static_slot(const GlobalParameters& flexray);
+
+}  // namespace ttf::schedules

@@ -1,0 +1,128 @@
+// The checker's rules about who sends what when: static slots and private CANs.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include "schedules/can_load.h"
+#include "schedules/checker.h"
+
+namespace ttf::schedules {
+namespace {
+
+std::string_view channels_text(Channels channels) {
+  return channels == Channels::kA ? "A" : channels == Channels::kB ? "B" : "AB";
+}
+
+bool share_a_cycle(const FrameSlot& a, const FrameSlot& b) {
+  // Repetitions are powers of two, so the longer one is a multiple of the shorter.
+  const int shorter = std::min(a.repetition, b.repetition);
+  return a.base_cycle % shorter == b.base_cycle % shorter;
+}
+
+bool share_a_channel(const FrameSlot& a, const FrameSlot& b) {
+  return (static_cast<unsigned>(a.channels) & static_cast<unsigned>(b.channels)) != 0;
+}
+
+void check_list(const Cluster& cluster, PduId pdu, ClusterFindings& findings) {
+  const PduLayout& layout = cluster.pdu(pdu);
+  // Cycles in which a list is sent -> its fragments there.
+  std::map<std::pair<int, int>, std::set<int>> groups;
+  int line = 0;
+  const NodeId* sender = nullptr;
+  for (const FrameSlot& frame : cluster.frames) {
+    if (frame.pdu != pdu) continue;
+    line = line == 0 ? frame.line : line;
+    const std::string key = fmt::format("frames.slot {}", frame.slot);
+    if (frame.fragment >= layout.max_fragments())
+      findings.at(frame.line, key, fmt::format("fragment {}", frame.fragment),
+                  fmt::format("must be 0..{}: {} has {} fragments", layout.max_fragments() - 1, layout.name,
+                              layout.max_fragments()));
+    if (sender && *sender != frame.sender)
+      findings.at(frame.line, key, cluster.node(frame.sender).name,
+                  fmt::format("must be {}: all fragments of {} have one sender", cluster.node(*sender).name,
+                              layout.name));
+    if (!sender) sender = &frame.sender;
+    groups[{frame.base_cycle, frame.repetition}].insert(frame.fragment);
+  }
+  for (const auto& [cycles, fragments] : groups)
+    for (int f = 0; f < layout.max_fragments(); ++f)
+      if (!fragments.contains(f)) {
+        findings.at(line, fmt::format("frames.{}", layout.name), "",
+                    fmt::format("must have a slot for each of the {} fragments in the same cycles: fragment {} has none "
+                                "in base cycle {}, repetition {}",
+                                layout.max_fragments(), f, cycles.first, cycles.second));
+        break;
+      }
+}
+
+}  // namespace
+
+void check_slots(const Cluster& cluster, ClusterFindings& findings) {
+  const GlobalParameters& g = cluster.flexray;
+  std::set<PduId> lists;
+  for (std::size_t i = 0; i < cluster.frames.size(); ++i) {
+    const FrameSlot& frame = cluster.frames[i];
+    const std::string key = fmt::format("frames.slot {}", frame.slot);
+    const Node& sender = cluster.node(frame.sender);
+    if (frame.slot > g.gNumberOfStaticSlots)
+      findings.at(frame.line, key, fmt::format("{}", frame.slot),
+                  fmt::format("must be 1..{} (gNumberOfStaticSlots)", g.gNumberOfStaticSlots));
+    if (!sender.flexray) findings.at(frame.line, key, sender.name, "must be a node with a FlexRay controller");
+    if (frame.pdu != kNoPdu) {
+      lists.insert(frame.pdu);
+      const PduLayout& layout = cluster.pdu(frame.pdu);
+      if (layout.fragment_bytes > 2 * g.gPayloadLengthStatic)
+        findings.at(frame.line, key, fmt::format("{} ({} bytes)", layout.name, layout.fragment_bytes),
+                    fmt::format("must fit the payload of {} bytes (gPayloadLengthStatic)",
+                                2 * g.gPayloadLengthStatic));
+    }
+    for (std::size_t j = 0; j < i; ++j) {
+      const FrameSlot& other = cluster.frames[j];
+      if (other.slot != frame.slot || !share_a_channel(other, frame) || !share_a_cycle(other, frame)) continue;
+      findings.at(frame.line, key, fmt::format("{} on {}", sender.name, channels_text(frame.channels)),
+                  fmt::format("is owned twice: {} on {} sends there in some of the same cycles (base {}, repetition {}; "
+                              "line {})",
+                              cluster.node(other.sender).name, channels_text(other.channels), other.base_cycle,
+                              other.repetition, other.line));
+    }
+  }
+  for (const PduId pdu : lists) check_list(cluster, pdu, findings);
+}
+
+void check_can(const Cluster& cluster, ClusterFindings& findings) {
+  for (const CanBus& bus : cluster.can_buses) {
+    const std::string path = "can." + bus.name;
+    bool all_fit = true;
+    std::set<std::uint32_t> identifiers;
+    std::set<PduId> pdus;
+    for (const CanMessage& message : bus.messages) {
+      const PduLayout& layout = cluster.pdu(message.pdu);
+      const std::string key = fmt::format("{}.messages.{}", path, layout.name);
+      if (!can_data_length(bus.flexible_data_rate, layout.fragment_bytes)) {
+        all_fit = false;
+        findings.at(message.line, key, fmt::format("{} bytes", layout.fragment_bytes),
+                    fmt::format("must fit a frame of this CAN, at most {} bytes", bus.flexible_data_rate ? 64 : 8));
+      }
+      if (!identifiers.insert(message.identifier).second)
+        findings.at(message.line, key, fmt::format("identifier {}", message.identifier),
+                    "must be unique on its CAN: arbitration needs it");
+      if (!pdus.insert(message.pdu).second)
+        findings.at(message.line, key, layout.name, "must be sent by one message of its CAN only");
+      if (layout.sensor == kNoSensor) continue;
+      const Sensor& sensor = cluster.sensor(layout.sensor);
+      if (message.shortest_period > sensor.period)
+        findings.at(message.line, key, fmt::format("shortest_period {} ns", message.shortest_period.ns),
+                    fmt::format("must be at most the period of the sensor {}, {} ns", sensor.name, sensor.period.ns));
+    }
+    if (!all_fit) continue;   // no load without lengths
+    const double load = can_worst_load(cluster, bus);
+    if (load > kCanLoadLimit)
+      findings.at(bus.line, path, fmt::format("worst-case load {:.1f} %", 100.0 * load),
+                  fmt::format("must be at most {:.0f} %, other_load included", 100.0 * kCanLoadLimit));
+  }
+}
+
+}  // namespace ttf::schedules
