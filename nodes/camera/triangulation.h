@@ -1,0 +1,31 @@
+// From a stereo camera's detection to an object's position.
+//
+// Depth z = f b / d along the optical axis (x), x = z, y = z tan(bearing) (rectified pinhole pair). What the pair sees is the
+// middle of the face turned to it; the object's centre lies a nominal half length further along the line of sight. The
+// covariance is the first-order one of disparity, bearing and that half length; depth noise so grows with the square
+// of the range.
+#pragma once
+
+#include "core/strict_yaml.h"
+
+namespace ttf::nodes {
+
+struct CameraCalibration {
+  double baseline_m = 0.4;
+  double focal_px = 1100.0;
+  double disparity_sigma_px = 0.3;
+  double bearing_sigma_rad = 0.003;
+  double width_sigma_px = 2.0;
+  double half_length_m = 2.2, half_length_sigma_m = 0.25;   // a passenger car's, seen from front or rear
+};
+CameraCalibration load_camera_calibration(YamlMap& yaml);
+
+struct CameraObject {
+  double x = 0, y = 0, sxx = 0, sxy = 0, syy = 0;   // centre [m] and covariance
+  double width = 0, sigma_width = 0;                // [m]
+};
+
+// bearing [rad] within +-1.5, disparity [px] above zero, width [px].
+CameraObject triangulate(const CameraCalibration& calibration, double bearing, double disparity, double width_px);
+
+}  // namespace ttf::nodes

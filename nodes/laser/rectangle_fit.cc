@@ -1,0 +1,195 @@
+#include "nodes/laser/rectangle_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace ttf::nodes {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+// The returns seen along one axis of a candidate rectangle: extent, and the face turned to the sensor if there is one.
+struct Axis {
+  double cx = 1, sy = 0;                  // direction
+  double low = 0, high = 0;               // extent of the projections
+  bool visible = false;                   // a face normal to this axis is turned to the sensor
+  double near = 0, far = 0;               // its position, and the other end
+  double away = 1;                        // sign of the direction away from the sensor
+  double project(const PlanePoint& p) const { return cx * p.x + sy * p.y; }
+};
+
+Axis axis_at(double angle, std::span<const PlanePoint> points) {
+  Axis axis;
+  axis.cx = std::cos(angle);
+  axis.sy = std::sin(angle);
+  axis.low = std::numeric_limits<double>::infinity();
+  axis.high = -axis.low;
+  for (const PlanePoint& point : points) {
+    const double c = axis.project(point);
+    axis.low = std::min(axis.low, c);
+    axis.high = std::max(axis.high, c);
+  }
+  axis.away = axis.low + axis.high >= 0.0 ? 1.0 : -1.0;
+  axis.near = axis.away > 0 ? axis.low : axis.high;
+  axis.far = axis.away > 0 ? axis.high : axis.low;
+  axis.visible = axis.low > 0.0 || axis.high < 0.0;
+  return axis;
+}
+
+// Closeness of the returns to the faces that can be seen.
+double score(double angle, std::span<const PlanePoint> points, double closest) {
+  const Axis a = axis_at(angle, points), b = axis_at(angle + 0.5 * kPi, points);
+  double sum = 0.0;
+  for (const PlanePoint& point : points) {
+    const double da = std::abs(a.project(point) - a.near), db = std::abs(b.project(point) - b.near);
+    const double distance = a.visible && b.visible ? std::min(da, db) : a.visible ? da : db;
+    sum += 1.0 / std::max(distance, closest);
+  }
+  return sum;
+}
+
+double best_angle(std::span<const PlanePoint> points, double closest) {
+  constexpr double kCoarse = kPi / 90.0;
+  double best = 0.0, best_score = -1.0;
+  for (int i = 0; i < 45; ++i)
+    if (const double s = score(i * kCoarse, points, closest); s > best_score) {
+      best_score = s;
+      best = i * kCoarse;
+    }
+  const double centre = best;
+  for (int i = -9; i <= 9; ++i)
+    if (const double s = score(centre + i * kCoarse / 9.0, points, closest); s > best_score) {
+      best_score = s;
+      best = centre + i * kCoarse / 9.0;
+    }
+  return best;
+}
+
+// A vehicle of nominal size behind what little was seen: centre half a length behind, uncertain in every direction.
+LaserObject speck(const RectangleConfig& config, std::span<const PlanePoint> points) {
+  double x = 0, y = 0;
+  for (const PlanePoint& point : points) {
+    x += point.x;
+    y += point.y;
+  }
+  x /= static_cast<double>(points.size());
+  y /= static_cast<double>(points.size());
+  const double range = std::max(1e-3, std::hypot(x, y)), shift = 0.25 * (config.nominal_length_m + config.nominal_width_m);
+  LaserObject object;
+  object.x = x * (1.0 + shift / range);
+  object.y = y * (1.0 + shift / range);
+  // Anything between the half width and the half length: uniform over that span, in both directions.
+  const double spread = 0.5 * (config.nominal_length_m - config.nominal_width_m) / std::sqrt(3.0) + config.nominal_width_m / 2;
+  object.sxx = object.syy = spread * spread;
+  return object;
+}
+
+// Mean position of the face normal to `axis`: of the returns nearer to it than to the other face.
+double face(const Axis& axis, const Axis& other, std::span<const PlanePoint> points, int& count) {
+  double sum = 0.0;
+  count = 0;
+  for (const PlanePoint& point : points) {
+    const double d = std::abs(axis.project(point) - axis.near);
+    const double d_other = other.visible ? std::abs(other.project(point) - other.near) : d + 1.0;
+    if (d > d_other) continue;
+    sum += axis.project(point);
+    ++count;
+  }
+  return count > 0 ? sum / count : axis.near;
+}
+
+}  // namespace
+
+LaserObject fit_rectangle(const RectangleConfig& config, std::span<const PlanePoint> points) {
+  LaserObject object;
+  const double noise = config.range_noise_m;
+  bool shaped = points.size() >= 3;
+  Axis axes[2];
+  if (shaped) {
+    const double angle = best_angle(points, noise);
+    axes[0] = axis_at(angle, points);
+    axes[1] = axis_at(angle + 0.5 * kPi, points);
+    shaped = std::max(axes[0].high - axes[0].low, axes[1].high - axes[1].low) > 0.5;
+  }
+  if (!shaped || !(axes[0].visible || axes[1].visible)) {
+    object = speck(config, points);
+    object.length = config.nominal_length_m;
+    object.width = config.nominal_width_m;
+    object.sigma_length = config.length_sigma_m;
+    object.sigma_width = config.width_sigma_m;
+    object.sigma_heading = kPi / std::sqrt(3.0);
+    object.points = static_cast<int>(points.size());
+    return object;
+  }
+
+  // Extents: noise widens a face's depth; the ends of a face lie up to one beam beyond its last return.
+  double extent[2], extent_sigma[2];
+  bool measured[2];
+  const double range = std::hypot(points.front().x, points.front().y);
+  for (int k = 0; k < 2; ++k) {
+    const Axis& axis = axes[k];
+    const Axis& other = axes[1 - k];
+    // Along axis k runs the face normal to the other axis: seen only if that one is visible. Its returns are spaced by
+    // the beams' step over the sine of the incidence.
+    const double incidence = std::abs(axis.cx * points.front().y - axis.sy * points.front().x) / range;
+    const double spacing = range * config.azimuth_step_rad / std::max(0.1, std::abs(incidence));
+    const double raw = axis.high - axis.low;
+    extent[k] = other.visible ? raw + spacing : raw;
+    extent_sigma[k] = std::hypot(std::max(noise, 0.6 * spacing), 0.1);
+    measured[k] = other.visible && raw > std::max(0.4, 4.0 * noise);
+  }
+  // Which axis the vehicle's length runs along: the one with an extent no width reaches, else across the rear.
+  int along;
+  if (std::max(extent[0], extent[1]) > config.widest_rear_m)
+    along = extent[0] > extent[1] ? 0 : 1;
+  else if (measured[0] != measured[1])
+    along = measured[0] ? 1 : 0;
+  else
+    along = std::abs(extent[0] - config.nominal_width_m) < std::abs(extent[1] - config.nominal_width_m) ? 1 : 0;
+  const int across = 1 - along;
+
+  object.has_length = measured[along] && extent[along] > config.widest_rear_m;
+  object.has_width = measured[across] && extent[across] > config.narrowest_width_m &&
+                     extent[across] < config.widest_rear_m;
+  object.length = object.has_length ? extent[along] : config.nominal_length_m;
+  object.width = object.has_width ? extent[across] : config.nominal_width_m;
+  object.sigma_length = object.has_length ? extent_sigma[along] : config.length_sigma_m;
+  object.sigma_width = object.has_width ? extent_sigma[across] : config.width_sigma_m;
+  object.has_heading = object.has_length || object.has_width;
+  object.heading = std::atan2(axes[along].sy * axes[along].away, axes[along].cx * axes[along].away);
+  const double longest = std::max(object.has_length ? extent[along] : 0.0, object.has_width ? extent[across] : 0.0);
+  object.sigma_heading = object.has_heading
+                             ? 0.02 + noise * std::sqrt(12.0 / static_cast<double>(points.size())) / longest
+                             : kPi / std::sqrt(3.0);
+
+  const double size[2] = {along == 0 ? object.length : object.width, along == 0 ? object.width : object.length};
+  const double size_sigma[2] = {along == 0 ? object.sigma_length : object.sigma_width,
+                                along == 0 ? object.sigma_width : object.sigma_length};
+  double centre[2], variance[2];
+  for (int k = 0; k < 2; ++k) {
+    int count = 0;
+    if (axes[k].visible) {
+      const double position = face(axes[k], axes[1 - k], points, count);
+      centre[k] = position + axes[k].away * 0.5 * size[k];
+      variance[k] = noise * noise / std::max(1, count) + 0.25 * size_sigma[k] * size_sigma[k];
+    } else {
+      centre[k] = 0.5 * (axes[k].low + axes[k].high);
+      // Where only part of a face was seen, its middle may be anywhere within what is missing.
+      const double missing = std::max(0.0, size[k] - (axes[k].high - axes[k].low));
+      variance[k] = 0.25 * extent_sigma[k] * extent_sigma[k] + missing * missing / 12.0;
+    }
+    variance[k] += 1e-4;   // nothing is known better than to a centimetre
+  }
+  const double c = axes[0].cx, s = axes[0].sy;
+  object.x = c * centre[0] + axes[1].cx * centre[1];
+  object.y = s * centre[0] + axes[1].sy * centre[1];
+  object.sxx = c * c * variance[0] + s * s * variance[1];
+  object.syy = s * s * variance[0] + c * c * variance[1];
+  object.sxy = c * s * (variance[0] - variance[1]);
+  object.points = static_cast<int>(points.size());
+  return object;
+}
+
+}  // namespace ttf::nodes

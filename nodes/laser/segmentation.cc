@@ -1,0 +1,39 @@
+#include "nodes/laser/segmentation.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ttf::nodes {
+
+void segment_scan(const SegmentationConfig& config, std::span<const ScanPoint> scan, std::vector<PlanePoint>& points,
+                  std::vector<Segment>& segments) {
+  points.clear();
+  segments.clear();
+  for (const ScanPoint& point : scan)
+    points.push_back({point.range * std::cos(point.azimuth), point.range * std::sin(point.azimuth), point.azimuth,
+                      point.range});
+  std::sort(points.begin(), points.end(), [](const PlanePoint& a, const PlanePoint& b) {
+    return a.azimuth != b.azimuth ? a.azimuth < b.azimuth : a.range < b.range;
+  });
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    bool same = !segments.empty();
+    if (same) {
+      const PlanePoint& previous = points[i - 1];
+      // A missing beam or two must not cut an object: the step counts as at least the scanner's.
+      const double step = std::max(config.azimuth_step_rad, points[i].azimuth - previous.azimuth);
+      const double nearer = std::min(previous.range, points[i].range);
+      const double limit = step < config.incidence_rad
+                               ? nearer * std::sin(step) / std::sin(config.incidence_rad - step) +
+                                     3.0 * config.range_noise_m
+                               : 0.0;
+      const double gap = std::hypot(points[i].x - previous.x, points[i].y - previous.y);
+      same = gap <= std::max(limit, config.smallest_gap_m) && step < config.incidence_rad;
+    }
+    if (same)
+      ++segments.back().count;
+    else
+      segments.push_back({i, 1});
+  }
+}
+
+}  // namespace ttf::nodes
