@@ -1,0 +1,27 @@
+#include "recording/file_bytes.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <vector>
+
+#include "core/errors.h"
+
+namespace ttf::recording {
+
+std::string read_file(const std::string& path) {
+  const auto fail = [&path] {
+    throw InputError({path, 0, "", "", std::string("cannot be read: ") + std::strerror(errno)});
+  };
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
+  if (file == nullptr) fail();
+  // Grows with what is really there, not with what a size field or a special file claims.
+  std::string bytes;
+  std::vector<char> block(1 << 20);
+  while (const std::size_t got = std::fread(block.data(), 1, block.size(), file.get())) bytes.append(block.data(), got);
+  if (std::ferror(file.get()) != 0) fail();
+  return bytes;
+}
+
+}  // namespace ttf::recording

@@ -1,0 +1,202 @@
+#include <algorithm>
+#include <limits>
+#include <type_traits>
+
+#include "recording/log_codec.h"
+
+namespace ttf::recording {
+namespace {
+
+// Narrows numbers to what a record holds, remembering whether all of them fitted.
+class Narrow {
+ public:
+  template <class Out, class In>
+  Out to(In value, Out low = std::numeric_limits<Out>::min(), Out high = std::numeric_limits<Out>::max()) {
+    if (value < static_cast<In>(low) || value > static_cast<In>(high)) ok_ = false;
+    return static_cast<Out>(value);
+  }
+  template <class Enum>
+  Enum id(std::uint32_t value) {
+    return static_cast<Enum>(to<std::underlying_type_t<Enum>>(value));
+  }
+  template <class Enum>
+  Enum choice(std::uint32_t value, Enum low, Enum high) {
+    using Number = std::underlying_type_t<Enum>;
+    return static_cast<Enum>(to<Number>(value, static_cast<Number>(low), static_cast<Number>(high)));
+  }
+  bool ok() const { return ok_; }
+
+ private:
+  bool ok_ = true;
+};
+
+records::Stamp stamp_of(const ttfusion::Stamp& in, Narrow& narrow) {
+  return {TrueTime{in.true_time()}, LocalTime{in.local()}, GlobalTime{in.global()}, narrow.id<NodeId>(in.node())};
+}
+
+MeasurementId id_of(const ttfusion::MeasurementId& in, Narrow& narrow) {
+  return {narrow.id<SensorId>(in.sensor()), in.sequence()};
+}
+
+records::ImageObject object_of(const ttfusion::ImageObject& in, Narrow& narrow) {
+  return {narrow.id<TrackId>(in.track()), in.x(), in.y(), in.heading(), in.speed(), in.acceleration(), in.length(),
+          in.width(), in.sigma_x(), in.sigma_y(), in.correlation_xy(), in.sigma_heading(), in.sigma_speed(),
+          in.sigma_acceleration(), in.sigma_length(), in.sigma_width()};
+}
+
+std::span<const std::byte> bytes_of(const std::string& in) {
+  return {reinterpret_cast<const std::byte*>(in.data()), in.size()};
+}
+
+}  // namespace
+
+google::protobuf::Message* Payloads::of(RecordKind kind) {
+  switch (kind) {
+    case RecordKind::kMeasured: return &measured;
+    case RecordKind::kCanFrame: return &can_frame;
+    case RecordKind::kSlotFrame: return &slot_frame;
+    case RecordKind::kSlotProblem: return &slot_problem;
+    case RecordKind::kListHop: return &list_hop;
+    case RecordKind::kTaskRun: return &task_run;
+    case RecordKind::kClockCorrected: return &clock_corrected;
+    case RecordKind::kPrecision: return &precision;
+    case RecordKind::kFusionInput: return &fusion_input;
+    case RecordKind::kListFused: return &list_fused;
+    case RecordKind::kFusionStep: return &fusion_step;
+    case RecordKind::kTrack: return &track;
+    case RecordKind::kObservation: return &observation;
+    case RecordKind::kImage: return &image;
+    case RecordKind::kFeature: return &feature;
+    case RecordKind::kReference: return &reference;
+    case RecordKind::kTruth: return &truth;
+  }
+  return nullptr;
+}
+
+bool Decoder::decode(RecordKind kind, std::string_view bytes, records::Sink& sink) {
+  google::protobuf::Message* payload = payloads_.of(kind);
+  if (payload == nullptr || bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()) ||
+      !payload->ParseFromArray(bytes.data(), static_cast<int>(bytes.size())))
+    return false;
+  Narrow narrow;
+  const auto hand_on = [&](const auto& record) {
+    if (narrow.ok()) sink.on(record);
+    return narrow.ok();
+  };
+  switch (kind) {
+    case RecordKind::kMeasured: {
+      const auto& in = payloads_.measured;
+      truth_ids_.clear();
+      for (const std::uint32_t id : in.truth_ids()) truth_ids_.push_back(narrow.id<ObjectId>(id));
+      return hand_on(records::Measured{stamp_of(in.stamp(), narrow), id_of(in.id(), narrow), truth_ids_});
+    }
+    case RecordKind::kCanFrame: {
+      const auto& in = payloads_.can_frame;
+      return hand_on(records::CanFrameSent{
+          narrow.to<std::uint8_t>(in.bus()), narrow.id<NodeId>(in.sender()), TrueTime{in.start()}, TrueTime{in.end()},
+          in.identifier(), in.flexible_data_rate(), narrow.id<PduId>(in.pdu()), in.sequence(),
+          narrow.to<std::uint8_t>(in.fragment()), bytes_of(in.data())});
+    }
+    case RecordKind::kSlotFrame: {
+      const auto& in = payloads_.slot_frame;
+      return hand_on(records::SlotFrameSent{
+          stamp_of(in.stamp(), narrow), TrueTime{in.end()}, in.cycle(), narrow.to<std::uint16_t>(in.slot()),
+          narrow.to<std::uint8_t>(in.channel()), in.null_frame(), narrow.id<PduId>(in.pdu()), in.sequence(),
+          narrow.to<std::uint8_t>(in.fragment()), bytes_of(in.bytes())});
+    }
+    case RecordKind::kSlotProblem: {
+      const auto& in = payloads_.slot_problem;
+      return hand_on(records::SlotProblem{stamp_of(in.stamp(), narrow), in.cycle(),
+                                          narrow.to<std::uint16_t>(in.slot()), narrow.to<std::uint8_t>(in.channel()),
+                                          narrow.to<std::uint8_t>(in.status())});
+    }
+    case RecordKind::kListHop: {
+      const auto& in = payloads_.list_hop;
+      return hand_on(records::ListHop{stamp_of(in.stamp(), narrow),
+                                      narrow.choice(in.hop(), records::Hop::kWritten, records::Hop::kOverwritten),
+                                      narrow.id<PduId>(in.pdu()), in.sequence(),
+                                      narrow.to<std::int8_t>(in.can_bus())});
+    }
+    case RecordKind::kTaskRun: {
+      const auto& in = payloads_.task_run;
+      return hand_on(records::TaskRun{stamp_of(in.start(), narrow), narrow.to<std::uint8_t>(in.task()),
+                                      TrueTime{in.activated()}, TrueTime{in.end()}, in.deadline_met()});
+    }
+    case RecordKind::kClockCorrected: {
+      const auto& in = payloads_.clock_corrected;
+      return hand_on(records::ClockCorrected{stamp_of(in.stamp(), narrow), in.cycle(), in.offset_microticks(),
+                                             in.rate_microticks(), in.offset_missing(), in.rate_missing(),
+                                             in.offset_limited(), in.rate_limited()});
+    }
+    case RecordKind::kPrecision: {
+      const auto& in = payloads_.precision;
+      return hand_on(records::PrecisionSample{TrueTime{in.at()}, in.cycle(), Duration{in.precision()}});
+    }
+    case RecordKind::kFusionInput: {
+      const auto& in = payloads_.fusion_input;
+      return hand_on(records::FusionInput{stamp_of(in.stamp(), narrow), in.step(), narrow.id<PduId>(in.pdu()),
+                                          in.sequence(), GlobalTime{in.measured()},
+                                          narrow.to<std::uint16_t>(in.count()), bytes_of(in.fragments())});
+    }
+    case RecordKind::kListFused: {
+      const auto& in = payloads_.list_fused;
+      return hand_on(records::ListFused{
+          stamp_of(in.stamp(), narrow), in.step(), id_of(in.id(), narrow), GlobalTime{in.measured()},
+          narrow.choice(in.disposition(), records::Disposition::kFused, records::Disposition::kDuplicate)});
+    }
+    case RecordKind::kFusionStep: {
+      const auto& in = payloads_.fusion_step;
+      return hand_on(records::FusionStep{stamp_of(in.stamp(), narrow), in.step(),
+                                         narrow.to<std::uint16_t>(in.confirmed()),
+                                         narrow.to<std::uint16_t>(in.tentative())});
+    }
+    case RecordKind::kTrack: {
+      const auto& in = payloads_.track;
+      if (in.state_size() != 6 || in.covariance_size() != 36) return false;
+      return hand_on(records::TrackState{stamp_of(in.stamp(), narrow), in.step(), narrow.id<TrackId>(in.track()),
+                                         GlobalTime{in.valid_at()},
+                                         std::span<const double, 6>(in.state().data(), 6),
+                                         std::span<const double, 36>(in.covariance().data(), 36),
+                                         in.predicted_for_image()});
+    }
+    case RecordKind::kObservation: {
+      const auto& in = payloads_.observation;
+      return hand_on(records::ObservationSeen{stamp_of(in.stamp(), narrow), id_of(in.id(), narrow),
+                                              GlobalTime{in.measured()}, narrow.to<std::uint16_t>(in.index()), in.x(),
+                                              in.y(), in.sxx(), in.sxy(), in.syy()});
+    }
+    case RecordKind::kImage: {
+      const auto& in = payloads_.image;
+      image_objects_.clear();
+      newest_.clear();
+      for (const auto& object : in.objects()) image_objects_.push_back(object_of(object, narrow));
+      for (const auto& id : in.newest()) newest_.push_back(id_of(id, narrow));
+      return hand_on(records::ImageWritten{stamp_of(in.stamp(), narrow), in.sequence(), GlobalTime{in.valid_at()},
+                                           GlobalTime{in.newest_measurement()}, image_objects_, newest_});
+    }
+    case RecordKind::kFeature: {
+      const auto& in = payloads_.feature;
+      feature_objects_.clear();
+      for (const auto& object : in.objects())
+        feature_objects_.push_back({object_of(object.image(), narrow), object.time_gap_s(),
+                                    object.time_to_collision_s(), object.warning()});
+      return hand_on(records::FeatureUsed{stamp_of(in.stamp(), narrow), in.image_sequence(),
+                                          GlobalTime{in.image_valid_at()}, in.fresh(), feature_objects_});
+    }
+    case RecordKind::kReference: {
+      const auto& in = payloads_.reference;
+      return hand_on(records::ReferenceFix{TrueTime{in.measured_true()}, GlobalTime{in.measured()},
+                                           GlobalTime{in.available()}, narrow.id<ObjectId>(in.object()), in.x(),
+                                           in.y(), in.sigma()});
+    }
+    case RecordKind::kTruth: {
+      const auto& in = payloads_.truth;
+      return hand_on(records::TruthState{TrueTime{in.at()}, narrow.id<ObjectId>(in.object()), in.x(), in.y(),
+                                         in.heading(), in.speed(), in.acceleration(), in.yaw_rate(), in.length(),
+                                         in.width()});
+    }
+  }
+  return false;
+}
+
+}  // namespace ttf::recording

@@ -1,0 +1,267 @@
+#include "recording/log_codec.h"
+
+namespace ttf::recording {
+namespace {
+
+template <class Enum>
+constexpr std::uint32_t number(Enum value) {
+  return static_cast<std::uint32_t>(value);
+}
+
+void fill(ttfusion::Stamp& out, const records::Stamp& in) {
+  out.set_true_time(in.true_time.ns);
+  out.set_local(in.local.ns);
+  out.set_global(in.global.ns);
+  out.set_node(number(in.node));
+}
+
+void fill(ttfusion::MeasurementId& out, const MeasurementId& in) {
+  out.set_sensor(number(in.sensor));
+  out.set_sequence(in.sequence);
+}
+
+void fill(ttfusion::ImageObject& out, const records::ImageObject& in) {
+  out.set_track(number(in.track));
+  out.set_x(in.x);
+  out.set_y(in.y);
+  out.set_heading(in.heading);
+  out.set_speed(in.speed);
+  out.set_acceleration(in.acceleration);
+  out.set_length(in.length);
+  out.set_width(in.width);
+  out.set_sigma_x(in.sigma_x);
+  out.set_sigma_y(in.sigma_y);
+  out.set_correlation_xy(in.correlation_xy);
+  out.set_sigma_heading(in.sigma_heading);
+  out.set_sigma_speed(in.sigma_speed);
+  out.set_sigma_acceleration(in.sigma_acceleration);
+  out.set_sigma_length(in.sigma_length);
+  out.set_sigma_width(in.sigma_width);
+}
+
+LogTimes times_of(const records::Stamp& stamp) { return {stamp.true_time.ns, stamp.global.ns}; }
+
+void fill_bytes(std::string& out, std::span<const std::byte> in) {
+  out.assign(reinterpret_cast<const char*>(in.data()), in.size());
+}
+
+}  // namespace
+
+Encoded encode(const records::Measured& in, Payloads& payloads) {
+  auto& out = payloads.measured;
+  out.Clear();
+  fill(*out.mutable_stamp(), in.stamp);
+  fill(*out.mutable_id(), in.id);
+  for (const ObjectId id : in.truth_ids) out.add_truth_ids(number(id));
+  return {RecordKind::kMeasured, &out, times_of(in.stamp)};
+}
+
+Encoded encode(const records::CanFrameSent& in, Payloads& payloads) {
+  auto& out = payloads.can_frame;
+  out.Clear();
+  out.set_bus(in.bus);
+  out.set_sender(number(in.sender));
+  out.set_start(in.start.ns);
+  out.set_end(in.end.ns);
+  out.set_identifier(in.identifier);
+  out.set_flexible_data_rate(in.flexible_data_rate);
+  out.set_pdu(number(in.pdu));
+  out.set_sequence(in.sequence);
+  out.set_fragment(in.fragment);
+  fill_bytes(*out.mutable_data(), in.data);
+  return {RecordKind::kCanFrame, &out, {in.end.ns, in.end.ns}};
+}
+
+Encoded encode(const records::SlotFrameSent& in, Payloads& payloads) {
+  auto& out = payloads.slot_frame;
+  out.Clear();
+  fill(*out.mutable_stamp(), in.stamp);
+  out.set_end(in.end.ns);
+  out.set_cycle(in.cycle);
+  out.set_slot(in.slot);
+  out.set_channel(in.channel);
+  out.set_null_frame(in.null_frame);
+  out.set_pdu(number(in.pdu));
+  out.set_sequence(in.sequence);
+  out.set_fragment(in.fragment);
+  fill_bytes(*out.mutable_bytes(), in.bytes);
+  return {RecordKind::kSlotFrame, &out, times_of(in.stamp)};
+}
+
+Encoded encode(const records::SlotProblem& in, Payloads& payloads) {
+  auto& out = payloads.slot_problem;
+  out.Clear();
+  fill(*out.mutable_stamp(), in.stamp);
+  out.set_cycle(in.cycle);
+  out.set_slot(in.slot);
+  out.set_channel(in.channel);
+  out.set_status(in.status);
+  return {RecordKind::kSlotProblem, &out, times_of(in.stamp)};
+}
+
+Encoded encode(const records::ListHop& in, Payloads& payloads) {
+  auto& out = payloads.list_hop;
+  out.Clear();
+  fill(*out.mutable_stamp(), in.stamp);
+  out.set_hop(number(in.hop));
+  out.set_pdu(number(in.pdu));
+  out.set_sequence(in.sequence);
+  out.set_can_bus(in.can_bus);
+  return {RecordKind::kListHop, &out, times_of(in.stamp)};
+}
+
+Encoded encode(const records::TaskRun& in, Payloads& payloads) {
+  auto& out = payloads.task_run;
+  out.Clear();
+  fill(*out.mutable_start(), in.start);
+  out.set_task(in.task);
+  out.set_activated(in.activated.ns);
+  out.set_end(in.end.ns);
+  out.set_deadline_met(in.deadline_met);
+  return {RecordKind::kTaskRun, &out, times_of(in.start)};
+}
+
+Encoded encode(const records::ClockCorrected& in, Payloads& payloads) {
+  auto& out = payloads.clock_corrected;
+  out.Clear();
+  fill(*out.mutable_stamp(), in.stamp);
+  out.set_cycle(in.cycle);
+  out.set_offset_microticks(in.offset_microticks);
+  out.set_rate_microticks(in.rate_microticks);
+  out.set_offset_missing(in.offset_missing);
+  out.set_rate_missing(in.rate_missing);
+  out.set_offset_limited(in.offset_limited);
+  out.set_rate_limited(in.rate_limited);
+  return {RecordKind::kClockCorrected, &out, times_of(in.stamp)};
+}
+
+Encoded encode(const records::PrecisionSample& in, Payloads& payloads) {
+  auto& out = payloads.precision;
+  out.Clear();
+  out.set_at(in.at.ns);
+  out.set_cycle(in.cycle);
+  out.set_precision(in.precision.ns);
+  return {RecordKind::kPrecision, &out, {in.at.ns, in.at.ns}};
+}
+
+Encoded encode(const records::FusionInput& in, Payloads& payloads) {
+  auto& out = payloads.fusion_input;
+  out.Clear();
+  fill(*out.mutable_stamp(), in.stamp);
+  out.set_step(in.step);
+  out.set_pdu(number(in.pdu));
+  out.set_sequence(in.sequence);
+  out.set_measured(in.measured.ns);
+  out.set_count(in.count);
+  fill_bytes(*out.mutable_fragments(), in.fragments);
+  return {RecordKind::kFusionInput, &out, times_of(in.stamp)};
+}
+
+Encoded encode(const records::ListFused& in, Payloads& payloads) {
+  auto& out = payloads.list_fused;
+  out.Clear();
+  fill(*out.mutable_stamp(), in.stamp);
+  out.set_step(in.step);
+  fill(*out.mutable_id(), in.id);
+  out.set_measured(in.measured.ns);
+  out.set_disposition(number(in.disposition));
+  return {RecordKind::kListFused, &out, times_of(in.stamp)};
+}
+
+Encoded encode(const records::FusionStep& in, Payloads& payloads) {
+  auto& out = payloads.fusion_step;
+  out.Clear();
+  fill(*out.mutable_stamp(), in.stamp);
+  out.set_step(in.step);
+  out.set_confirmed(in.confirmed);
+  out.set_tentative(in.tentative);
+  return {RecordKind::kFusionStep, &out, times_of(in.stamp)};
+}
+
+Encoded encode(const records::TrackState& in, Payloads& payloads) {
+  auto& out = payloads.track;
+  out.Clear();
+  fill(*out.mutable_stamp(), in.stamp);
+  out.set_step(in.step);
+  out.set_track(number(in.track));
+  out.set_valid_at(in.valid_at.ns);
+  for (const double value : in.state) out.add_state(value);
+  for (const double value : in.covariance) out.add_covariance(value);
+  out.set_predicted_for_image(in.predicted_for_image);
+  return {RecordKind::kTrack, &out, times_of(in.stamp)};
+}
+
+Encoded encode(const records::ObservationSeen& in, Payloads& payloads) {
+  auto& out = payloads.observation;
+  out.Clear();
+  fill(*out.mutable_stamp(), in.stamp);
+  fill(*out.mutable_id(), in.id);
+  out.set_measured(in.measured.ns);
+  out.set_index(in.index);
+  out.set_x(in.x);
+  out.set_y(in.y);
+  out.set_sxx(in.sxx);
+  out.set_sxy(in.sxy);
+  out.set_syy(in.syy);
+  return {RecordKind::kObservation, &out, times_of(in.stamp)};
+}
+
+Encoded encode(const records::ImageWritten& in, Payloads& payloads) {
+  auto& out = payloads.image;
+  out.Clear();
+  fill(*out.mutable_stamp(), in.stamp);
+  out.set_sequence(in.sequence);
+  out.set_valid_at(in.valid_at.ns);
+  out.set_newest_measurement(in.newest_measurement.ns);
+  for (const auto& object : in.objects) fill(*out.add_objects(), object);
+  for (const auto& id : in.newest) fill(*out.add_newest(), id);
+  return {RecordKind::kImage, &out, times_of(in.stamp)};
+}
+
+Encoded encode(const records::FeatureUsed& in, Payloads& payloads) {
+  auto& out = payloads.feature;
+  out.Clear();
+  fill(*out.mutable_stamp(), in.stamp);
+  out.set_image_sequence(in.image_sequence);
+  out.set_image_valid_at(in.image_valid_at.ns);
+  out.set_fresh(in.fresh);
+  for (const auto& object : in.objects) {
+    auto& item = *out.add_objects();
+    fill(*item.mutable_image(), object.image);
+    item.set_time_gap_s(object.time_gap_s);
+    item.set_time_to_collision_s(object.time_to_collision_s);
+    item.set_warning(object.warning);
+  }
+  return {RecordKind::kFeature, &out, times_of(in.stamp)};
+}
+
+Encoded encode(const records::ReferenceFix& in, Payloads& payloads) {
+  auto& out = payloads.reference;
+  out.Clear();
+  out.set_measured_true(in.measured_true.ns);
+  out.set_measured(in.measured.ns);
+  out.set_available(in.available.ns);
+  out.set_object(number(in.object));
+  out.set_x(in.x);
+  out.set_y(in.y);
+  out.set_sigma(in.sigma);
+  return {RecordKind::kReference, &out, {in.measured_true.ns, in.measured.ns}};
+}
+
+Encoded encode(const records::TruthState& in, Payloads& payloads) {
+  auto& out = payloads.truth;
+  out.Clear();
+  out.set_at(in.at.ns);
+  out.set_object(number(in.object));
+  out.set_x(in.x);
+  out.set_y(in.y);
+  out.set_heading(in.heading);
+  out.set_speed(in.speed);
+  out.set_acceleration(in.acceleration);
+  out.set_yaw_rate(in.yaw_rate);
+  out.set_length(in.length);
+  out.set_width(in.width);
+  return {RecordKind::kTruth, &out, {in.at.ns, in.at.ns}};
+}
+
+}  // namespace ttf::recording

@@ -1,0 +1,94 @@
+#include "recording/log_reader.h"
+
+#include <charconv>
+
+#include "core/errors.h"
+#include "recording/content_hash.h"
+#include "recording/file_bytes.h"
+#include "recording/log_codec.h"
+#include "recording/manifest_codec.h"
+#include "recording/mcap_bytes.h"
+#include "recording/mcap_reader.h"
+
+namespace ttf::recording {
+namespace {
+
+class Collector final : public McapHandler {
+ public:
+  Collector(LogInfo& info, records::Sink& sink) : info_(info), sink_(sink) {}
+
+  void on_metadata(std::string_view name, const ManifestEntries& entries) override {
+    if (name == kManifestName && !has_manifest_) {
+      has_manifest_ = true;
+      manifest_sound_ = read_manifest(entries, info_.manifest);
+    } else if (name == kResultName) {
+      for (const auto& [key, value] : entries) {
+        std::uint64_t hash = 0;
+        const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), hash, 16);
+        if (key == "content_hash" && error == std::errc{} && end == value.data() + value.size())
+          info_.stated_content_hash = hash;
+      }
+    }
+  }
+  void on_attachment(std::string_view name, std::string_view bytes) override {
+    info_.attachments.emplace_back(name, bytes);
+  }
+  bool on_message(std::uint16_t channel, std::uint64_t log_time, std::string_view payload) override {
+    if (channel < 1 || channel > kRecordKinds) return false;
+    const auto kind = static_cast<RecordKind>(channel);
+    if (!decoder_.decode(kind, payload, sink_)) return false;
+    hash_.add(log_time, static_cast<std::uint8_t>(kind), payload);
+    ++info_.counts[channel - 1u];
+    return true;
+  }
+
+  bool has_manifest() const { return has_manifest_; }
+  bool manifest_sound() const { return manifest_sound_; }
+  std::uint64_t hash() const { return hash_.value(); }
+
+ private:
+  LogInfo& info_;
+  records::Sink& sink_;
+  Decoder decoder_;
+  ContentHash hash_;
+  bool has_manifest_ = false;
+  bool manifest_sound_ = false;
+};
+
+void check_is_log(std::string_view bytes, const std::string& name) {
+  const std::string_view start = bytes.substr(0, kMcapMagic.size());
+  if (start != kMcapMagic.substr(0, start.size()))
+    throw InputError({name, 0, "", "", "is not a log: it does not begin as an MCAP file does"});
+  // A damaged header is no reason to give up a log whose manifest is there; a sound one of another program is.
+  const std::string_view profile = mcap_profile(bytes);
+  if (!profile.empty() && profile != kLogProfile && bytes.find(kManifestName) == std::string_view::npos)
+    throw InputError({name, 0, "profile", std::string(profile), "is an MCAP file, but its profile must be ttfusion"});
+}
+
+}  // namespace
+
+LogInfo read_log_bytes(std::string_view bytes, const std::string& name, records::Sink& sink) {
+  check_is_log(bytes, name);
+  LogInfo info;
+  Collector collector(info, sink);
+  McapReport report = walk_mcap(bytes, collector);
+  info.truncated = report.truncated;
+  info.chunks_read = report.chunks_read;
+  info.chunks_lost = report.chunks_lost;
+  info.content_hash = collector.hash();
+  if (!collector.has_manifest())
+    report.warnings.push_back("the manifest is missing: names and seed are unknown");
+  else if (!collector.manifest_sound())
+    report.warnings.push_back("the manifest is damaged: names and seed may be wrong");
+  if (report.warnings.empty() && info.stated_content_hash != info.content_hash)
+    report.warnings.push_back("the content hash that the log states is not that of its records");
+  for (const std::string& warning : report.warnings) {
+    if (!info.warning.empty()) info.warning += '\n';
+    info.warning += name + ": " + warning;
+  }
+  return info;
+}
+
+LogInfo read_log(const std::string& path, records::Sink& sink) { return read_log_bytes(read_file(path), path, sink); }
+
+}  // namespace ttf::recording
