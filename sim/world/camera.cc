@@ -1,0 +1,93 @@
+#include "sim/world/camera.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/random.h"
+#include "sim/world/shape.h"
+
+namespace ttf::world {
+namespace {
+
+// Middle of the face that is turned most to the origin: largest cosine between its outward normal and the way back.
+Corner seen_point(const ObjectState& state) {
+  const auto corner = corners(state);
+  Corner best;
+  double best_cosine = -2.0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Corner& a = corner[k];
+    const Corner& b = corner[(k + 1) % 4];
+    const Corner middle{0.5 * (a.x + b.x), 0.5 * (a.y + b.y)};
+    const double nx = middle.x - state.x, ny = middle.y - state.y;
+    const double cosine = -(nx * middle.x + ny * middle.y) / (std::hypot(nx, ny) * std::hypot(middle.x, middle.y));
+    if (cosine > best_cosine) {
+      best_cosine = cosine;
+      best = middle;
+    }
+  }
+  return best;
+}
+
+int poisson(RandomStream& stream, double mean) {
+  const double limit = std::exp(-mean);
+  int count = -1;
+  for (double product = 1.0; product > limit || count < 0; ++count) product *= stream.uniform();
+  return count;
+}
+
+}  // namespace
+
+CameraConfig load_camera(YamlMap& yaml) {
+  CameraConfig c;
+  c.baseline_m = yaml.number_or("baseline", c.baseline_m, {0.01, 5.0}, "m");
+  c.focal_px = yaml.number_or("focal", c.focal_px, {50.0, 20000.0}, "px");
+  c.disparity_sigma_px = yaml.number_or("disparity_sigma", c.disparity_sigma_px, {0.0, 20.0}, "px");
+  c.bearing_sigma_rad = yaml.number_or("bearing_sigma", c.bearing_sigma_rad, {0.0, 0.5}, "rad");
+  c.width_sigma_px = yaml.number_or("width_sigma", c.width_sigma_px, {0.0, 100.0}, "px");
+  c.half_field_rad = yaml.number_or("half_field", c.half_field_rad, {0.01, 1.2}, "rad");
+  c.max_range_m = yaml.number_or("max_range", c.max_range_m, {1.0, 500.0}, "m");
+  c.miss_probability = yaml.number_or("miss_probability", c.miss_probability, {0.0, 1.0});
+  c.clutter_per_frame = yaml.number_or("clutter_per_frame", c.clutter_per_frame, {0.0, 10.0});
+  return c;
+}
+
+void measure_camera(const CameraConfig& config, std::span<const ObjectState> objects, std::uint64_t seed,
+                    std::uint32_t replication, std::uint16_t sensor, std::uint32_t sequence,
+                    std::vector<CameraDetection>& detections, std::vector<ObjectId>& truth) {
+  detections.clear();
+  truth.clear();
+  RandomStream noise({seed, replication, Purpose::kSensorNoise, sensor, sequence});
+  RandomStream misses({seed, replication, Purpose::kSensorMisses, sensor, sequence});
+  RandomStream clutter({seed, replication, Purpose::kClutter, sensor, sequence});
+  for (const ObjectState& object : objects) {
+    // Draws are made for every object, seen or not, so that one object's visibility never shifts another's noise.
+    const bool missed = misses.uniform() < config.miss_probability;
+    const double disparity_noise = noise.normal(), bearing_noise = noise.normal(), width_noise = noise.normal();
+    const Corner point = seen_point(object);
+    const double range = std::hypot(point.x, point.y), bearing = std::atan2(point.y, point.x);
+    if (missed || point.x <= 0.0 || range > config.max_range_m || std::abs(bearing) > config.half_field_rad) continue;
+    const bool hidden = std::any_of(objects.begin(), objects.end(), [&](const ObjectState& other) {
+      if (other.id == object.id) return false;
+      const auto distance = ray_to(other, bearing);
+      return distance && *distance < range;
+    });
+    if (hidden) continue;
+    const auto span = azimuth_span(object);
+    const double silhouette = span ? span->high - span->low : 0.0;
+    // The silhouette's width as it would measure at the seen depth, in pixels.
+    const double width_px = config.focal_px * silhouette * range / point.x;
+    detections.push_back({bearing + config.bearing_sigma_rad * bearing_noise,
+                          config.focal_px * config.baseline_m / point.x + config.disparity_sigma_px * disparity_noise,
+                          std::max(1.0, width_px + config.width_sigma_px * width_noise)});
+    truth.push_back(object.id);
+  }
+  for (int n = poisson(clutter, config.clutter_per_frame); n > 0; --n) {
+    const double bearing = clutter.uniform(-config.half_field_rad, config.half_field_rad);
+    const double depth = clutter.uniform(5.0, config.max_range_m);
+    detections.push_back({bearing, config.focal_px * config.baseline_m / depth, clutter.uniform(10.0, 200.0)});
+    truth.push_back(ObjectId{0xffff});
+  }
+}
+
+}  // namespace ttf::world

@@ -1,0 +1,42 @@
+// A stereo camera that lists vehicles by bearing, disparity and width.
+//
+// Rectified pinhole pair: a point at depth z has the disparity f b / z, so depth noise grows with the square of the depth.
+// Defaults are of the class of the paper's stereo system (automotive baseline of some decimetres, sub-pixel matching). What
+// is seen of an object is the middle of the face turned most to the camera; an object whose seen point lies behind
+// another's outline is missed, others are missed at random, and false detections appear anywhere in the field of view.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/strict_yaml.h"
+#include "sim/world/world.h"
+
+namespace ttf::world {
+
+struct CameraConfig {
+  double baseline_m = 0.4;
+  double focal_px = 1100.0;
+  double disparity_sigma_px = 0.3;
+  double bearing_sigma_rad = 0.003;
+  double width_sigma_px = 2.0;
+  double half_field_rad = 0.45;        // 26 degrees to either side
+  double max_range_m = 90.0;
+  double miss_probability = 0.05;
+  double clutter_per_frame = 0.1;      // mean number of false detections
+};
+CameraConfig load_camera(YamlMap& yaml);
+
+struct CameraDetection {
+  double bearing = 0;       // [rad]
+  double disparity = 0;     // [px]
+  double width_px = 0;      // of the silhouette
+};
+
+// Replaces `detections`; `truth` has the object of each, 0xffff for a false one.
+void measure_camera(const CameraConfig& config, std::span<const ObjectState> objects, std::uint64_t seed,
+                    std::uint32_t replication, std::uint16_t sensor, std::uint32_t sequence,
+                    std::vector<CameraDetection>& detections, std::vector<ObjectId>& truth);
+
+}  // namespace ttf::world

@@ -1,0 +1,42 @@
+// A four-layer automotive laser scanner.
+//
+// Defaults are of the class of the paper's Ibeo ALASCA XT as its maker's data sheet and papers that used it describe it:
+// 12.5 Hz, four layers within 3.2 degrees, 0.25 degree azimuth steps ahead, single-shot range noise of some centimetres, range
+// of dark targets far below the 200 m of bright ones. Rays are cast at the objects' outlines; the nearest one is hit, so
+// objects hide each other. Noise is keyed by the measurement's number: every paradigm sees the same draws.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/strict_yaml.h"
+#include "sim/world/world.h"
+
+namespace ttf::world {
+
+struct LaserConfig {
+  int layers = 4;
+  double azimuth_step_rad = 0.00436;       // 0.25 degrees
+  double half_field_rad = 1.05;            // 60 degrees to either side
+  double range_sigma_m = 0.06;
+  double max_range_m = 120.0;
+  double miss_at_100m = 0.3;               // probability that a ray's echo is lost at 100 m; grows with the range squared
+  double range_bias_m = 0.0;               // systematic errors, none unless stated
+  double azimuth_bias_rad = 0.0;
+  int max_hits = 1300;                     // what one raw list carries
+};
+LaserConfig load_laser(YamlMap& yaml);
+
+struct HitPoint {
+  int layer = 0;
+  double azimuth = 0;   // [rad]
+  double range = 0;     // [m]
+};
+
+// Replaces `hits` by the scan, by azimuth then layer, and `truth` by the object each hit is of.
+void measure_laser(const LaserConfig& config, std::span<const ObjectState> objects, std::uint64_t seed,
+                   std::uint32_t replication, std::uint16_t sensor, std::uint32_t sequence,
+                   std::vector<HitPoint>& hits, std::vector<ObjectId>& truth);
+
+}  // namespace ttf::world

@@ -1,0 +1,53 @@
+// The DGPS reference: an antenna on the tracked car, off the bus, with errors of its own - as in the paper, where it turned out
+// to vary more than the sensors it was to judge.
+//
+// The sensor car's alignment comes from two fixes at different spots before the drive, so all fixes are turned about the
+// sensor's origin by a constant error of atan2(difference of the two fixes' cross errors, baseline). Now and then the
+// solution jumps away for several fixes (loss of carrier lock or of corrections).
+#pragma once
+
+#include <cstdint>
+
+#include "core/ids.h"
+#include "core/strict_yaml.h"
+#include "core/time.h"
+#include "sim/world/world.h"
+
+namespace ttf::world {
+
+struct ReferenceConfig {
+  Duration period = Duration::milliseconds(100);
+  Duration latency = Duration::milliseconds(60);
+  double sigma_m = 0.25;                      // per axis: code differential positioning
+  double excursion_probability = 0.04;        // that an excursion begins at a fix
+  double excursion_m = 1.0;                   // its size, uniform in direction
+  int excursion_fixes = 3;                    // how long it lasts
+  double alignment_baseline_m = 50.0;         // between the two spots
+};
+ReferenceConfig load_reference(YamlMap& yaml);
+
+// Times since the start of the drive.
+struct Fix {
+  TrueTime measured{};
+  TrueTime available{};
+  ObjectId object{};
+  double x = 0, y = 0;
+};
+
+class Reference {
+ public:
+  Reference(const ReferenceConfig& config, const WorldConfig& world, std::uint64_t seed, std::uint32_t replication);
+  // The index-th fix; a pure function of index, whichever order it is asked in.
+  Fix fix(std::uint32_t index, const World& world) const;
+  double sigma() const { return config_.sigma_m; }
+  double alignment_error_rad() const { return alignment_; }
+
+ private:
+  ReferenceConfig config_;
+  ObjectId object_{};
+  std::uint64_t seed_;
+  std::uint32_t replication_;
+  double alignment_ = 0;
+};
+
+}  // namespace ttf::world

@@ -1,0 +1,26 @@
+// An object's outline as a sensor at the origin sees it.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "sim/world/world.h"
+
+namespace ttf::world {
+
+struct Corner {
+  double x = 0, y = 0;
+};
+// Counter-clockwise, from the front left.
+std::array<Corner, 4> corners(const ObjectState& state);
+
+// Distance from the origin along `azimuth` to the outline, if the ray meets it.
+std::optional<double> ray_to(const ObjectState& state, double azimuth);
+
+// Azimuths between which the outline lies (low <= high); nothing where it surrounds the origin or lies behind it.
+struct AzimuthSpan {
+  double low = 0, high = 0;
+};
+std::optional<AzimuthSpan> azimuth_span(const ObjectState& state);
+
+}  // namespace ttf::world

@@ -1,0 +1,63 @@
+// The truth: objects that drive through the scene.
+//
+// An object's trajectory is a list of segments of constant acceleration and yaw rate, to which white process noise is added;
+// it is drawn once on a 10 ms grid, with exact motion (constant acceleration, constant turn rate) within each step, so that
+// looking at it any number of times, in any order, gives the same states.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/ids.h"
+#include "core/strict_yaml.h"
+#include "core/time.h"
+
+namespace ttf::world {
+
+// Centre [m], heading [rad] from x to y, speed [m/s] along it, acceleration [m/s^2] along it, yaw rate [rad/s], size [m].
+struct ObjectState {
+  ObjectId id{};
+  double x = 0, y = 0, heading = 0, speed = 0, acceleration = 0, yaw_rate = 0, length = 0, width = 0;
+};
+
+struct TrajectorySegment {
+  Duration duration{};
+  double acceleration = 0;   // [m/s^2]
+  double yaw_rate = 0;       // [rad/s]
+};
+
+struct ObjectConfig {
+  std::string name;
+  double x = 0, y = 0, heading = 0, speed = 0;   // at the start of the drive
+  double length = 4.39, width = 1.79;            // a Volkswagen Touran, the paper's car
+  std::vector<TrajectorySegment> segments;       // after the last one: straight on at constant speed
+  bool reference = false;                        // carries the DGPS antenna
+};
+
+struct WorldConfig {
+  std::vector<ObjectConfig> objects;
+  // Standard deviations of the acceleration [m/s^2] and yaw rate [rad/s] added in each 10 ms step.
+  double acceleration_noise = 0.0;
+  double yaw_rate_noise = 0.0;
+  Duration duration{};
+};
+WorldConfig load_world(YamlMap& yaml);
+
+// After `dt` >= 0 seconds of constant acceleration and yaw rate; a car that has come to a stop stays there.
+ObjectState moved(const ObjectState& state, double dt);
+
+class World {
+ public:
+  World(const WorldConfig& config, std::uint64_t seed, std::uint32_t replication);
+
+  // All objects at `since_start` (time zero is the start of the drive; before it: extrapolated from the start).
+  void states_at(TrueTime since_start, std::vector<ObjectState>& out) const;
+  ObjectState state_of(ObjectId object, TrueTime since_start) const;
+  std::size_t size() const { return trajectories_.size(); }
+
+ private:
+  std::vector<std::vector<ObjectState>> trajectories_;   // per object, a state per grid step
+};
+
+}  // namespace ttf::world
