@@ -1,13 +1,13 @@
 // The hash by which runs are compared without comparing files.
 //
-// Each record hashes to 64 bits from (log time, kind, payload bytes); a log's hash is the sum of these modulo 2^64, mixed
-// with their number. A record's time, kind, node and sequence numbers are in its payload, so the set of records has one
-// canonical order (true time, kind, payload) and the sum equals any sum taken in that order: the logs of separate processes
-// agree with the log of one process once merged, in whatever order equal instants were written. Equal records count as
-// often as they occur. Not cryptographic: it detects change, not malice.
+// Each record hashes to 64 bits from (log time, kind, payload bytes); a log's hash is the sum of these modulo
+// 2^64, mixed with their number. A record's time, kind, node and sequence numbers are in its payload, so the
+// set of records has one canonical order (true time, kind, payload) and the sum equals any sum taken in that
+// order: the logs of separate processes agree with the log of one process once merged, in whatever order
+// equal instants were written. Equal records count as often as they occur. Not cryptographic: it detects
+// change, not malice.
 #pragma once
 
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -21,8 +21,8 @@ class ContentHash {
   void add(std::uint64_t log_time, std::uint8_t kind, std::string_view payload) {
     std::uint64_t hash = mix(log_time ^ mix((static_cast<std::uint64_t>(payload.size()) << 8) | kind));
     std::size_t at = 0;
-    for (; at + 8 <= payload.size(); at += 8) hash = step(hash, word(payload.data() + at, 8));
-    if (at < payload.size()) hash = step(hash, word(payload.data() + at, payload.size() - at));
+    for (; at + 8 <= payload.size(); at += 8) hash = mix(hash ^ word(payload.data() + at, 8));
+    if (at < payload.size()) hash = mix(hash ^ word(payload.data() + at, payload.size() - at));
     sum_ += mix(hash);
     ++records_;
   }
@@ -32,16 +32,13 @@ class ContentHash {
   static std::string text(std::uint64_t hash);
 
  private:
-  // Finaliser of SplitMix64 (Steele, Lea, Flood: "Fast splittable pseudorandom number generators", OOPSLA 2014); a
-  // bijection, so that a changed word changes the hash.
+  // Finaliser of SplitMix64 (Steele, Lea, Flood: "Fast splittable pseudorandom number generators", OOPSLA
+  // 2014); a bijection, so that a changed word changes the hash.
   static std::uint64_t mix(std::uint64_t z) {
     z += 0x9e3779b97f4a7c15u;
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
     return z ^ (z >> 31);
-  }
-  static std::uint64_t step(std::uint64_t hash, std::uint64_t word) {
-    return std::rotl((hash ^ word) * 0x9fb21c651e98df25u, 29) + 0x9e3779b97f4a7c15u;
   }
   // Little endian; the platform is (recording/mcap_bytes.h checks).
   static std::uint64_t word(const char* bytes, std::size_t count) {

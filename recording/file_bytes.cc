@@ -19,7 +19,8 @@ std::string read_file(const std::string& path) {
   // Grows with what is really there, not with what a size field or a special file claims.
   std::string bytes;
   std::vector<char> block(1 << 20);
-  while (const std::size_t got = std::fread(block.data(), 1, block.size(), file.get())) bytes.append(block.data(), got);
+  while (const std::size_t got = std::fread(block.data(), 1, block.size(), file.get()))
+    bytes.append(block.data(), got);
   if (std::ferror(file.get()) != 0) fail();
   return bytes;
 }

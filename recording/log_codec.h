@@ -1,7 +1,8 @@
 // Records to protobuf messages and back. Private to the room: it drags in generated code.
 //
-// encode() fills a message that is used again and again (Clear keeps its memory). A Decoder checks that every number
-// fits its field's type and that lists have their lengths: it returns false, and calls nothing, where they do not.
+// encode() fills a message that is used again and again (Clear keeps its memory). A Decoder checks that every
+// number fits its field's type and that lists have their lengths: it returns false, and calls nothing, where
+// they do not.
 #pragma once
 
 #include <vector>

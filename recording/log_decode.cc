@@ -31,7 +31,8 @@ class Narrow {
 };
 
 records::Stamp stamp_of(const ttfusion::Stamp& in, Narrow& narrow) {
-  return {TrueTime{in.true_time()}, LocalTime{in.local()}, GlobalTime{in.global()}, narrow.id<NodeId>(in.node())};
+  return {TrueTime{in.true_time()}, LocalTime{in.local()}, GlobalTime{in.global()},
+          narrow.id<NodeId>(in.node())};
 }
 
 MeasurementId id_of(const ttfusion::MeasurementId& in, Narrow& narrow) {
@@ -39,9 +40,22 @@ MeasurementId id_of(const ttfusion::MeasurementId& in, Narrow& narrow) {
 }
 
 records::ImageObject object_of(const ttfusion::ImageObject& in, Narrow& narrow) {
-  return {narrow.id<TrackId>(in.track()), in.x(), in.y(), in.heading(), in.speed(), in.acceleration(), in.length(),
-          in.width(), in.sigma_x(), in.sigma_y(), in.correlation_xy(), in.sigma_heading(), in.sigma_speed(),
-          in.sigma_acceleration(), in.sigma_length(), in.sigma_width()};
+  return {narrow.id<TrackId>(in.track()),
+          in.x(),
+          in.y(),
+          in.heading(),
+          in.speed(),
+          in.acceleration(),
+          in.length(),
+          in.width(),
+          in.sigma_x(),
+          in.sigma_y(),
+          in.correlation_xy(),
+          in.sigma_heading(),
+          in.sigma_speed(),
+          in.sigma_acceleration(),
+          in.sigma_length(),
+          in.sigma_width()};
 }
 
 std::span<const std::byte> bytes_of(const std::string& in) {
@@ -52,23 +66,40 @@ std::span<const std::byte> bytes_of(const std::string& in) {
 
 google::protobuf::Message* Payloads::of(RecordKind kind) {
   switch (kind) {
-    case RecordKind::kMeasured: return &measured;
-    case RecordKind::kCanFrame: return &can_frame;
-    case RecordKind::kSlotFrame: return &slot_frame;
-    case RecordKind::kSlotProblem: return &slot_problem;
-    case RecordKind::kListHop: return &list_hop;
-    case RecordKind::kTaskRun: return &task_run;
-    case RecordKind::kClockCorrected: return &clock_corrected;
-    case RecordKind::kPrecision: return &precision;
-    case RecordKind::kFusionInput: return &fusion_input;
-    case RecordKind::kListFused: return &list_fused;
-    case RecordKind::kFusionStep: return &fusion_step;
-    case RecordKind::kTrack: return &track;
-    case RecordKind::kObservation: return &observation;
-    case RecordKind::kImage: return &image;
-    case RecordKind::kFeature: return &feature;
-    case RecordKind::kReference: return &reference;
-    case RecordKind::kTruth: return &truth;
+    case RecordKind::kMeasured:
+      return &measured;
+    case RecordKind::kCanFrame:
+      return &can_frame;
+    case RecordKind::kSlotFrame:
+      return &slot_frame;
+    case RecordKind::kSlotProblem:
+      return &slot_problem;
+    case RecordKind::kListHop:
+      return &list_hop;
+    case RecordKind::kTaskRun:
+      return &task_run;
+    case RecordKind::kClockCorrected:
+      return &clock_corrected;
+    case RecordKind::kPrecision:
+      return &precision;
+    case RecordKind::kFusionInput:
+      return &fusion_input;
+    case RecordKind::kListFused:
+      return &list_fused;
+    case RecordKind::kFusionStep:
+      return &fusion_step;
+    case RecordKind::kTrack:
+      return &track;
+    case RecordKind::kObservation:
+      return &observation;
+    case RecordKind::kImage:
+      return &image;
+    case RecordKind::kFeature:
+      return &feature;
+    case RecordKind::kReference:
+      return &reference;
+    case RecordKind::kTruth:
+      return &truth;
   }
   return nullptr;
 }
@@ -92,10 +123,10 @@ bool Decoder::decode(RecordKind kind, std::string_view bytes, records::Sink& sin
     }
     case RecordKind::kCanFrame: {
       const auto& in = payloads_.can_frame;
-      return hand_on(records::CanFrameSent{
-          narrow.to<std::uint8_t>(in.bus()), narrow.id<NodeId>(in.sender()), TrueTime{in.start()}, TrueTime{in.end()},
-          in.identifier(), in.flexible_data_rate(), narrow.id<PduId>(in.pdu()), in.sequence(),
-          narrow.to<std::uint8_t>(in.fragment()), bytes_of(in.data())});
+      return hand_on(records::CanFrameSent{narrow.to<std::uint8_t>(in.bus()), narrow.id<NodeId>(in.sender()),
+                                           TrueTime{in.start()}, TrueTime{in.end()}, in.identifier(),
+                                           in.flexible_data_rate(), narrow.id<PduId>(in.pdu()), in.sequence(),
+                                           narrow.to<std::uint8_t>(in.fragment()), bytes_of(in.data())});
     }
     case RecordKind::kSlotFrame: {
       const auto& in = payloads_.slot_frame;
@@ -106,16 +137,16 @@ bool Decoder::decode(RecordKind kind, std::string_view bytes, records::Sink& sin
     }
     case RecordKind::kSlotProblem: {
       const auto& in = payloads_.slot_problem;
-      return hand_on(records::SlotProblem{stamp_of(in.stamp(), narrow), in.cycle(),
-                                          narrow.to<std::uint16_t>(in.slot()), narrow.to<std::uint8_t>(in.channel()),
-                                          narrow.to<std::uint8_t>(in.status())});
+      return hand_on(
+          records::SlotProblem{stamp_of(in.stamp(), narrow), in.cycle(), narrow.to<std::uint16_t>(in.slot()),
+                               narrow.to<std::uint8_t>(in.channel()), narrow.to<std::uint8_t>(in.status())});
     }
     case RecordKind::kListHop: {
       const auto& in = payloads_.list_hop;
-      return hand_on(records::ListHop{stamp_of(in.stamp(), narrow),
-                                      narrow.choice(in.hop(), records::Hop::kWritten, records::Hop::kOverwritten),
-                                      narrow.id<PduId>(in.pdu()), in.sequence(),
-                                      narrow.to<std::int8_t>(in.can_bus())});
+      return hand_on(
+          records::ListHop{stamp_of(in.stamp(), narrow),
+                           narrow.choice(in.hop(), records::Hop::kWritten, records::Hop::kOverwritten),
+                           narrow.id<PduId>(in.pdu()), in.sequence(), narrow.to<std::int8_t>(in.can_bus())});
     }
     case RecordKind::kTaskRun: {
       const auto& in = payloads_.task_run;
@@ -153,17 +184,16 @@ bool Decoder::decode(RecordKind kind, std::string_view bytes, records::Sink& sin
     case RecordKind::kTrack: {
       const auto& in = payloads_.track;
       if (in.state_size() != 6 || in.covariance_size() != 36) return false;
-      return hand_on(records::TrackState{stamp_of(in.stamp(), narrow), in.step(), narrow.id<TrackId>(in.track()),
-                                         GlobalTime{in.valid_at()},
-                                         std::span<const double, 6>(in.state().data(), 6),
-                                         std::span<const double, 36>(in.covariance().data(), 36),
-                                         in.predicted_for_image()});
+      return hand_on(records::TrackState{
+          stamp_of(in.stamp(), narrow), in.step(), narrow.id<TrackId>(in.track()), GlobalTime{in.valid_at()},
+          std::span<const double, 6>(in.state().data(), 6),
+          std::span<const double, 36>(in.covariance().data(), 36), in.predicted_for_image()});
     }
     case RecordKind::kObservation: {
       const auto& in = payloads_.observation;
       return hand_on(records::ObservationSeen{stamp_of(in.stamp(), narrow), id_of(in.id(), narrow),
-                                              GlobalTime{in.measured()}, narrow.to<std::uint16_t>(in.index()), in.x(),
-                                              in.y(), in.sxx(), in.sxy(), in.syy()});
+                                              GlobalTime{in.measured()}, narrow.to<std::uint16_t>(in.index()),
+                                              in.x(), in.y(), in.sxx(), in.sxy(), in.syy()});
     }
     case RecordKind::kImage: {
       const auto& in = payloads_.image;
@@ -171,8 +201,9 @@ bool Decoder::decode(RecordKind kind, std::string_view bytes, records::Sink& sin
       newest_.clear();
       for (const auto& object : in.objects()) image_objects_.push_back(object_of(object, narrow));
       for (const auto& id : in.newest()) newest_.push_back(id_of(id, narrow));
-      return hand_on(records::ImageWritten{stamp_of(in.stamp(), narrow), in.sequence(), GlobalTime{in.valid_at()},
-                                           GlobalTime{in.newest_measurement()}, image_objects_, newest_});
+      return hand_on(records::ImageWritten{stamp_of(in.stamp(), narrow), in.sequence(),
+                                           GlobalTime{in.valid_at()}, GlobalTime{in.newest_measurement()},
+                                           image_objects_, newest_});
     }
     case RecordKind::kFeature: {
       const auto& in = payloads_.feature;
@@ -186,14 +217,14 @@ bool Decoder::decode(RecordKind kind, std::string_view bytes, records::Sink& sin
     case RecordKind::kReference: {
       const auto& in = payloads_.reference;
       return hand_on(records::ReferenceFix{TrueTime{in.measured_true()}, GlobalTime{in.measured()},
-                                           GlobalTime{in.available()}, narrow.id<ObjectId>(in.object()), in.x(),
-                                           in.y(), in.sigma()});
+                                           GlobalTime{in.available()}, narrow.id<ObjectId>(in.object()),
+                                           in.x(), in.y(), in.sigma()});
     }
     case RecordKind::kTruth: {
       const auto& in = payloads_.truth;
       return hand_on(records::TruthState{TrueTime{in.at()}, narrow.id<ObjectId>(in.object()), in.x(), in.y(),
-                                         in.heading(), in.speed(), in.acceleration(), in.yaw_rate(), in.length(),
-                                         in.width()});
+                                         in.heading(), in.speed(), in.acceleration(), in.yaw_rate(),
+                                         in.length(), in.width()});
     }
   }
   return false;

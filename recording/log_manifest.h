@@ -1,5 +1,5 @@
-// What a log says about itself: which run it is of, and the names that its numbers stand for, so that readers can
-// label lanes and curves without loading the cluster.
+// What a log says about itself: which run it is of, and the names that its numbers stand for, so that readers
+// can label lanes and curves without loading the cluster.
 #pragma once
 
 #include <array>
@@ -12,18 +12,18 @@
 
 namespace ttf::recording {
 
-// `hashes` are (what, hex digits) pairs, e.g. ("cluster", "6f0c..."); names are unique. The name lists are indexed by
-// NodeId, (NodeId, task), PduId, SensorId and the index in Cluster::can_buses.
+// `hashes` are (what, hex digits) pairs, e.g. ("cluster", "6f0c..."); names are unique. The name lists are
+// indexed by NodeId, (NodeId, task), PduId, SensorId and the index in Cluster::can_buses.
 struct LogManifest {
-  std::string version;                 // of the program that wrote the log
+  std::string version;  // of the program that wrote the log
   std::uint64_t seed = 0;
   std::string scenario_name;
   std::string cluster_name;
   std::string strategy;
-  std::int64_t cycle_ns = 0;           // nominal communication cycle, for the grid of diagrams; 0 if unknown
+  std::int64_t cycle_ns = 0;  // nominal communication cycle, for the grid of diagrams; 0 if unknown
   std::vector<std::pair<std::string, std::string>> hashes;
   std::vector<std::string> node_names;
-  std::vector<std::vector<std::string>> task_names;   // per node, in the order of Node::tasks
+  std::vector<std::vector<std::string>> task_names;  // per node, in the order of Node::tasks
   std::vector<std::string> pdu_names;
   std::vector<std::string> sensor_names;
   std::vector<std::string> can_bus_names;
@@ -31,19 +31,34 @@ struct LogManifest {
   bool operator==(const LogManifest&) const = default;
 };
 
-// The kinds of record, in the order of records::Sink. Values are MCAP channel and schema ids and go into the content
-// hash: append only.
+// The kinds of record, in the order of records::Sink. Values are MCAP channel and schema ids and go into the
+// content hash: append only.
 enum class RecordKind : std::uint8_t {
-  kMeasured = 1, kCanFrame, kSlotFrame, kSlotProblem, kListHop, kTaskRun, kClockCorrected, kPrecision, kFusionInput,
-  kListFused, kFusionStep, kTrack, kObservation, kImage, kFeature, kReference, kTruth,
+  kMeasured = 1,
+  kCanFrame,
+  kSlotFrame,
+  kSlotProblem,
+  kListHop,
+  kTaskRun,
+  kClockCorrected,
+  kPrecision,
+  kFusionInput,
+  kListFused,
+  kFusionStep,
+  kTrack,
+  kObservation,
+  kImage,
+  kFeature,
+  kReference,
+  kTruth,
 };
 inline constexpr std::size_t kRecordKinds = 17;
 
 // Topic of each kind, by value - 1.
 inline constexpr std::array<std::string_view, kRecordKinds> kTopics{
-    "/measured",     "/can_frame", "/slot_frame",  "/slot_problem", "/list_hop", "/task_run",
+    "/measured",        "/can_frame", "/slot_frame",   "/slot_problem", "/list_hop",    "/task_run",
     "/clock_corrected", "/precision", "/fusion_input", "/list_fused",   "/fusion_step", "/track",
-    "/observation",  "/image",     "/feature",     "/reference",    "/truth"};
+    "/observation",     "/image",     "/feature",      "/reference",    "/truth"};
 
 constexpr std::string_view topic_of(RecordKind kind) { return kTopics[static_cast<std::size_t>(kind) - 1]; }
 

@@ -59,10 +59,12 @@ void check_is_log(std::string_view bytes, const std::string& name) {
   const std::string_view start = bytes.substr(0, kMcapMagic.size());
   if (start != kMcapMagic.substr(0, start.size()))
     throw InputError({name, 0, "", "", "is not a log: it does not begin as an MCAP file does"});
-  // A damaged header is no reason to give up a log whose manifest is there; a sound one of another program is.
+  // A damaged header is no reason to give up a log whose manifest is there; a sound one of another program
+  // is.
   const std::string_view profile = mcap_profile(bytes);
   if (!profile.empty() && profile != kLogProfile && bytes.find(kManifestName) == std::string_view::npos)
-    throw InputError({name, 0, "profile", std::string(profile), "is an MCAP file, but its profile must be ttfusion"});
+    throw InputError(
+        {name, 0, "profile", std::string(profile), "is an MCAP file, but its profile must be ttfusion"});
 }
 
 }  // namespace
@@ -89,6 +91,8 @@ LogInfo read_log_bytes(std::string_view bytes, const std::string& name, records:
   return info;
 }
 
-LogInfo read_log(const std::string& path, records::Sink& sink) { return read_log_bytes(read_file(path), path, sink); }
+LogInfo read_log(const std::string& path, records::Sink& sink) {
+  return read_log_bytes(read_file(path), path, sink);
+}
 
 }  // namespace ttf::recording

@@ -21,20 +21,21 @@ namespace ttf::recording {
 
 struct LogInfo {
   LogManifest manifest;
-  std::vector<std::pair<std::string, std::string>> attachments;   // name, bytes; in file order
-  bool truncated = false;              // the file ends before its closing record
-  std::string warning;                 // sentences, empty for a sound file
-  std::array<std::uint64_t, kRecordKinds> counts{};   // records read, by RecordKind - 1
+  std::vector<std::pair<std::string, std::string>> attachments;  // name, bytes; in file order
+  bool truncated = false;                                        // the file ends before its closing record
+  std::string warning;                                           // sentences, empty for a sound file
+  std::array<std::uint64_t, kRecordKinds> counts{};              // records read, by RecordKind - 1
   std::uint64_t chunks_read = 0;
-  std::uint64_t chunks_lost = 0;       // damaged ones that were recognised as chunks
-  std::uint64_t content_hash = 0;      // over the records read
-  std::optional<std::uint64_t> stated_content_hash;   // as the writer wrote it at the end; absent in a torn file
+  std::uint64_t chunks_lost = 0;   // damaged ones that were recognised as chunks
+  std::uint64_t content_hash = 0;  // over the records read
+  std::optional<std::uint64_t>
+      stated_content_hash;  // as the writer wrote it at the end; absent in a torn file
 
   std::uint64_t count(RecordKind kind) const { return counts[static_cast<std::size_t>(kind) - 1]; }
 };
 
-// Throws InputError if the file cannot be read, is not MCAP, or is MCAP but no log of this program. Spans handed to the
-// sink are valid during the call only.
+// Throws InputError if the file cannot be read, is not MCAP, or is MCAP but no log of this program. Spans
+// handed to the sink are valid during the call only.
 LogInfo read_log(const std::string& path, records::Sink& sink);
 
 // The same on bytes in memory; `name` is what errors and warnings call it.

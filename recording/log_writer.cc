@@ -38,7 +38,9 @@ std::string schema_of(const google::protobuf::Descriptor& message) {
   return bytes;
 }
 
-std::uint64_t unsigned_time(std::int64_t ns) { return static_cast<std::uint64_t>(std::max<std::int64_t>(ns, 0)); }
+std::uint64_t unsigned_time(std::int64_t ns) {
+  return static_cast<std::uint64_t>(std::max<std::int64_t>(ns, 0));
+}
 
 }  // namespace
 
@@ -55,7 +57,8 @@ struct LogWriter::Impl {
   bool closed = false;
 };
 
-LogWriter::LogWriter(const std::string& path, const LogManifest& manifest) : impl_(std::make_unique<Impl>(path)) {
+LogWriter::LogWriter(const std::string& path, const LogManifest& manifest)
+    : impl_(std::make_unique<Impl>(path)) {
   McapWriter& mcap = impl_->mcap;
   mcap.add_metadata(kManifestName, manifest_entries(manifest));
   for (std::size_t i = 1; i <= kRecordKinds; ++i) {
@@ -84,8 +87,8 @@ void LogWriter::close() {
   if (impl_->closed) return;
   impl_->closed = true;
   impl_->mcap.flush();
-  impl_->mcap.add_metadata(kResultName, {{"content_hash", content_hash_text()},
-                                         {"records", std::to_string(impl_->records)}});
+  impl_->mcap.add_metadata(
+      kResultName, {{"content_hash", content_hash_text()}, {"records", std::to_string(impl_->records)}});
   impl_->mcap.close();
 }
 
@@ -100,8 +103,8 @@ void LogWriter::write(const Record& record) {
   TTF_CHECK(encoded.payload->AppendToString(&impl_->bytes), "kind {}", static_cast<int>(encoded.kind));
   const std::uint64_t log_time = unsigned_time(encoded.times.log);
   impl_->hash.add(log_time, static_cast<std::uint8_t>(encoded.kind), impl_->bytes);
-  impl_->mcap.add_message(static_cast<std::uint16_t>(encoded.kind), log_time, unsigned_time(encoded.times.publish),
-                          impl_->bytes);
+  impl_->mcap.add_message(static_cast<std::uint16_t>(encoded.kind), log_time,
+                          unsigned_time(encoded.times.publish), impl_->bytes);
   ++impl_->records;
 }
 

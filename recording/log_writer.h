@@ -1,8 +1,9 @@
 // The log of a run: every record as one MCAP message with a protobuf payload (recording/log.proto).
 //
-// docs/log_format.md describes the file. One thread, no dates, no addresses: the same records give the same bytes.
-// log_time is the record's true time (Stamp::true_time, else the end or the instant the record names), publish_time the
-// node's global time where there is one; times before the start of the run count as 0 there, the payload has them exactly.
+// docs/log_format.md describes the file. One thread, no dates, no addresses: the same records give the same
+// bytes. log_time is the record's true time (Stamp::true_time, else the end or the instant the record names),
+// publish_time the node's global time where there is one; times before the start of the run count as 0 there,
+// the payload has them exactly.
 #pragma once
 
 #include <cstdint>
@@ -17,17 +18,18 @@ namespace ttf::recording {
 
 class LogWriter final : public records::Sink {
  public:
-  // Opens `path` and writes manifest, schemas and channels. Throws InputError when the file cannot be created.
+  // Opens `path` and writes manifest, schemas and channels. Throws InputError when the file cannot be
+  // created.
   LogWriter(const std::string& path, const LogManifest& manifest);
-  ~LogWriter() override;               // closes; a failure then is lost: call close() to hear of it
+  ~LogWriter() override;  // closes; a failure then is lost: call close() to hear of it
   LogWriter(const LogWriter&) = delete;
   LogWriter& operator=(const LogWriter&) = delete;
 
   // Puts a file into the log (schedule, scenario). Names should be unique.
   void attach(std::string_view name, std::string_view media_type, std::string_view bytes);
 
-  // Writes the last chunk and the summary. Throws std::runtime_error if anything could not be written (disk full).
-  // Calling it again does nothing; nothing may be recorded afterwards.
+  // Writes the last chunk and the summary. Throws std::runtime_error if anything could not be written (disk
+  // full). Calling it again does nothing; nothing may be recorded afterwards.
   void close();
 
   // Hash over all records so far in canonical order; recording/content_hash.h defines it.

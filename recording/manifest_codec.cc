@@ -11,9 +11,10 @@ namespace {
 
 std::string checksum(const ManifestEntries& entries) {
   uLong crc = 0;
-  const auto add = [&crc](const std::string& text) {   // with its terminating zero, which keeps neighbours apart
-    crc = crc32_z(crc, reinterpret_cast<const Bytef*>(text.c_str()), text.size() + 1);
-  };
+  const auto add =
+      [&crc](const std::string& text) {  // with its terminating zero, which keeps neighbours apart
+        crc = crc32_z(crc, reinterpret_cast<const Bytef*>(text.c_str()), text.size() + 1);
+      };
   for (const auto& [key, value] : entries) {
     if (key == "crc32") continue;
     add(key);
@@ -62,7 +63,7 @@ bool read_entry(std::string_view key, const std::string& value, LogManifest& man
   if (const auto index = rest_after("can_bus.")) return append(manifest.can_bus_names, *index, value);
   if (key == "task_lists") {
     const auto count = whole<std::size_t>(value);
-    if (!count || *count > 256) return false;   // there are no more node ids
+    if (!count || *count > 256) return false;  // there are no more node ids
     return manifest.task_names.resize(*count), true;
   }
   if (const auto rest = rest_after("node.")) {
@@ -74,7 +75,7 @@ bool read_entry(std::string_view key, const std::string& value, LogManifest& man
     if (!node || *node >= manifest.task_names.size() || task.substr(0, kTask.size()) != kTask) return false;
     return append(manifest.task_names[*node], task.substr(kTask.size()), value);
   }
-  return true;   // a key of a later version
+  return true;  // a key of a later version
 }
 
 }  // namespace
@@ -89,7 +90,8 @@ ManifestEntries manifest_entries(const LogManifest& manifest) {
                           {"task_lists", std::to_string(manifest.task_names.size())}};
   for (const auto& [what, hash] : manifest.hashes) entries.emplace_back("hash." + what, hash);
   const auto list = [&entries](std::string_view prefix, const std::vector<std::string>& names) {
-    for (std::size_t i = 0; i < names.size(); ++i) entries.emplace_back(fmt::format("{}.{}", prefix, i), names[i]);
+    for (std::size_t i = 0; i < names.size(); ++i)
+      entries.emplace_back(fmt::format("{}.{}", prefix, i), names[i]);
   };
   list("node", manifest.node_names);
   for (std::size_t i = 0; i < manifest.task_names.size(); ++i)

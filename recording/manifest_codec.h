@@ -12,15 +12,17 @@ namespace ttf::recording {
 
 inline constexpr std::string_view kLogProfile = "ttfusion";
 inline constexpr std::string_view kManifestName = "ttfusion.manifest";
-inline constexpr std::string_view kResultName = "ttfusion.result";      // written at the end: content hash, records
+inline constexpr std::string_view kResultName =
+    "ttfusion.result";  // written at the end: content hash, records
 
 using ManifestEntries = std::vector<std::pair<std::string, std::string>>;
 
-// Keys: version, seed, scenario, cluster, strategy, cycle_ns, hash.<what>, node.<i>, node.<i>.task.<j>, pdu.<i>,
-// sensor.<i>, can_bus.<i>, and crc32 over all of it.
+// Keys: version, seed, scenario, cluster, strategy, cycle_ns, hash.<what>, node.<i>, node.<i>.task.<j>,
+// pdu.<i>, sensor.<i>, can_bus.<i>, and crc32 over all of it.
 ManifestEntries manifest_entries(const LogManifest& manifest);
 
-// Reads what it can; false if the checksum does not match (metadata has none of its own) or a number is broken.
+// Reads what it can; false if the checksum does not match (metadata has none of its own) or a number is
+// broken.
 bool read_manifest(const ManifestEntries& entries, LogManifest& manifest);
 
 }  // namespace ttf::recording

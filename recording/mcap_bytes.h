@@ -15,8 +15,21 @@ static_assert(std::endian::native == std::endian::little, "fields are copied as 
 inline constexpr std::string_view kMcapMagic{"\x89MCAP0\r\n", 8};
 
 enum class Opcode : std::uint8_t {
-  kHeader = 1, kFooter, kSchema, kChannel, kMessage, kChunk, kMessageIndex, kChunkIndex, kAttachment,
-  kAttachmentIndex, kStatistics, kMetadata, kMetadataIndex, kSummaryOffset, kDataEnd,
+  kHeader = 1,
+  kFooter,
+  kSchema,
+  kChannel,
+  kMessage,
+  kChunk,
+  kMessageIndex,
+  kChunkIndex,
+  kAttachment,
+  kAttachmentIndex,
+  kStatistics,
+  kMetadata,
+  kMetadataIndex,
+  kSummaryOffset,
+  kDataEnd,
 };
 
 template <class Int>
@@ -43,8 +56,8 @@ inline void end_record(std::string& out, std::size_t start) {
   std::memcpy(out.data() + start + 1, &length, sizeof length);
 }
 
-// Takes fields off the front of untrusted bytes. After the first field that does not fit, `ok` is false and all
-// further fields read as zero or empty.
+// Takes fields off the front of untrusted bytes. After the first field that does not fit, `ok` is false and
+// all further fields read as zero or empty.
 class FieldReader {
  public:
   explicit FieldReader(std::string_view bytes) : rest_(bytes) {}
@@ -68,7 +81,7 @@ class FieldReader {
   std::string_view text() { return bytes(take<std::uint32_t>()); }
 
   bool ok() const { return ok_; }
-  bool done() const { return ok_ && rest_.empty(); }   // everything was used, nothing was missing
+  bool done() const { return ok_ && rest_.empty(); }  // everything was used, nothing was missing
   std::string_view rest() const { return rest_; }
 
  private:

@@ -12,9 +12,9 @@
 namespace ttf::recording {
 namespace {
 
-constexpr std::uint64_t kMaxChunkBytes = 64 * 1024 * 1024;   // far above any writer's chunks; bounds memory
+constexpr std::uint64_t kMaxChunkBytes = 64 * 1024 * 1024;  // far above any writer's chunks; bounds memory
 constexpr std::size_t kMaxWarnings = 20;
-constexpr std::size_t kRecordHead = 9;                       // opcode and length
+constexpr std::size_t kRecordHead = 9;  // opcode and length
 constexpr std::size_t kFooterBytes = kRecordHead + 20;
 
 std::uint32_t crc_of(std::string_view bytes) {
@@ -44,7 +44,7 @@ struct ChunkFields {
 
 bool read_chunk(std::string_view content, ChunkFields& out) {
   FieldReader fields(content);
-  fields.bytes(16);   // log times, which the messages have too
+  fields.bytes(16);  // log times, which the messages have too
   out.uncompressed_size = fields.take<std::uint64_t>();
   out.crc = fields.take<std::uint32_t>();
   out.compression = fields.text();
@@ -59,9 +59,9 @@ struct AttachmentFields {
 
 bool read_attachment(std::string_view content, AttachmentFields& out) {
   FieldReader fields(content);
-  fields.bytes(16);   // log and creation time
+  fields.bytes(16);  // log and creation time
   out.name = fields.text();
-  fields.text();      // media type
+  fields.text();  // media type
   out.data = fields.bytes(fields.take<std::uint64_t>());
   out.crc = fields.take<std::uint32_t>();
   return fields.done();
@@ -81,7 +81,8 @@ bool read_metadata(std::string_view content, std::string_view& name,
   return map.ok();
 }
 
-// Whether a record's fields fill it exactly. Takes time in proportion to the number of fields, never to their lengths.
+// Whether a record's fields fill it exactly. Takes time in proportion to the number of fields, never to their
+// lengths.
 bool consistent(const Record& record) {
   FieldReader fields(record.content);
   switch (static_cast<Opcode>(record.opcode)) {
@@ -89,9 +90,12 @@ bool consistent(const Record& record) {
       fields.text();
       fields.text();
       return fields.done();
-    case Opcode::kFooter: return record.content.size() == 20;
-    case Opcode::kDataEnd: return record.content.size() == 4;
-    case Opcode::kSummaryOffset: return record.content.size() == 17;
+    case Opcode::kFooter:
+      return record.content.size() == 20;
+    case Opcode::kDataEnd:
+      return record.content.size() == 4;
+    case Opcode::kSummaryOffset:
+      return record.content.size() == 17;
     case Opcode::kSchema:
       fields.take<std::uint16_t>();
       for (int i = 0; i < 3; ++i) fields.text();
@@ -139,25 +143,29 @@ bool consistent(const Record& record) {
       fields.bytes(16);
       fields.text();
       return fields.done();
-    case Opcode::kMessage: return false;   // ours stand in chunks, where a checksum covers them
+    case Opcode::kMessage:
+      return false;  // ours stand in chunks, where a checksum covers them
   }
   return false;
 }
 
 bool known(std::uint8_t opcode) {
-  return opcode >= static_cast<std::uint8_t>(Opcode::kHeader) && opcode <= static_cast<std::uint8_t>(Opcode::kDataEnd);
+  return opcode >= static_cast<std::uint8_t>(Opcode::kHeader) &&
+         opcode <= static_cast<std::uint8_t>(Opcode::kDataEnd);
 }
 
 // Whether the file has its last record, whatever happened before it.
 bool has_end(std::string_view bytes) {
-  if (bytes.size() < kFooterBytes + kMcapMagic.size() || bytes.substr(bytes.size() - 8) != kMcapMagic) return false;
+  if (bytes.size() < kFooterBytes + kMcapMagic.size() || bytes.substr(bytes.size() - 8) != kMcapMagic)
+    return false;
   const auto footer = record_at(bytes, bytes.size() - 8 - kFooterBytes);
   return footer && footer->opcode == static_cast<std::uint8_t>(Opcode::kFooter) && consistent(*footer);
 }
 
 class Walk {
  public:
-  Walk(std::string_view bytes, McapHandler& handler) : bytes_(bytes), handler_(handler), zstd_(ZSTD_createDCtx()) {}
+  Walk(std::string_view bytes, McapHandler& handler)
+      : bytes_(bytes), handler_(handler), zstd_(ZSTD_createDCtx()) {}
   ~Walk() { ZSTD_freeDCtx(zstd_); }
   Walk(const Walk&) = delete;
   Walk& operator=(const Walk&) = delete;
@@ -172,7 +180,7 @@ class Walk {
         warn("the record of unknown type {} at byte {} is left out", record->opcode, at);
       } else if (!record || !consistent(*record)) {
         const std::size_t next = next_record(at + 1);
-        if (next >= bytes_.size() && !ended) break;   // the torn tail
+        if (next >= bytes_.size() && !ended) break;  // the torn tail
         if (bytes_[at] == static_cast<char>(Opcode::kChunk)) ++report_.chunks_lost;
         warn("the record at byte {} is damaged and left out", at);
         at = next;
@@ -204,8 +212,9 @@ class Walk {
 
   std::size_t next_record(std::size_t from) const {
     for (std::size_t at = from; at + kRecordHead < bytes_.size(); ++at) {
-      if (!known(static_cast<std::uint8_t>(bytes_[at])) || bytes_[at] == static_cast<char>(Opcode::kHeader)) continue;
-      if (bytes_.substr(at + 5, 4) != std::string_view("\0\0\0\0", 4)) continue;   // no record of 4 GiB
+      if (!known(static_cast<std::uint8_t>(bytes_[at])) || bytes_[at] == static_cast<char>(Opcode::kHeader))
+        continue;
+      if (bytes_.substr(at + 5, 4) != std::string_view("\0\0\0\0", 4)) continue;  // no record of 4 GiB
       const auto record = record_at(bytes_, at);
       if (record && consistent(*record)) return at;
     }
@@ -215,7 +224,9 @@ class Walk {
   // True after the footer.
   bool take(const Record& record, std::size_t at) {
     switch (static_cast<Opcode>(record.opcode)) {
-      case Opcode::kChunk: take_chunk(record.content, at); return false;
+      case Opcode::kChunk:
+        take_chunk(record.content, at);
+        return false;
       case Opcode::kAttachment: {
         AttachmentFields attachment;
         read_attachment(record.content, attachment);
@@ -245,8 +256,9 @@ class Walk {
         fields.take<std::uint64_t>();
         const auto stated = fields.take<std::uint32_t>();
         const std::size_t crc_at = at + kFooterBytes - 4;
-        const bool sound = summary_start <= at && (stated == 0 ||
-            crc_of(bytes_.substr(static_cast<std::size_t>(summary_start), crc_at - summary_start)) == stated);
+        const bool sound = summary_start <= at &&
+                           (stated == 0 || crc_of(bytes_.substr(static_cast<std::size_t>(summary_start),
+                                                                crc_at - summary_start)) == stated);
         if (!sound) warn("the index at the end is damaged (checksum); all records are read");
         return true;
       }
@@ -259,7 +271,8 @@ class Walk {
       case Opcode::kAttachmentIndex:
       case Opcode::kStatistics:
       case Opcode::kMetadataIndex:
-      case Opcode::kSummaryOffset: return false;   // for readers that seek
+      case Opcode::kSummaryOffset:
+        return false;  // for readers that seek
     }
     return false;
   }
@@ -293,12 +306,13 @@ class Walk {
       if (record->opcode != static_cast<std::uint8_t>(Opcode::kMessage)) continue;
       FieldReader fields(record->content);
       const auto channel = fields.take<std::uint16_t>();
-      fields.take<std::uint32_t>();   // sequence
+      fields.take<std::uint32_t>();  // sequence
       const auto log_time = fields.take<std::uint64_t>();
-      fields.take<std::uint64_t>();   // publish time, a copy of what the payload has
+      fields.take<std::uint64_t>();  // publish time, a copy of what the payload has
       if (!fields.ok() || !handler_.on_message(channel, log_time, fields.rest())) ++unreadable;
     }
-    if (unreadable > 0) warn("the chunk at byte {} holds {} unreadable messages, which are left out", at, unreadable);
+    if (unreadable > 0)
+      warn("the chunk at byte {} holds {} unreadable messages, which are left out", at, unreadable);
   }
 
   std::string_view bytes_;
@@ -314,7 +328,8 @@ class Walk {
 std::string_view mcap_profile(std::string_view bytes) {
   if (bytes.size() < kMcapMagic.size()) return {};
   const auto header = record_at(bytes, kMcapMagic.size());
-  if (!header || header->opcode != static_cast<std::uint8_t>(Opcode::kHeader) || !consistent(*header)) return {};
+  if (!header || header->opcode != static_cast<std::uint8_t>(Opcode::kHeader) || !consistent(*header))
+    return {};
   return FieldReader(header->content).text();
 }
 

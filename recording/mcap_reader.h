@@ -1,8 +1,9 @@
 // Walks through the bytes of an MCAP file, trusting none of them. Private to the room.
 //
-// Every record must be consistent in itself (its fields fill its length exactly) before it is used. Where one is not, the
-// walk looks for the next place at which a consistent record begins and goes on there, so that damage costs what it
-// hit and no more. Chunks count only whole: their checksum must match before the first message is handed on.
+// Every record must be consistent in itself (its fields fill its length exactly) before it is used. Where one
+// is not, the walk looks for the next place at which a consistent record begins and goes on there, so that
+// damage costs what it hit and no more. Chunks count only whole: their checksum must match before the first
+// message is handed on.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +18,8 @@ namespace ttf::recording {
 class McapHandler {
  public:
   virtual ~McapHandler() = default;
-  virtual void on_metadata(std::string_view name, const std::vector<std::pair<std::string, std::string>>& entries) = 0;
+  virtual void on_metadata(std::string_view name,
+                           const std::vector<std::pair<std::string, std::string>>& entries) = 0;
   virtual void on_attachment(std::string_view name, std::string_view bytes) = 0;
   // False: the payload is unreadable.
   virtual bool on_message(std::uint16_t channel, std::uint64_t log_time, std::string_view payload) = 0;
@@ -25,7 +27,7 @@ class McapHandler {
 
 struct McapReport {
   bool truncated = false;
-  std::vector<std::string> warnings;   // without the file's name; bounded
+  std::vector<std::string> warnings;  // without the file's name; bounded
   std::uint64_t chunks_read = 0, chunks_lost = 0;
 };
 

@@ -16,15 +16,14 @@
 namespace ttf::recording {
 namespace {
 
-constexpr int kCompressionLevel = 1;   // most of the gain at a small part of the time
+constexpr int kCompressionLevel = 1;  // most of the gain at a small part of the time
 
 std::uint32_t crc_of(std::string_view bytes, std::uint32_t crc = 0) {
-  return static_cast<std::uint32_t>(
-      crc32_z(crc, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+  return static_cast<std::uint32_t>(crc32_z(crc, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }
 
 struct Channel {
-  std::vector<std::pair<std::uint64_t, std::uint64_t>> index;   // log time, offset within the open chunk
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> index;  // log time, offset within the open chunk
   std::uint64_t messages = 0;
 };
 
@@ -33,17 +32,17 @@ struct Channel {
 struct McapWriter::Impl {
   std::string path;
   std::FILE* file = nullptr;
-  std::string error;                  // of the first write that failed
-  std::uint64_t offset = 0;           // bytes written so far
+  std::string error;         // of the first write that failed
+  std::uint64_t offset = 0;  // bytes written so far
   std::uint32_t data_crc = 0;
   bool closed = false;
 
-  std::string record;                 // scratch for everything outside chunks
-  std::string chunk;                  // records of the open chunk
+  std::string record;  // scratch for everything outside chunks
+  std::string chunk;   // records of the open chunk
   std::string compressed;
   ZSTD_CCtx* zstd = nullptr;
-  std::uint64_t chunk_start = 0, chunk_end = 0;   // log times in the open chunk
-  std::vector<Channel> channels;      // by id - 1
+  std::uint64_t chunk_start = 0, chunk_end = 0;  // log times in the open chunk
+  std::vector<Channel> channels;                 // by id - 1
 
   // The summary's groups, collected as the data is written.
   std::string schemas, channel_records, chunk_indexes, attachment_indexes, metadata_indexes;
@@ -52,7 +51,8 @@ struct McapWriter::Impl {
   std::uint16_t schema_count = 0;
 
   void put_bytes(std::string_view bytes) {
-    if (error.empty() && std::fwrite(bytes.data(), 1, bytes.size(), file) != bytes.size()) error = std::strerror(errno);
+    if (error.empty() && std::fwrite(bytes.data(), 1, bytes.size(), file) != bytes.size())
+      error = std::strerror(errno);
     data_crc = crc_of(bytes, data_crc);
     offset += bytes.size();
   }
@@ -85,7 +85,8 @@ McapWriter::~McapWriter() {
   ZSTD_freeCCtx(impl_->zstd);
 }
 
-void McapWriter::add_schema(std::uint16_t id, std::string_view name, std::string_view encoding, std::string_view data) {
+void McapWriter::add_schema(std::uint16_t id, std::string_view name, std::string_view encoding,
+                            std::string_view data) {
   TTF_CHECK(id == impl_->schema_count + 1, "schema {} after {}", id, impl_->schema_count);
   std::string& out = impl_->record;
   out.clear();
@@ -100,7 +101,8 @@ void McapWriter::add_schema(std::uint16_t id, std::string_view name, std::string
   ++impl_->schema_count;
 }
 
-void McapWriter::add_channel(std::uint16_t id, std::uint16_t schema, std::string_view topic, std::string_view encoding) {
+void McapWriter::add_channel(std::uint16_t id, std::uint16_t schema, std::string_view topic,
+                             std::string_view encoding) {
   TTF_CHECK(id == impl_->channels.size() + 1, "channel {} after {}", id, impl_->channels.size());
   TTF_CHECK(schema >= 1 && schema <= impl_->schema_count, "schema {} of {}", schema, impl_->schema_count);
   std::string& out = impl_->record;
@@ -110,7 +112,7 @@ void McapWriter::add_channel(std::uint16_t id, std::uint16_t schema, std::string
   put(out, schema);
   put_text(out, topic);
   put_text(out, encoding);
-  put(out, std::uint32_t{0});   // no metadata
+  put(out, std::uint32_t{0});  // no metadata
   end_record(out, start);
   impl_->put_bytes(out);
   impl_->channel_records += out;
@@ -146,7 +148,7 @@ void McapWriter::add_attachment(std::uint64_t log_time, std::string_view name, s
   out.clear();
   std::size_t start = begin_record(out, Opcode::kAttachment);
   put(out, log_time);
-  put(out, std::uint64_t{0});   // no creation time: files with the same content give the same log
+  put(out, std::uint64_t{0});  // no creation time: files with the same content give the same log
   put_text(out, name);
   put_text(out, media_type);
   put(out, static_cast<std::uint64_t>(bytes.size()));
@@ -171,10 +173,11 @@ void McapWriter::add_attachment(std::uint64_t log_time, std::string_view name, s
 
 void McapWriter::add_message(std::uint16_t channel, std::uint64_t log_time, std::uint64_t publish_time,
                              std::string_view payload) {
-  TTF_CHECK(!impl_->closed && channel >= 1 && channel <= impl_->channels.size(), "channel {} of {}, closed {}",
-            channel, impl_->channels.size(), impl_->closed);
+  TTF_CHECK(!impl_->closed && channel >= 1 && channel <= impl_->channels.size(),
+            "channel {} of {}, closed {}", channel, impl_->channels.size(), impl_->closed);
   Impl& s = *impl_;
-  if (!s.chunk.empty() && std::max(s.chunk_end, log_time) - std::min(s.chunk_start, log_time) > kChunkSpan) flush();
+  if (!s.chunk.empty() && std::max(s.chunk_end, log_time) - std::min(s.chunk_start, log_time) > kChunkSpan)
+    flush();
   const bool first = s.chunk.empty();
   s.chunk_start = first ? log_time : std::min(s.chunk_start, log_time);
   s.chunk_end = first ? log_time : std::max(s.chunk_end, log_time);
@@ -287,13 +290,12 @@ void McapWriter::close() {
 
   out.clear();
   std::string offsets;
-  const std::pair<Opcode, const std::string*> groups[] = {
-      {Opcode::kSchema, &s.schemas},
-      {Opcode::kChannel, &s.channel_records},
-      {Opcode::kStatistics, &statistics},
-      {Opcode::kChunkIndex, &s.chunk_indexes},
-      {Opcode::kAttachmentIndex, &s.attachment_indexes},
-      {Opcode::kMetadataIndex, &s.metadata_indexes}};
+  const std::pair<Opcode, const std::string*> groups[] = {{Opcode::kSchema, &s.schemas},
+                                                          {Opcode::kChannel, &s.channel_records},
+                                                          {Opcode::kStatistics, &statistics},
+                                                          {Opcode::kChunkIndex, &s.chunk_indexes},
+                                                          {Opcode::kAttachmentIndex, &s.attachment_indexes},
+                                                          {Opcode::kMetadataIndex, &s.metadata_indexes}};
   for (const auto& [opcode, records] : groups) {
     if (records->empty()) continue;
     start = begin_record(offsets, Opcode::kSummaryOffset);

@@ -58,14 +58,18 @@ class Rows {
     findings_.add({name_, line_, std::string(column), shown(value), std::move(expected)});
   }
 
-  // The fields as numbers into `out`, of the columns' count; false, with one finding, if one of them is broken.
-  bool numbers(std::span<const std::string_view> fields, std::span<const Column> columns, std::span<double> out) {
+  // The fields as numbers into `out`, of the columns' count; false, with one finding, if one of them is
+  // broken.
+  bool numbers(std::span<const std::string_view> fields, std::span<const Column> columns,
+               std::span<double> out) {
     for (std::size_t i = 0; i < columns.size(); ++i) {
       const std::string_view field = fields[i];
       const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), out[i]);
       const Column& column = columns[i];
-      if (error != std::errc{} || end != field.data() + field.size() || !(out[i] >= column.low && out[i] <= column.high)) {
-        fail(column.name, field, fmt::format("must be a number in {:g}..{:g} {}", column.low, column.high, column.unit));
+      if (error != std::errc{} || end != field.data() + field.size() ||
+          !(out[i] >= column.low && out[i] <= column.high)) {
+        fail(column.name, field,
+             fmt::format("must be a number in {:g}..{:g} {}", column.low, column.high, column.unit));
         return false;
       }
     }
@@ -75,7 +79,7 @@ class Rows {
     std::int64_t value = 0;
     const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
     if (error != std::errc{} || end != field.data() + field.size() || value < 0) {
-      fail(column, field, fmt::format("must be a whole number of at least 0 {}", unit));
+      fail(column, field, fmt::format("must be a whole number of at least 0{}", unit));
       return std::nullopt;
     }
     return value;
@@ -125,8 +129,9 @@ RecordedInput parse_laser_radar(const std::string& text, const std::string& name
     if (!laser && fields[0] != "R") return rows.fail("sensor", fields[0], "must be L (laser) or R (radar)");
     const std::size_t values = laser ? 2 : 3, columns = values + 8;
     if (fields.size() != columns)
-      return rows.fail("columns", std::to_string(fields.size()),
-                       fmt::format("must be {} columns, separated by tabs, in a row of {}", columns, fields[0]));
+      return rows.fail(
+          "columns", std::to_string(fields.size()),
+          fmt::format("must be {} columns, separated by tabs, in a row of {}", columns, fields[0]));
 
     std::array<double, 3> seen{};
     std::array<double, 6> truth{};
@@ -134,10 +139,11 @@ RecordedInput parse_laser_radar(const std::string& text, const std::string& name
     const std::span<const Column> seen_columns =
         laser ? std::span<const Column>(kLaserColumns) : std::span<const Column>(kRadarColumns);
     if (!rows.numbers(all.subspan(1), seen_columns, seen)) return;
-    const std::optional<std::int64_t> time = rows.whole("t_us", fields[values + 1], "us");
+    const std::optional<std::int64_t> time = rows.whole("t_us", fields[values + 1], " us");
     if (!time || !rows.numbers(all.subspan(values + 2), kTruthColumns, truth)) return;
     if (*time < last_time)
-      return rows.fail("t_us", fields[values + 1], fmt::format("must not be before the row above, {} us", last_time));
+      return rows.fail("t_us", fields[values + 1],
+                       fmt::format("must not be before the row above, {} us", last_time));
     last_time = *time;
 
     if (input.observations.empty()) input.first_time_us = *time;
@@ -178,10 +184,12 @@ std::vector<RecordedScan> parse_lidar_scans(const std::string& text, const std::
                        "must be 4 columns, separated by commas: frame, azimuth_rad, range_m, intensity");
     const std::optional<std::int64_t> frame = rows.whole("frame", fields[0], "");
     std::array<double, 3> values{};
-    if (!frame || !rows.numbers(std::span<const std::string_view>(fields).subspan(1), kScanColumns, values)) return;
+    if (!frame || !rows.numbers(std::span<const std::string_view>(fields).subspan(1), kScanColumns, values))
+      return;
     if (scans.empty() || scans.back().frame != *frame) {
       if (!scans.empty() && *frame < scans.back().frame)
-        return rows.fail("frame", fields[0], fmt::format("must not be before the row above, {}", scans.back().frame));
+        return rows.fail("frame", fields[0],
+                         fmt::format("must not be before the row above, {}", scans.back().frame));
       scans.emplace_back().frame = *frame;
     }
     scans.back().returns.push_back({values[0], values[1], values[2]});
@@ -193,7 +201,9 @@ std::vector<RecordedScan> parse_lidar_scans(const std::string& text, const std::
 }
 
 RecordedInput read_laser_radar(const std::string& path) { return parse_laser_radar(read_file(path), path); }
-std::vector<RecordedScan> read_lidar_scans(const std::string& path) { return parse_lidar_scans(read_file(path), path); }
+std::vector<RecordedScan> read_lidar_scans(const std::string& path) {
+  return parse_lidar_scans(read_file(path), path);
+}
 
 RecordingFormat sniff_recording(const std::string& path) {
   const std::string text = read_file(path);
@@ -212,9 +222,10 @@ RecordingFormat sniff_recording(const std::string& path) {
     decided = !comment || format.has_value();
   });
   if (!format)
-    throw InputError({path, 0, "", "",
-                      "is no recording known here: rows of L or R (laser and radar), of frame, azimuth_rad, range_m, "
-                      "intensity (scanner), or an MCAP log"});
+    throw InputError(
+        {path, 0, "", "",
+         "is no recording known here: rows of L or R (laser and radar), of frame, azimuth_rad, range_m, "
+         "intensity (scanner), or an MCAP log"});
   return *format;
 }
 

@@ -1,7 +1,7 @@
 // Recorded measurements in: text files that other people's sensors wrote.
 //
-// Each broken line is one finding (file, line, column name, value, what is expected); all are thrown at once as one
-// InputError, as are a file that cannot be read and one without a single row.
+// Each broken line is one finding (file, line, column name, value, what is expected); all are thrown at once
+// as one InputError, as are a file that cannot be read and one without a single row.
 #pragma once
 
 #include <cstdint>
@@ -10,15 +10,16 @@
 
 namespace ttf::recording {
 
-// What one sensor saw at one instant. Position: x, y in metres. Range-bearing-rate: range in metres, bearing in radians
-// (0 ahead, positive left), range rate in m/s (positive: going away). The sensor stands at the origin.
+// What one sensor saw at one instant. Position: x, y in metres. Range-bearing-rate: range in metres, bearing
+// in radians (0 ahead, positive left), range rate in m/s (positive: going away). The sensor stands at the
+// origin.
 struct RecordedObservation {
   enum class Kind : std::uint8_t { kPosition = 1, kRangeBearingRate = 2 };
-  std::string sensor;                    // "laser" or "radar"
-  std::int64_t time_us_from_start = 0;   // since the file's first row
+  std::string sensor;                   // "laser" or "radar"
+  std::int64_t time_us_from_start = 0;  // since the file's first row
   Kind kind = Kind::kPosition;
-  double x = 0, y = 0;                               // kPosition
-  double range = 0, bearing = 0, range_rate = 0;     // kRangeBearingRate
+  double x = 0, y = 0;                            // kPosition
+  double range = 0, bearing = 0, range_rate = 0;  // kRangeBearingRate
 };
 
 // The truth that came with the recording at the same instant.
@@ -29,7 +30,7 @@ struct RecordedTruth {
 
 // observations[i] and truth[i] belong together; times never decrease.
 struct RecordedInput {
-  std::int64_t first_time_us = 0;        // the first row's own time stamp
+  std::int64_t first_time_us = 0;  // the first row's own time stamp
   std::vector<RecordedObservation> observations;
   std::vector<RecordedTruth> truth;
 };
@@ -49,7 +50,8 @@ struct RecordedScan {
   std::vector<RecordedReturn> returns;
 };
 
-// Comma-separated rows "frame, azimuth_rad, range_m, intensity", with or without a header line; frames never decrease.
+// Comma-separated rows "frame, azimuth_rad, range_m, intensity", with or without a header line; frames never
+// decrease.
 std::vector<RecordedScan> read_lidar_scans(const std::string& path);
 std::vector<RecordedScan> parse_lidar_scans(const std::string& text, const std::string& name);
 

@@ -1,0 +1,200 @@
+// What is written is read again; the same records give the same bytes; the hash follows the records.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+#include <numeric>
+#include <set>
+
+#include "core/errors.h"
+#include "log_fixture.h"
+#include "record_text.h"
+#include "recording/log_reader.h"
+#include "recording/log_writer.h"
+
+namespace ttf::recording {
+namespace {
+
+constexpr int kKinds = static_cast<int>(kRecordKinds);
+
+TEST(Log, ReturnsEveryKindOfRecordWithExtremeValuesBitForBit) {
+  TextSink written, read;
+  const std::string path = scratch("extremes.mcap");
+  LogWriter writer(path, sample_manifest());
+  Tee both(writer, written);
+  std::array<std::uint64_t, kRecordKinds> counts{};
+  for (const Values values : {Values::kZero, Values::kSmallest, Values::kLargest, Values::kDrawn})
+    for (int kind = 1; kind <= kKinds; ++kind)
+      for (std::uint32_t i = 0; i < 20; ++i, ++counts[static_cast<std::size_t>(kind - 1)])
+        emit(both, kind, values, i, 1'000'000 * i);
+  writer.close();
+
+  const LogInfo info = read_log(path, read);
+  EXPECT_EQ(info.warning, "");
+  EXPECT_FALSE(info.truncated);
+  EXPECT_EQ(read.lines, written.lines);
+  EXPECT_EQ(info.counts, counts);
+  EXPECT_EQ(info.content_hash, writer.content_hash());
+  EXPECT_EQ(info.stated_content_hash, writer.content_hash());
+  EXPECT_EQ(info.chunks_lost, 0u);
+}
+
+TEST(Log, EveryFieldOfEveryRecordIsInTheLog) {
+  // Two records of a kind that differ in whatever field must differ when read: the smallest and largest
+  // differ in all.
+  for (int kind = 1; kind <= kKinds; ++kind) {
+    TextSink read;
+    const std::string bytes = log_of([kind](records::Sink& sink) {
+      emit(sink, kind, Values::kSmallest, 0, 0);
+      emit(sink, kind, Values::kLargest, 0, 0);
+    });
+    read_log_bytes(bytes, "memory", read);
+    ASSERT_EQ(read.lines.size(), 2u) << "kind " << kind;
+    EXPECT_NE(read.lines[0], read.lines[1]) << "kind " << kind;
+  }
+}
+
+TEST(Log, ReturnsManifestAndAttachments) {
+  const std::string path = scratch("manifest.mcap");
+  std::string binary(100'000, '\0');
+  std::iota(binary.begin(), binary.end(), char{});
+  {
+    LogWriter writer(path, sample_manifest());
+    writer.attach("cluster.yaml", "application/yaml", "name: paper\n");
+    writer.attach("empty", "", "");
+    emit(writer, 1, Values::kDrawn, 0, 0);
+    writer.attach("late.bin", "application/octet-stream", binary);
+  }  // the destructor closes
+  TextSink read;
+  const LogInfo info = read_log(path, read);
+  EXPECT_EQ(info.warning, "");
+  EXPECT_EQ(info.manifest, sample_manifest());
+  const std::vector<std::pair<std::string, std::string>> expected{
+      {"cluster.yaml", "name: paper\n"}, {"empty", ""}, {"late.bin", binary}};
+  EXPECT_EQ(info.attachments, expected);
+  EXPECT_EQ(read.lines.size(), 1u);
+}
+
+TEST(Log, EmptyManifestAndNoRecords) {
+  const std::string path = scratch("empty.mcap");
+  LogWriter(path, LogManifest{}).close();
+  TextSink read;
+  const LogInfo info = read_log(path, read);
+  EXPECT_EQ(info.warning, "");
+  EXPECT_EQ(info.manifest, LogManifest{});
+  EXPECT_TRUE(read.lines.empty());
+}
+
+TEST(Log, SameRecordsGiveTheSameBytes) {
+  const auto drive = [](records::Sink& sink) { emit_drive(sink, 3000); };
+  const std::string first = log_of(drive), second = log_of(drive);
+  EXPECT_EQ(first, second);
+  const std::string other = log_of([](records::Sink& sink) { emit_drive(sink, 2999); });
+  EXPECT_NE(first, other);
+}
+
+// Chunks close on log time or size: a quiet log has a chunk per 250 ms, a dense one chunks of 256 KiB.
+TEST(Log, ChunksCloseOnLogTimeOrSize) {
+  TextSink read;
+  const std::string quiet = log_of([](records::Sink& sink) {
+    for (int i = 0; i <= 100; ++i)
+      sink.on(records::PrecisionSample{TrueTime{i * 10'000'000}, i, Duration{1}});  // 1 s
+  });
+  EXPECT_EQ(read_log_bytes(quiet, "quiet", read).chunks_read,
+            4u);  // 0..250, 260..510, 520..770, 780..1000 ms
+
+  const std::vector<std::byte> data(4096);
+  const std::string dense = log_of([&data](records::Sink& sink) {
+    for (int i = 0; i < 640; ++i) {
+      records::FusionInput input;
+      input.fragments = data;
+      sink.on(input);
+    }
+  });
+  const std::uint64_t chunks = read_log_bytes(dense, "dense", read).chunks_read;
+  EXPECT_EQ(chunks, 640 / 64 + 0u);  // 64 messages of a little more than 4 KiB reach 256 KiB
+}
+
+TEST(Log, HashChangesWithAnyRecordAndNotWithTheOrderOfArrival) {
+  const auto hash = [](const std::vector<std::pair<int, Values>>& records) {
+    LogWriter writer(scratch("hash.mcap"), sample_manifest());
+    for (const auto& [kind, values] : records) emit(writer, kind, values, 1, 5);
+    return writer.content_hash();
+  };
+  std::set<std::uint64_t> seen{hash({})};
+  for (int kind = 1; kind <= kKinds; ++kind)
+    for (const Values values : {Values::kZero, Values::kSmallest, Values::kLargest, Values::kDrawn})
+      EXPECT_TRUE(seen.insert(hash({{kind, values}})).second) << "kind " << kind;
+  // Twice the same record is not once, nor none.
+  EXPECT_TRUE(seen.insert(hash({{1, Values::kZero}, {1, Values::kZero}})).second);
+  EXPECT_EQ(hash({{1, Values::kZero}, {17, Values::kDrawn}}),
+            hash({{17, Values::kDrawn}, {1, Values::kZero}}));
+}
+
+TEST(Log, HashChangesWithEveryBitOfAPayload) {
+  const auto hash = [](const std::vector<std::byte>& fragments, std::uint32_t sequence, std::int64_t time) {
+    LogWriter writer(scratch("hash_bits.mcap"), {});
+    records::FusionInput input;
+    input.stamp.true_time.ns = time;
+    input.sequence = sequence;
+    input.fragments = fragments;
+    writer.on(input);
+    return writer.content_hash();
+  };
+  std::vector<std::byte> bytes(21, std::byte{0x5a});
+  std::set<std::uint64_t> seen{hash(bytes, 0, 0)};
+  for (std::size_t bit = 0; bit < bytes.size() * 8; ++bit) {
+    std::vector<std::byte> changed = bytes;
+    changed[bit / 8] ^= std::byte{1} << static_cast<int>(bit % 8);
+    EXPECT_TRUE(seen.insert(hash(changed, 0, 0)).second) << "bit " << bit;
+  }
+  for (std::uint32_t sequence = 1; sequence < 50; ++sequence)
+    EXPECT_TRUE(seen.insert(hash(bytes, sequence, 0)).second);
+  for (std::int64_t time = 1; time < 50; ++time) EXPECT_TRUE(seen.insert(hash(bytes, 0, time)).second);
+  for (std::size_t size = 0; size < 21; ++size)
+    EXPECT_TRUE(seen.insert(hash(std::vector<std::byte>(size), 0, 0)).second);
+}
+
+TEST(Log, HashIsPrintedAsSixteenHexDigits) {
+  LogWriter writer(scratch("text.mcap"), {});
+  const std::string text = writer.content_hash_text();
+  EXPECT_EQ(text.size(), 16u);
+  EXPECT_EQ(text.find_first_not_of("0123456789abcdef"), std::string::npos);
+  EXPECT_EQ(std::stoull(text, nullptr, 16), writer.content_hash());
+}
+
+TEST(Log, WhatIsNoLogIsInvalidInput) {
+  TextSink read;
+  const auto message = [&read](const std::string& bytes) {
+    try {
+      read_log_bytes(bytes, "some/file.mcap", read);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  EXPECT_EQ(message("slots: 12\n"), "some/file.mcap: is not a log: it does not begin as an MCAP file does");
+  std::string foreign = log_of([](records::Sink&) {});
+  // The header of another program's file, and no manifest.
+  const std::size_t profile = foreign.find("ttfusion");
+  foreign.replace(profile, 8, "rosbags2");
+  for (std::size_t at = 0; (at = foreign.find("ttfusion.manifest", at)) != std::string::npos; ++at)
+    foreign.replace(at, 8, "whatever");
+  EXPECT_EQ(message(foreign),
+            "some/file.mcap: profile = rosbags2: is an MCAP file, but its profile must be ttfusion");
+  EXPECT_THROW(read_log("no/such/file.mcap", read), InputError);
+  EXPECT_THROW(read_log(std::filesystem::temp_directory_path().string(), read), InputError);
+  EXPECT_TRUE(read.lines.empty());
+}
+
+TEST(Log, WhatCannotBeWrittenIsSaid) {
+  EXPECT_THROW(LogWriter("no/such/folder/log.mcap", {}), InputError);
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here to fail writing to";
+  LogWriter writer("/dev/full", {});
+  emit_drive(writer, 100);
+  EXPECT_THROW(writer.close(), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace ttf::recording

@@ -1,0 +1,290 @@
+#include "record_text.h"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <limits>
+#include <type_traits>
+
+#include "core/random.h"
+
+namespace ttf::recording {
+namespace {
+
+// Writes fields one after the other; doubles by their bits.
+class Line {
+ public:
+  explicit Line(std::string name) : text_(std::move(name)) {}
+
+  template <class T>
+  Line& add(const T& value) {
+    if constexpr (std::is_same_v<T, double>)
+      text_ += fmt::format(" {:016x}", std::bit_cast<std::uint64_t>(value));
+    else if constexpr (std::is_enum_v<T>)
+      text_ += fmt::format(" {}", static_cast<std::int64_t>(value));
+    else if constexpr (std::is_arithmetic_v<T>)
+      text_ += fmt::format(" {}", +value);
+    else if constexpr (std::is_same_v<T, std::byte>)
+      text_ += fmt::format(" {:02x}", static_cast<unsigned>(value));
+    else if constexpr (std::is_same_v<T, MeasurementId>)
+      add(value.sensor).add(value.sequence);
+    else if constexpr (std::is_same_v<T, records::Stamp>)
+      add(value.true_time).add(value.local).add(value.global).add(value.node);
+    else if constexpr (std::is_same_v<T, records::ImageObject>)
+      all(value.track, value.x, value.y, value.heading, value.speed, value.acceleration, value.length,
+          value.width, value.sigma_x, value.sigma_y, value.correlation_xy, value.sigma_heading,
+          value.sigma_speed, value.sigma_acceleration, value.sigma_length, value.sigma_width);
+    else if constexpr (std::is_same_v<T, records::FeatureObject>)
+      all(value.image, value.time_gap_s, value.time_to_collision_s, value.warning);
+    else if constexpr (requires { value.ns; })
+      text_ += fmt::format(" {}", value.ns);
+    else
+      list(value);
+    return *this;
+  }
+  template <class... T>
+  Line& all(const T&... values) {
+    (add(values), ...);
+    return *this;
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  template <class List>
+  void list(const List& items) {
+    text_ += fmt::format(" [{}", items.size());
+    for (const auto& item : items) add(item);
+    text_ += "]";
+  }
+  std::string text_;
+};
+
+template <class... T>
+std::string line(std::string name, const T&... fields) {
+  return Line(std::move(name)).all(fields...).text();
+}
+
+// Draws field values.
+class Draw {
+ public:
+  Draw(int kind, Values values, std::uint32_t index, std::int64_t at)
+      : values_(values),
+        at_(at),
+        stream_({.seed = 7,
+                 .purpose = Purpose::kTest,
+                 .entity = static_cast<std::uint16_t>(kind),
+                 .index = index}) {}
+
+  template <class T>
+  T get() {
+    if constexpr (std::is_same_v<T, bool>)
+      return get<std::uint8_t>() % 2 == 1;
+    else if constexpr (std::is_same_v<T, double>)
+      return number();
+    else if constexpr (std::is_same_v<T, std::byte>)
+      return static_cast<std::byte>(stream_.bits());
+    else if constexpr (std::is_enum_v<T>)
+      return static_cast<T>(get<std::underlying_type_t<T>>());
+    else if constexpr (std::is_same_v<T, MeasurementId>)
+      return {get<SensorId>(), get<std::uint32_t>()};
+    else if constexpr (std::is_same_v<T, records::Stamp>)
+      return {get<TrueTime>(), get<LocalTime>(), get<GlobalTime>(), get<NodeId>()};
+    else if constexpr (std::is_same_v<T, records::ImageObject>) {
+      records::ImageObject object{get<TrackId>()};
+      for (double* field :
+           {&object.x, &object.y, &object.heading, &object.speed, &object.acceleration, &object.length,
+            &object.width, &object.sigma_x, &object.sigma_y, &object.correlation_xy, &object.sigma_heading,
+            &object.sigma_speed, &object.sigma_acceleration, &object.sigma_length, &object.sigma_width})
+        *field = number();
+      return object;
+    } else if constexpr (std::is_same_v<T, records::FeatureObject>)
+      return {get<records::ImageObject>(), number(), number(), get<bool>()};
+    else if constexpr (requires(T t) { t.ns; })
+      return T{values_ == Values::kDrawn ? at_ + stream_.integer(0, 9'999) : get<std::int64_t>()};
+    else {
+      if (values_ == Values::kSmallest) return std::numeric_limits<T>::min();
+      if (values_ == Values::kLargest) return std::numeric_limits<T>::max();
+      return values_ == Values::kZero ? T{} : static_cast<T>(stream_.bits());
+    }
+  }
+  template <class T>
+  T choice(T low, T high) {
+    if (values_ == Values::kLargest) return high;
+    if (values_ != Values::kDrawn) return low;
+    return static_cast<T>(stream_.integer(static_cast<int>(low), static_cast<int>(high)));
+  }
+  template <class T>
+  std::vector<T> list(std::size_t largest) {
+    std::size_t count = 0;
+    if (values_ == Values::kLargest) count = largest;
+    if (values_ == Values::kDrawn) count = static_cast<std::size_t>(stream_.integer(0, 30));
+    return fixed<T>(count);
+  }
+  template <class T>
+  std::vector<T> fixed(std::size_t count) {
+    std::vector<T> items;
+    for (std::size_t i = 0; i < count; ++i) items.push_back(get<T>());
+    return items;
+  }
+
+ private:
+  double number() {
+    using Limits = std::numeric_limits<double>;
+    switch (values_) {
+      case Values::kZero:
+        return -0.0;
+      case Values::kSmallest:
+        return Limits::denorm_min();
+      case Values::kLargest:
+        return Limits::infinity();
+      case Values::kDrawn:
+        break;
+    }
+    return std::bit_cast<double>(stream_.bits());  // any pattern, not-a-numbers with their payloads too
+  }
+
+  Values values_;
+  std::int64_t at_;
+  RandomStream stream_;
+};
+
+}  // namespace
+
+void TextSink::on(const records::Measured& r) {
+  lines.push_back(line("measured", r.stamp, r.id, r.truth_ids));
+}
+void TextSink::on(const records::CanFrameSent& r) {
+  lines.push_back(line("can", r.bus, r.sender, r.start, r.end, r.identifier, r.flexible_data_rate, r.pdu,
+                       r.sequence, r.fragment, r.data));
+}
+void TextSink::on(const records::SlotFrameSent& r) {
+  lines.push_back(line("slot", r.stamp, r.end, r.cycle, r.slot, r.channel, r.null_frame, r.pdu, r.sequence,
+                       r.fragment, r.bytes));
+}
+void TextSink::on(const records::SlotProblem& r) {
+  lines.push_back(line("problem", r.stamp, r.cycle, r.slot, r.channel, r.status));
+}
+void TextSink::on(const records::ListHop& r) {
+  lines.push_back(line("hop", r.stamp, r.hop, r.pdu, r.sequence, r.can_bus));
+}
+void TextSink::on(const records::TaskRun& r) {
+  lines.push_back(line("task", r.start, r.task, r.activated, r.end, r.deadline_met));
+}
+void TextSink::on(const records::ClockCorrected& r) {
+  lines.push_back(line("clock", r.stamp, r.cycle, r.offset_microticks, r.rate_microticks, r.offset_missing,
+                       r.rate_missing, r.offset_limited, r.rate_limited));
+}
+void TextSink::on(const records::PrecisionSample& r) {
+  lines.push_back(line("precision", r.at, r.cycle, r.precision));
+}
+void TextSink::on(const records::FusionInput& r) {
+  lines.push_back(line("input", r.stamp, r.step, r.pdu, r.sequence, r.measured, r.count, r.fragments));
+}
+void TextSink::on(const records::ListFused& r) {
+  lines.push_back(line("fused", r.stamp, r.step, r.id, r.measured, r.disposition));
+}
+void TextSink::on(const records::FusionStep& r) {
+  lines.push_back(line("step", r.stamp, r.step, r.confirmed, r.tentative));
+}
+void TextSink::on(const records::TrackState& r) {
+  lines.push_back(
+      line("track", r.stamp, r.step, r.track, r.valid_at, r.state, r.covariance, r.predicted_for_image));
+}
+void TextSink::on(const records::ObservationSeen& r) {
+  lines.push_back(line("observation", r.stamp, r.id, r.measured, r.index, r.x, r.y, r.sxx, r.sxy, r.syy));
+}
+void TextSink::on(const records::ImageWritten& r) {
+  lines.push_back(line("image", r.stamp, r.sequence, r.valid_at, r.newest_measurement, r.objects, r.newest));
+}
+void TextSink::on(const records::FeatureUsed& r) {
+  lines.push_back(line("feature", r.stamp, r.image_sequence, r.image_valid_at, r.fresh, r.objects));
+}
+void TextSink::on(const records::ReferenceFix& r) {
+  lines.push_back(line("reference", r.measured_true, r.measured, r.available, r.object, r.x, r.y, r.sigma));
+}
+void TextSink::on(const records::TruthState& r) {
+  lines.push_back(line("truth", r.at, r.object, r.x, r.y, r.heading, r.speed, r.acceleration, r.yaw_rate,
+                       r.length, r.width));
+}
+
+void emit(records::Sink& sink, int kind, Values values, std::uint32_t index, std::int64_t at_ns) {
+  Draw d(kind, values, index, at_ns);
+  const auto stamp = d.get<records::Stamp>();
+  using U8 = std::uint8_t;
+  using U16 = std::uint16_t;
+  using U32 = std::uint32_t;
+  using I32 = std::int32_t;
+  using I64 = std::int64_t;
+  // Braces evaluate from left to right, so the draws are in a defined order.
+  switch (kind) {
+    case 1: {
+      const auto ids = d.list<ObjectId>(500);
+      return sink.on(records::Measured{stamp, d.get<MeasurementId>(), ids});
+    }
+    case 2: {
+      const auto data = d.list<std::byte>(64);
+      return sink.on(records::CanFrameSent{d.get<U8>(), d.get<NodeId>(), d.get<TrueTime>(), d.get<TrueTime>(),
+                                           d.get<U32>(), d.get<bool>(), d.get<PduId>(), d.get<U32>(),
+                                           d.get<U8>(), data});
+    }
+    case 3: {
+      const auto bytes = d.list<std::byte>(262);
+      return sink.on(records::SlotFrameSent{stamp, d.get<TrueTime>(), d.get<I64>(), d.get<U16>(), d.get<U8>(),
+                                            d.get<bool>(), d.get<PduId>(), d.get<U32>(), d.get<U8>(), bytes});
+    }
+    case 4:
+      return sink.on(records::SlotProblem{stamp, d.get<I64>(), d.get<U16>(), d.get<U8>(), d.get<U8>()});
+    case 5:
+      return sink.on(records::ListHop{stamp, d.choice(records::Hop::kWritten, records::Hop::kOverwritten),
+                                      d.get<PduId>(), d.get<U32>(), d.get<std::int8_t>()});
+    case 6:
+      return sink.on(
+          records::TaskRun{stamp, d.get<U8>(), d.get<TrueTime>(), d.get<TrueTime>(), d.get<bool>()});
+    case 7:
+      return sink.on(records::ClockCorrected{stamp, d.get<I64>(), d.get<I32>(), d.get<I32>(), d.get<bool>(),
+                                             d.get<bool>(), d.get<bool>(), d.get<bool>()});
+    case 8:
+      return sink.on(records::PrecisionSample{d.get<TrueTime>(), d.get<I64>(), d.get<Duration>()});
+    case 9: {
+      const auto fragments = d.list<std::byte>(5000);
+      return sink.on(records::FusionInput{stamp, d.get<U32>(), d.get<PduId>(), d.get<U32>(),
+                                          d.get<GlobalTime>(), d.get<U16>(), fragments});
+    }
+    case 10:
+      return sink.on(
+          records::ListFused{stamp, d.get<U32>(), d.get<MeasurementId>(), d.get<GlobalTime>(),
+                             d.choice(records::Disposition::kFused, records::Disposition::kDuplicate)});
+    case 11:
+      return sink.on(records::FusionStep{stamp, d.get<U32>(), d.get<U16>(), d.get<U16>()});
+    case 12: {
+      const auto state = d.fixed<double>(6), covariance = d.fixed<double>(36);
+      return sink.on(records::TrackState{stamp, d.get<U32>(), d.get<TrackId>(), d.get<GlobalTime>(),
+                                         std::span<const double, 6>(state.data(), 6),
+                                         std::span<const double, 36>(covariance.data(), 36), d.get<bool>()});
+    }
+    case 13:
+      return sink.on(records::ObservationSeen{stamp, d.get<MeasurementId>(), d.get<GlobalTime>(),
+                                              d.get<U16>(), d.get<double>(), d.get<double>(), d.get<double>(),
+                                              d.get<double>(), d.get<double>()});
+    case 14: {
+      const auto objects = d.list<records::ImageObject>(25);
+      const auto newest = d.list<MeasurementId>(255);
+      return sink.on(records::ImageWritten{stamp, d.get<U32>(), d.get<GlobalTime>(), d.get<GlobalTime>(),
+                                           objects, newest});
+    }
+    case 15: {
+      const auto objects = d.list<records::FeatureObject>(25);
+      return sink.on(records::FeatureUsed{stamp, d.get<U32>(), d.get<GlobalTime>(), d.get<bool>(), objects});
+    }
+    case 16:
+      return sink.on(records::ReferenceFix{d.get<TrueTime>(), d.get<GlobalTime>(), d.get<GlobalTime>(),
+                                           d.get<ObjectId>(), d.get<double>(), d.get<double>(),
+                                           d.get<double>()});
+    case 17:
+      return sink.on(records::TruthState{d.get<TrueTime>(), d.get<ObjectId>(), d.get<double>(),
+                                         d.get<double>(), d.get<double>(), d.get<double>(), d.get<double>(),
+                                         d.get<double>(), d.get<double>(), d.get<double>()});
+  }
+}
+
+}  // namespace ttf::recording

@@ -1,0 +1,71 @@
+// A sink that turns every record into one line of text, exact to the last bit of every number, so that what
+// was written and what was read can be compared. And records to write: drawn at random, with extreme values
+// among them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "recording/records/records.h"
+
+namespace ttf::recording {
+
+class TextSink final : public records::Sink {
+ public:
+  std::vector<std::string> lines;
+
+  void on(const records::Measured&) override;
+  void on(const records::CanFrameSent&) override;
+  void on(const records::SlotFrameSent&) override;
+  void on(const records::SlotProblem&) override;
+  void on(const records::ListHop&) override;
+  void on(const records::TaskRun&) override;
+  void on(const records::ClockCorrected&) override;
+  void on(const records::PrecisionSample&) override;
+  void on(const records::FusionInput&) override;
+  void on(const records::ListFused&) override;
+  void on(const records::FusionStep&) override;
+  void on(const records::TrackState&) override;
+  void on(const records::ObservationSeen&) override;
+  void on(const records::ImageWritten&) override;
+  void on(const records::FeatureUsed&) override;
+  void on(const records::ReferenceFix&) override;
+  void on(const records::TruthState&) override;
+};
+
+// Hands every record on to both.
+class Tee final : public records::Sink {
+ public:
+  Tee(records::Sink& a, records::Sink& b) : a_(a), b_(b) {}
+  void on(const records::Measured& r) override { a_.on(r), b_.on(r); }
+  void on(const records::CanFrameSent& r) override { a_.on(r), b_.on(r); }
+  void on(const records::SlotFrameSent& r) override { a_.on(r), b_.on(r); }
+  void on(const records::SlotProblem& r) override { a_.on(r), b_.on(r); }
+  void on(const records::ListHop& r) override { a_.on(r), b_.on(r); }
+  void on(const records::TaskRun& r) override { a_.on(r), b_.on(r); }
+  void on(const records::ClockCorrected& r) override { a_.on(r), b_.on(r); }
+  void on(const records::PrecisionSample& r) override { a_.on(r), b_.on(r); }
+  void on(const records::FusionInput& r) override { a_.on(r), b_.on(r); }
+  void on(const records::ListFused& r) override { a_.on(r), b_.on(r); }
+  void on(const records::FusionStep& r) override { a_.on(r), b_.on(r); }
+  void on(const records::TrackState& r) override { a_.on(r), b_.on(r); }
+  void on(const records::ObservationSeen& r) override { a_.on(r), b_.on(r); }
+  void on(const records::ImageWritten& r) override { a_.on(r), b_.on(r); }
+  void on(const records::FeatureUsed& r) override { a_.on(r), b_.on(r); }
+  void on(const records::ReferenceFix& r) override { a_.on(r), b_.on(r); }
+  void on(const records::TruthState& r) override { a_.on(r), b_.on(r); }
+
+ private:
+  records::Sink& a_;
+  records::Sink& b_;
+};
+
+// What the drawn fields look like. kSmallest and kLargest: every field at that end of its type, lists empty
+// and long; kDrawn: anything, with times near `at`.
+enum class Values { kSmallest, kLargest, kZero, kDrawn };
+
+// One record of `kind` (1..17), a pure function of the arguments, to `sink`.
+void emit(records::Sink& sink, int kind, Values values, std::uint32_t index, std::int64_t at_ns);
+
+}  // namespace ttf::recording
