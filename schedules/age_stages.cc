@@ -1,0 +1,287 @@
+#include "schedules/age_stages.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+
+#include "core/check.h"
+#include "schedules/can_load.h"
+#include "schedules/checker.h"
+
+namespace ttf::schedules {
+namespace {
+
+constexpr std::int64_t kCycles = 64;
+// Oscillators count whole microticks, at most 50 ns; a span starts and ends at one.
+constexpr std::int64_t kGranularity_ns = 100;
+// The intermission belongs to a frame's duration, but the list is there before it.
+constexpr std::int64_t kIntermissionBits = 3;
+
+// The slots of one list in the cycles of one base and repetition.
+struct SlotGroup {
+  int base_cycle, repetition;
+  int first, last;       // slots
+  int first_fragment;    // slot of fragment 0
+};
+
+std::vector<SlotGroup> slot_groups(const Cluster& cluster, PduId pdu) {
+  std::map<std::pair<int, int>, SlotGroup> groups;
+  for (const FrameSlot& frame : cluster.frames) {
+    if (frame.pdu != pdu) continue;
+    const auto [entry, fresh] = groups.try_emplace({frame.base_cycle, frame.repetition},
+                                                   SlotGroup{frame.base_cycle, frame.repetition, frame.slot, frame.slot,
+                                                             frame.slot});
+    SlotGroup& group = entry->second;
+    group.first = std::min(group.first, frame.slot);
+    group.last = std::max(group.last, frame.slot);
+    if (frame.fragment == 0) group.first_fragment = frame.slot;
+  }
+  std::vector<SlotGroup> list;
+  for (const auto& [cycles, group] : groups) list.push_back(group);
+  return list;
+}
+
+Macroticks slot_start(const GlobalParameters& g, int slot) {
+  return {static_cast<std::int64_t>(slot - 1) * g.gdStaticSlot};
+}
+
+// When the controller takes the list for a cycle: at its first slot's action point, at the earliest the slot's start.
+CycleInstant latch(const GlobalParameters& g, const SlotGroup& group, bool latest) {
+  const Macroticks action_point = latest ? Macroticks{0} : Macroticks{g.gdActionPointOffset};
+  return {group.base_cycle, group.repetition, slot_start(g, group.first) + action_point};
+}
+
+std::int64_t transmitted(const Cluster& cluster, PduId pdu, std::int64_t from, bool latest) {
+  const GlobalParameters& g = cluster.flexray;
+  std::int64_t end = INT64_MAX;
+  for (const SlotGroup& group : slot_groups(cluster, pdu)) {
+    const Occurrence sent = next_occurrence(g, latch(g, group, latest), GlobalTime{from});
+    // A full list to the end of its last slot; or a list of one fragment, TSS, FSS, bytes and FES of its frame.
+    const std::int64_t bits = g.gdTSSTransmitter + 1 + 80 + 20 * g.gPayloadLengthStatic + 2;
+    const std::int64_t done =
+        latest ? time_of(g, sent.cycle, slot_start(g, group.last + 1)).ns
+               : time_of(g, sent.cycle, slot_start(g, group.first_fragment) + Macroticks{g.gdActionPointOffset}).ns +
+                     (bits * g.gdBit_ps + g.gdMinPropagationDelay_ps) / 1000;
+    end = std::min(end, done);
+  }
+  return end;
+}
+
+class Builder {
+ public:
+  explicit Builder(const Cluster& cluster) : cluster_(cluster), clocks_(clock_bounds(cluster)) {}
+
+  Path build(SensorId sensor) {
+    Path path;
+    NodeId node = cluster_.sensor(sensor).device;
+    const Task* task = measuring_task(node, sensor);
+    while (task != nullptr) {
+      const PortBinding* out = written(*task, sensor);
+      if (out == nullptr) break;
+      execution(path, node, *task);
+      transfer(path, *out);
+      path.available = path.stages.size();
+      task = reader(*out, node);
+      if (task == nullptr) return {};
+      activation(path, node, *task);
+    }
+    if (task == nullptr || path.stages.empty()) return {};
+    path.fused = path.stages.size();
+    publish(path, node, *task);
+    return path;
+  }
+
+ private:
+  void span(Path& path, std::string name, Duration best, Duration worst) {
+    // Two oscillators: the one it runs on and the one it is judged by.
+    const auto drift = [&](Duration d) { return d.ns / 1'000'000'000 * 2 * clocks_.drift_ppb +
+                                                d.ns % 1'000'000'000 * 2 * clocks_.drift_ppb / 1'000'000'000 + 1; };
+    Stage stage;
+    stage.name = std::move(name);
+    stage.best = {std::max<std::int64_t>(0, best.ns - drift(best) - kGranularity_ns)};
+    stage.worst = {worst.ns + drift(worst) + kGranularity_ns};
+    path.stages.push_back(std::move(stage));
+  }
+
+  const Task* measuring_task(NodeId node, SensorId sensor) const {
+    for (const Task& task : cluster_.node(node).tasks)
+      if (task.activation.kind == ActivationKind::kSensor && task.activation.sensor == sensor) return &task;
+    return nullptr;
+  }
+
+  const PortBinding* written(const Task& task, SensorId sensor) const {
+    for (const PortBinding& binding : task.writes)
+      if (cluster_.pdu(binding.pdu).sensor == sensor) return &binding;
+    return nullptr;
+  }
+
+  void execution(Path& path, NodeId node, const Task& task) {
+    span(path, fmt::format("{}.{} executes", cluster_.node(node).name, task.name),
+         task.draw == ExecutionDraw::kWorst ? task.worst_case : task.best_case, task.worst_case);
+  }
+
+  void transfer(Path& path, const PortBinding& binding) {
+    const PduLayout& layout = cluster_.pdu(binding.pdu);
+    if (!binding.can_bus) {
+      Stage stage;
+      stage.name = fmt::format("{} waits for its slots and is sent", layout.name);
+      stage.kind = Stage::Kind::kSlots;
+      stage.pdu = binding.pdu;
+      path.stages.push_back(std::move(stage));
+      return;
+    }
+    const CanBus& bus = cluster_.can_buses[*binding.can_bus];
+    const auto message = std::find_if(bus.messages.begin(), bus.messages.end(),
+                                      [&](const CanMessage& m) { return m.pdu == binding.pdu; });
+    TTF_CHECK(message != bus.messages.end(), "{} is no message on {}", layout.name, bus.name);
+    const auto worst = can_worst_response(cluster_, bus, *message);
+    TTF_CHECK(worst.has_value(), "{} is overloaded", bus.name);
+    const Duration intermission{kIntermissionBits * 1'000'000'000 / bus.nominal_bit_rate};
+    span(path, fmt::format("{} on {}", layout.name, bus.name),
+         can_best_case(bus, layout.fragment_bytes) - intermission, *worst);
+  }
+
+  const Task* reader(const PortBinding& out, NodeId& node) const {
+    for (std::size_t n = 0; n < cluster_.nodes.size(); ++n)
+      for (const Task& task : cluster_.nodes[n].tasks)
+        for (const PortBinding& in : task.reads)
+          if (in.pdu == out.pdu && in.can_bus == out.can_bus) {
+            node = static_cast<NodeId>(n);
+            return &task;
+          }
+    return nullptr;
+  }
+
+  const Task* task_called(const Node& node, const std::string& name) const {
+    for (const Task& task : node.tasks)
+      if (task.name == name) return &task;
+    return nullptr;
+  }
+
+  // From the list's arrival to the task's start.
+  void activation(Path& path, NodeId id, const Task& task) {
+    const Node& node = cluster_.node(id);
+    const std::string who = fmt::format("{}.{}", node.name, task.name);
+    if (task.activation.kind == ActivationKind::kTime) {
+      instant(path, who, task.activation.at);
+    } else if (task.activation.kind == ActivationKind::kCompletion) {
+      // It reads at its own start, whatever set off its chain: up to a period of the first task and all executions.
+      Duration worst{};
+      const Task* before = task_called(node, task.activation.after);
+      for (; before->activation.kind == ActivationKind::kCompletion;
+           before = task_called(node, before->activation.after))
+        worst += before->worst_case;
+      worst += before->worst_case + longest_period(*before);
+      span(path, who + " is waited for", {}, worst);
+    }
+    queue(path, node, task);
+  }
+
+  Duration longest_period(const Task& task) const {
+    Duration longest{};
+    if (task.activation.kind == ActivationKind::kTime) return cluster_.cycle() * task.activation.at.repetition;
+    for (const Sensor& sensor : cluster_.sensors) longest = std::max(longest, sensor.period);
+    return longest * 2;
+  }
+
+  void instant(Path& path, const std::string& who, const CycleInstant& at) {
+    Stage stage;
+    stage.name = who + " is waited for";
+    stage.kind = Stage::Kind::kActivation;
+    stage.at = at;
+    path.stages.push_back(std::move(stage));
+  }
+
+  void queue(Path& path, const Node& node, const Task& task) {
+    // Tasks activated by time do not overlap each other; everything else may be in the way once.
+    const bool timed = task.activation.kind == ActivationKind::kTime;
+    Duration others{};
+    for (const Task& other : node.tasks)
+      if (other.name != task.name && !(timed && other.activation.kind == ActivationKind::kTime))
+        others += other.worst_case;
+    if (others > Duration{}) span(path, fmt::format("{}.{} waits for other tasks", node.name, task.name), {}, others);
+  }
+
+  // From the fusing task's start to the start of the image's reader.
+  void publish(Path& path, NodeId id, const Task& fusing) {
+    const Node& node = cluster_.node(id);
+    const Task* publisher = nullptr;
+    const PortBinding* image = nullptr;
+    for (const Task& task : node.tasks)
+      for (const PortBinding& binding : task.writes)
+        if (publisher == nullptr && cluster_.pdu(binding.pdu).sensor == kNoSensor) {
+          publisher = &task;
+          image = &binding;
+        }
+    if (publisher == nullptr) return;
+    if (publisher != &fusing) {
+      const bool follows = publisher->activation.kind == ActivationKind::kCompletion &&
+                           publisher->activation.after == fusing.name;
+      if (!follows && publisher->activation.kind != ActivationKind::kTime) return;
+      execution(path, id, fusing);
+      if (!follows) instant(path, fmt::format("{}.{}", node.name, publisher->name), publisher->activation.at);
+      queue(path, node, *publisher);
+    }
+    execution(path, id, *publisher);
+    transfer(path, *image);
+    NodeId at = id;
+    const Task* user = reader(*image, at);
+    if (user == nullptr) return;
+    activation(path, at, *user);
+    path.used = path.stages.size();
+    if (user->activation.kind == ActivationKind::kTime) path.use = user->activation.at;
+  }
+
+  const Cluster& cluster_;
+  ClockBounds clocks_;
+};
+
+}  // namespace
+
+ClockBounds clock_bounds(const Cluster& cluster) {
+  ClockBounds bounds;
+  bounds.apart_ns = (assumed_precision_ps(cluster.flexray) + cluster.flexray.gdMacrotick_ps + 999) / 1000;
+  for (const Node& node : cluster.nodes)
+    bounds.drift_ppb = std::max(bounds.drift_ppb, node.drift_ppb ? std::abs(*node.drift_ppb) : node.max_drift_ppb);
+  return bounds;
+}
+
+Path path_of(const Cluster& cluster, SensorId sensor) { return Builder(cluster).build(sensor); }
+
+std::vector<std::int64_t> walk(const Cluster& cluster, const Path& path, std::size_t first, std::size_t last,
+                               std::int64_t start, bool latest, bool first_is_exact) {
+  const std::int64_t apart = clock_bounds(cluster).apart_ns;
+  std::vector<std::int64_t> instants;
+  std::int64_t t = start;
+  for (std::size_t i = first; i < last; ++i) {
+    const Stage& stage = path.stages[i];
+    const std::int64_t margin = i == first && first_is_exact ? 0 : latest ? apart : -apart;
+    // Where clocks differ, what nominally comes just too late may be in time, and the other way round.
+    switch (stage.kind) {
+      case Stage::Kind::kSpan: t += latest ? stage.worst.ns : stage.best.ns; break;
+      case Stage::Kind::kActivation:
+        t = next_occurrence(cluster.flexray, stage.at, GlobalTime{t + margin}).time.ns;
+        break;
+      case Stage::Kind::kSlots: t = transmitted(cluster, stage.pdu, t + margin, latest); break;
+    }
+    instants.push_back(t);
+  }
+  return instants;
+}
+
+std::vector<std::int64_t> entries(const Cluster& cluster, const Stage& stage, std::int64_t from_cycle, bool latest) {
+  std::vector<CycleInstant> gates;
+  if (stage.kind == Stage::Kind::kActivation) gates.push_back(stage.at);
+  if (stage.kind == Stage::Kind::kSlots)
+    for (const SlotGroup& group : slot_groups(cluster, stage.pdu)) gates.push_back(latch(cluster.flexray, group, latest));
+  std::vector<std::int64_t> instants;
+  for (const CycleInstant& gate : gates)
+    for (std::int64_t cycle = from_cycle; cycle < from_cycle + kCycles; ++cycle)
+      if (cycle % gate.repetition == gate.base_cycle)
+        instants.push_back(time_of(cluster.flexray, cycle, gate.offset).ns + (latest ? 1 : 0));
+  return instants;
+}
+
+}  // namespace ttf::schedules

@@ -1,0 +1,48 @@
+// The stages of a measurement's path and the walk through them, for schedules/ages.h.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "schedules/cluster.h"
+
+namespace ttf::schedules {
+
+// How far apart clocks may be.
+struct ClockBounds {
+  std::int64_t apart_ns = 0;       // any two nodes' global times
+  std::int64_t drift_ppb = 0;      // any oscillator against true time
+};
+ClockBounds clock_bounds(const Cluster& cluster);
+
+struct Stage {
+  enum class Kind : std::uint8_t { kSpan, kActivation, kSlots };
+  std::string name;
+  Kind kind = Kind::kSpan;
+  Duration best{}, worst{};        // kSpan, drift included
+  CycleInstant at{};               // kActivation
+  PduId pdu = kNoPdu;              // kSlots
+};
+
+struct Path {
+  std::vector<Stage> stages;
+  std::size_t available = 0;       // stages until the list is in the fusion node's CNI
+  std::size_t fused = 0;           // until the fusing task starts
+  std::size_t used = 0;            // until the image's reader starts; 0: there is none
+  CycleInstant use{};              // of that reader, when time activates it
+};
+
+// Nothing of a path for a sensor whose lists reach no fusing task: stages is empty.
+Path path_of(const Cluster& cluster, SensorId sensor);
+
+// Instants after stages first..last-1 of the path, entered at `start` (nanoseconds of global time): the latest
+// possible, or the earliest. The clocks' distance is taken into account except at the first stage if it is on the grid.
+std::vector<std::int64_t> walk(const Cluster& cluster, const Path& path, std::size_t first, std::size_t last,
+                               std::int64_t start, bool latest, bool first_is_exact);
+
+// Instants within 64 cycles from `from_cycle` at which entering a stage on the grid just works (earliest) or, one
+// nanosecond later, may fail (latest).
+std::vector<std::int64_t> entries(const Cluster& cluster, const Stage& stage, std::int64_t from_cycle, bool latest);
+
+}  // namespace ttf::schedules

@@ -1,0 +1,159 @@
+#include "schedules/ages.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "schedules/age_stages.h"
+
+namespace ttf::schedules {
+namespace {
+
+// The grid repeats after 64 cycles; starting a few rounds in keeps every instant before it positive.
+constexpr std::int64_t kFromCycle = 256;
+
+// One extreme walk from the measurement on: the share of each stage, and their sum.
+struct Extreme {
+  std::vector<std::int64_t> shares;
+  std::int64_t sum = 0;
+};
+
+class Ages {
+ public:
+  explicit Ages(const Cluster& cluster) : cluster_(cluster), clocks_(clock_bounds(cluster)) {}
+
+  std::optional<AgePath> of(SensorId id) {
+    const Path path = path_of(cluster_, id);
+    if (path.stages.empty()) return std::nullopt;
+    AgePath ages;
+    ages.sensor = id;
+    bounds(path, id, path.available, ages.fusion_best, ages.fusion_worst, &ages.to_fusion);
+    bounds(path, id, path.fused, ages.fused_best, ages.fused_worst, nullptr);
+    ages.reaches_use = path.used != 0;
+    if (!ages.reaches_use) return ages;
+    bounds(path, id, path.used, ages.use_best, ages.use_worst, &ages.to_use);
+    // The next measurement is first used at the latest use_worst after it, and the use before that one is a use period
+    // earlier; it is the last one that still shows this measurement as the newest.
+    const Sensor& sensor = cluster_.sensor(id);
+    const std::int64_t period = sensor.period.ns + (sensor.scheduled ? 0 : drift(sensor.period.ns));
+    const std::int64_t between_uses =
+        path.use.repetition > 0 ? cluster_.cycle().ns * path.use.repetition - clocks_.apart_ns : 0;
+    ages.newest_worst = {ages.use_worst.ns + std::max<std::int64_t>(0, period - between_uses)};
+    return ages;
+  }
+
+  // BUFF: any measurement is released when `held` has passed since it was made, at the next fusion instant.
+  void buffer(AgePath& ages, Duration held) {
+    const Path path = path_of(cluster_, ages.sensor);
+    std::size_t gate = path.available;
+    std::int64_t fused = 0, used = 0;
+    const std::size_t last = std::max(path.used, path.fused);
+    if (path.stages[gate].kind != Stage::Kind::kActivation) return;   // not activated by time: nothing is held
+    for (const std::int64_t entry : entries(cluster_, path.stages[gate], kFromCycle, true)) {
+      const auto instants = walk(cluster_, path, gate, last, entry, true, true);
+      fused = std::max(fused, instants[path.fused - gate - 1] - entry);
+      if (path.used != 0) used = std::max(used, instants.back() - entry);
+    }
+    const auto with_clocks = [&](std::int64_t sum) {
+      return Duration{sum + clocks_.apart_ns + drift(sum)};
+    };
+    ages.buffered_fused_worst = with_clocks(held.ns + fused);
+    if (path.used != 0) ages.buffered_use_worst = with_clocks(held.ns + used);
+  }
+
+ private:
+  std::int64_t drift(std::int64_t ns) const { return ns / 1000 * 2 * clocks_.drift_ppb / 1'000'000 + 1; }
+
+  Extreme extreme(const Path& path, const Sensor& sensor, std::size_t last, bool latest) const {
+    Extreme found;
+    const auto consider = [&](const std::vector<std::int64_t>& shares) {
+      std::int64_t sum = 0;
+      for (const std::int64_t share : shares) sum += share;
+      if (!found.shares.empty() && (latest ? sum <= found.sum : sum >= found.sum)) return;
+      found = {shares, sum};
+    };
+    // Up to the first stage on the grid, a free-running sensor's stages are spans.
+    std::size_t gate = 0;
+    std::vector<std::int64_t> before;
+    if (!sensor.scheduled)
+      for (; gate < last && path.stages[gate].kind == Stage::Kind::kSpan; ++gate)
+        before.push_back(latest ? path.stages[gate].worst.ns : path.stages[gate].best.ns);
+    std::vector<std::int64_t> starts;
+    if (sensor.scheduled) {
+      for (std::int64_t cycle = kFromCycle; cycle < kFromCycle + 64; ++cycle)
+        if (cycle % sensor.at.repetition == sensor.at.base_cycle)
+          starts.push_back(time_of(cluster_.flexray, cycle, sensor.at.offset).ns);
+    } else if (gate < last) {
+      starts = entries(cluster_, path.stages[gate], kFromCycle, latest);
+    } else {
+      starts.push_back(0);
+    }
+    for (const std::int64_t start : starts) {
+      std::vector<std::int64_t> shares = before;
+      std::int64_t at = start;
+      for (const std::int64_t instant : walk(cluster_, path, gate, last, start, latest, !sensor.scheduled)) {
+        shares.push_back(instant - at);
+        at = instant;
+      }
+      consider(shares);
+    }
+    return found;
+  }
+
+  void bounds(const Path& path, SensorId id, std::size_t last, Duration& best, Duration& worst,
+              std::vector<Contribution>* contributions) const {
+    const Sensor& sensor = cluster_.sensor(id);
+    const Extreme low = extreme(path, sensor, last, false), high = extreme(path, sensor, last, true);
+    const std::int64_t clocks_low = std::min(low.sum, clocks_.apart_ns + drift(low.sum));
+    const std::int64_t clocks_high = clocks_.apart_ns + drift(high.sum);
+    best = {low.sum - clocks_low};
+    worst = {high.sum + clocks_high};
+    if (contributions == nullptr) return;
+    for (std::size_t i = 0; i < last; ++i)
+      contributions->push_back({path.stages[i].name, {low.shares[i]}, {high.shares[i]}});
+    contributions->push_back({"clocks differ", {-clocks_low}, {clocks_high}});
+  }
+
+  const Cluster& cluster_;
+  ClockBounds clocks_;
+};
+
+double in_ms(Duration d) { return static_cast<double>(d.ns) * 1e-6; }
+
+}  // namespace
+
+std::vector<AgePath> measurement_ages(const Cluster& cluster) {
+  Ages ages(cluster);
+  std::vector<AgePath> paths;
+  for (std::size_t s = 0; s < cluster.sensors.size(); ++s)
+    if (auto path = ages.of(static_cast<SensorId>(s))) paths.push_back(std::move(*path));
+  Duration held{};
+  for (const AgePath& path : paths) held = std::max(held, path.fusion_worst);
+  for (AgePath& path : paths) ages.buffer(path, held);
+  return paths;
+}
+
+std::string ages_text(const Cluster& cluster) {
+  std::string text = fmt::format("{:<52}{:>10}{:>10}\n", "age of a measurement [ms]", "best", "worst");
+  const auto row = [&](const std::string& name, Duration best, Duration worst) {
+    text += fmt::format("{:<52}{:>10.3f}{:>10.3f}\n", name, in_ms(best), in_ms(worst));
+  };
+  const auto bound = [&](const std::string& name, Duration worst) {
+    text += fmt::format("{:<52}{:>10}{:>10.3f}\n", name, "", in_ms(worst));
+  };
+  for (const AgePath& path : measurement_ages(cluster)) {
+    text += fmt::format("{}\n", cluster.sensor(path.sensor).name);
+    for (const Contribution& part : path.reaches_use ? path.to_use : path.to_fusion)
+      row("    " + part.name, part.best, part.worst);
+    row("  available to the fusion", path.fusion_best, path.fusion_worst);
+    row("  fused", path.fused_best, path.fused_worst);
+    if (path.reaches_use) row("  used first", path.use_best, path.use_worst);
+    if (path.reaches_use) bound("  newest one at any use", path.newest_worst);
+    bound("  fused, if held for order (BUFF)", path.buffered_fused_worst);
+    if (path.reaches_use) bound("  used first, if held for order (BUFF)", path.buffered_use_worst);
+  }
+  return text;
+}
+
+}  // namespace ttf::schedules
