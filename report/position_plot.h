@@ -7,9 +7,7 @@
 // known in global time is moved by the difference its record's stamp shows.
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -17,14 +15,13 @@
 #include <vector>
 
 #include "recording/records/records.h"
-#include "report/axes.h"
 #include "report/names.h"
 
 namespace ttf::report {
 
 struct PositionOptions {
-  std::string title;
-  std::optional<TrueTime> from, to;    // the whole drive if absent
+  std::string title{};
+  std::optional<TrueTime> from{}, to{};   // the whole drive if absent
   // The object shown: of each list the observation, and of each image the object, nearest to the truth (or, without
   // truth, the reference) of this object at that time, and no farther away than the gate. Without truth and
   // reference everything is shown.
@@ -38,7 +35,7 @@ class PositionPlots : public records::Sink {
  public:
   PositionPlots(Names names, PositionOptions options);
 
-  void on(const records::Measured& r) override;
+  using Sink::on;   // the kinds of record that are not shown
   void on(const records::ObservationSeen& r) override;
   void on(const records::ListFused& r) override;
   void on(const records::FusionStep& r) override;
@@ -77,11 +74,8 @@ class PositionPlots : public records::Sink {
 
  private:
   struct Step { std::uint32_t step; double t; };
-  struct FusedList { std::uint32_t step; MeasurementId id; bool late; };
-  struct Positioned { Sample sample; std::uint32_t step; bool predicted; };
-
-  std::optional<Sample> reference_at(double t) const;
-  bool accept(const Sample& s, double* distance) const;
+  struct FusedList { std::uint32_t step; MeasurementId id; bool late; double measured; };
+  struct Positioned { Sample sample; std::uint32_t step; };
 
   Names names_;
   PositionOptions options_;

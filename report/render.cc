@@ -12,7 +12,7 @@
 namespace ttf::report {
 namespace {
 
-constexpr double kPngSharpWidth = 1600;   // SVG units up to which a PNG gets two pixels per unit
+constexpr double kPngSharpWidth = 2600;   // SVG units up to which a PNG gets two pixels per unit
 constexpr double kPointsPerPixel = 0.75;  // 72 / 96
 
 struct SurfaceFree { void operator()(cairo_surface_t* s) const { cairo_surface_destroy(s); } };

@@ -21,6 +21,7 @@ class TimingDiagram : public records::Sink {
   // that lead into it) are passed over, so memory does not grow with the log.
   TimingDiagram(Names names, Duration cycle, TrueTime from, TrueTime to);
 
+  using Sink::on;   // the kinds of record that are not shown
   void on(const records::Measured& r) override;
   void on(const records::CanFrameSent& r) override;
   void on(const records::SlotFrameSent& r) override;

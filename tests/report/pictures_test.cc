@@ -1,0 +1,44 @@
+// Makes the pictures for looking at when TTF_PICTURES names a folder.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "report/boxes_picture.h"
+#include "report/position_plot.h"
+#include "report/render.h"
+#include "report/schedule_picture.h"
+#include "report/timing_diagram.h"
+#include "tests/report/synthetic_run.h"
+#include "tests/report/synthetic_cluster.h"
+
+namespace ttf::report {
+namespace {
+
+TEST(Pictures, ForLookingAt) {
+  const char* dir = std::getenv("TTF_PICTURES");
+  if (dir == nullptr) GTEST_SKIP() << "TTF_PICTURES names no folder";
+  const std::string to(dir);
+  TimingDiagram timing(synthetic_names(), Duration::milliseconds(5), at_us(200'000), at_us(350'000));
+  SyntheticRun{}.drive(timing, 1'500'000);
+  write_picture(timing.svg(), to + "/timing.png");
+  write_picture(timing.svg(), to + "/timing.pdf");
+  TimingDiagram close(synthetic_names(), Duration::milliseconds(5), at_us(230'000), at_us(260'000));
+  SyntheticRun{}.drive(close, 1'500'000);
+  write_picture(close.svg(), to + "/timing_close.png");
+  PositionPlots position(synthetic_names(), {.title = "Scenario 1, ADVA"});
+  SyntheticRun{}.drive(position, 1'500'000);
+  write_picture(position.over_time_svg(), to + "/over_time.png");
+  write_picture(position.plane_svg(), to + "/plane.png");
+  const std::array<const PositionPlots*, 2> two{&position, &position};
+  const std::vector<std::string> titles{"BUFF", "ADVA"};
+  write_picture(comparison_svg(two, titles, PositionView::kPlane, "Scenario 2"), to + "/comparison.png");
+  write_picture(comparison_svg(two, titles, PositionView::kXOverTime, "Scenario 1"), to + "/comparison_x.png");
+  write_picture(schedule_svg(synthetic_cluster()), to + "/schedule.png");
+  std::vector<Point> points;
+  for (int i = 0; i < 60; ++i) points.push_back({10 + 0.03 * i, 2 + (i % 7) * 0.01}), points.push_back({20 + (i % 5) * 0.01, -4 + 0.03 * i});
+  const std::vector<Box> boxes{{10.9, 2.9, 0, 1.9, 1.8, "1"}, {22.2, -3.1, 0.1, 4.4, 1.8, "2"}};
+  write_picture(boxes_svg(points, boxes, "Boxes"), to + "/boxes.png");
+}
+
+}  // namespace
+}  // namespace ttf::report
