@@ -6,9 +6,9 @@
 
 #include "core/errors.h"
 #include "core/random.h"
-#include "log_fixture.h"
-#include "record_text.h"
 #include "recording/log_reader.h"
+#include "tests/recording/log_fixture.h"
+#include "tests/recording/record_text.h"
 
 namespace ttf::recording {
 namespace {

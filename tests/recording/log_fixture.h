@@ -9,8 +9,8 @@
 
 #include <unistd.h>
 
-#include "record_text.h"
 #include "recording/log_writer.h"
+#include "tests/recording/record_text.h"
 
 namespace ttf::recording {
 

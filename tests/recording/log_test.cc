@@ -8,10 +8,10 @@
 #include <set>
 
 #include "core/errors.h"
-#include "log_fixture.h"
-#include "record_text.h"
 #include "recording/log_reader.h"
 #include "recording/log_writer.h"
+#include "tests/recording/log_fixture.h"
+#include "tests/recording/record_text.h"
 
 namespace ttf::recording {
 namespace {

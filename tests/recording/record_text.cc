@@ -1,4 +1,4 @@
-#include "record_text.h"
+#include "tests/recording/record_text.h"
 
 #include <fmt/format.h>
 

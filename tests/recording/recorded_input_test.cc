@@ -7,8 +7,8 @@
 
 #include "core/errors.h"
 #include "core/random.h"
-#include "log_fixture.h"
 #include "recording/recorded_input.h"
+#include "tests/recording/log_fixture.h"
 
 namespace ttf::recording {
 namespace {

@@ -1,0 +1,63 @@
+#!/usr/bin/env bash
+# Opens a log with the official JavaScript reader and compares what it finds with what was written.
+#   js_reader_test.sh SAMPLE_LOG_PROGRAM TOOLS_JS WORK_DIR      exit 77: skipped, with the reason
+set -euo pipefail
+sample=$1 tools=$2 work=$3
+
+skip() { echo "skipped: $*"; exit 77; }
+command -v node >/dev/null || skip "node is not installed"
+node -e 'process.exit(Number(process.versions.node.split(".")[0]) < 18 ? 1 : 0)' || skip "node $(node --version) is older than 18"
+
+mkdir -p "$work"
+if [[ -d $tools/node_modules/@mcap/core ]]; then
+  reader=$tools
+else
+  command -v npm >/dev/null || skip "npm is not installed and tools/js/node_modules is not there"
+  reader=$work
+  cp "$tools/package.json" "$tools/package-lock.json" "$tools/.npmrc" "$tools/read_mcap.mjs" "$work/"
+  if [[ ! -d $work/node_modules/@mcap/core ]]; then
+    (cd "$work" && timeout 60 npm ci --no-progress >npm.log 2>&1) || {
+      rm -rf "$work/node_modules"
+      skip "npm ci could not fetch the reader within 60 s (no network?)"
+    }
+  fi
+fi
+
+"$sample" "$work/sample.mcap" >"$work/expected.json"
+node "$reader/read_mcap.mjs" "$work/sample.mcap" >"$work/found.json"
+cat >"$work/compare.mjs" <<'JS'
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+const [expected, found] = process.argv.slice(2).map((path) => JSON.parse(readFileSync(path, "utf8")));
+assert.deepEqual(found.counts, expected.counts);
+assert.equal(Object.keys(found.counts).length, 17);
+assert.deepEqual(found.attachments, { "cluster.yaml": 12 });
+const manifest = found.metadata["ttfusion.manifest"];
+assert.equal(manifest.seed, "18446744073709551615");
+assert.equal(manifest["node.0.task.1"], "send");
+assert.equal(manifest["hash.scenario"], "dead.beef");
+assert.equal(found.metadata["ttfusion.result"].content_hash, expected.hash);
+const clock = found.first["/clock_corrected"];
+assert.equal(clock.cycle, "41");
+assert.equal(clock.offset_microticks, -7);
+assert.equal(clock.rate_limited, true);
+const track = found.first["/track"];
+assert.deepEqual(track.state, [1.5, -2.25, 1e-300, 0, 3, -0.125]);
+assert.equal(track.covariance.length, 36);
+assert.equal(track.covariance[0], 1);
+assert.equal(track.track, 65535);
+assert.equal(track.valid_at, "-5");
+console.log("the official reader finds what was written:", JSON.stringify(found.counts));
+JS
+node "$work/compare.mjs" "$work/expected.json" "$work/found.json"
+
+# The reader must be able to say no: one byte of the first chunk changed.
+node -e '
+  const fs = require("node:fs");
+  const bytes = fs.readFileSync(process.argv[1]);
+  bytes[bytes.indexOf("zstd") + 40] ^= 1;
+  fs.writeFileSync(process.argv[2], bytes);' "$work/sample.mcap" "$work/damaged.mcap"
+if node "$reader/read_mcap.mjs" "$work/damaged.mcap" >/dev/null 2>"$work/damaged.txt"; then
+  echo "error: the reader did not notice a damaged chunk" >&2
+  exit 1
+fi
