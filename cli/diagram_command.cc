@@ -35,6 +35,7 @@ report::Names names_of(const recording::LogManifest& manifest) {
 // Where a log begins and ends, and what it says of itself.
 struct Extent final : records::Sink {
   TrueTime last{};
+  using records::Sink::on;
   void on(const records::TaskRun& run) override { last = std::max(last, run.end); }
 };
 

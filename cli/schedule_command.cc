@@ -9,7 +9,6 @@
 #include "nodes/catalog.h"
 #include "report/render.h"
 #include "report/schedule_picture.h"
-#include "report/tables.h"
 #include "schedules/ages.h"
 #include "schedules/checker.h"
 #include "schedules/loader.h"
@@ -25,35 +24,32 @@ struct Options {
   bool json = false;
 };
 
-std::string ms(Duration d) { return report::cell(static_cast<double>(d.ns) * 1e-6, 3); }
+double ms(Duration d) { return static_cast<double>(d.ns) * 1e-6; }
 
 int check(const Options& options) {
   const schedules::Cluster cluster = schedules::load_cluster(options.file);
   if (auto findings = schedules::check(cluster); !findings.empty()) throw InputError(std::move(findings));
   schedules::bind_ports(cluster, nodes::step_ports());
+  if (!options.json) {
+    fmt::print("{}: consistent\n{}", cluster.name, schedules::ages_text(cluster));
+    return 0;
+  }
   nlohmann::ordered_json json;
   json["cluster"] = cluster.name;
   json["consistent"] = true;
-  std::string text = fmt::format("{}: consistent\n", cluster.name);
   for (const schedules::AgePath& path : schedules::measurement_ages(cluster)) {
-    const std::string& sensor = cluster.sensor(path.sensor).name;
-    report::Table table({sensor + ": age of a measurement", "best [ms]", "worst [ms]"});
-    nlohmann::ordered_json one{{"sensor", sensor}};
-    for (const schedules::Contribution& contribution : path.contributions) {
-      table.add({"  " + contribution.name, ms(contribution.best), ms(contribution.worst)});
-      one["contributions"].push_back({{"name", contribution.name},
-                                      {"best_ms", static_cast<double>(contribution.best.ns) * 1e-6},
-                                      {"worst_ms", static_cast<double>(contribution.worst.ns) * 1e-6}});
-    }
-    table.add({"when the fusion node can have it", ms(path.fusion_best), ms(path.fusion_worst)});
-    table.add({"when the feature service first uses it", ms(path.use_best), ms(path.use_worst)});
-    one["fusion_ms"] = {static_cast<double>(path.fusion_best.ns) * 1e-6,
-                        static_cast<double>(path.fusion_worst.ns) * 1e-6};
-    one["use_ms"] = {static_cast<double>(path.use_best.ns) * 1e-6, static_cast<double>(path.use_worst.ns) * 1e-6};
+    nlohmann::ordered_json one{{"sensor", cluster.sensor(path.sensor).name},
+                               {"available_ms", {ms(path.fusion_best), ms(path.fusion_worst)}},
+                               {"fused_ms", {ms(path.fused_best), ms(path.fused_worst)}},
+                               {"first_use_ms", {ms(path.use_best), ms(path.use_worst)}},
+                               {"newest_at_any_use_worst_ms", ms(path.newest_worst)},
+                               {"buffered_use_worst_ms", ms(path.buffered_use_worst)}};
+    for (const schedules::Contribution& contribution : path.to_use)
+      one["contributions"].push_back(
+          {{"name", contribution.name}, {"best_ms", ms(contribution.best)}, {"worst_ms", ms(contribution.worst)}});
     json["ages"].push_back(std::move(one));
-    text += table.text();
   }
-  fmt::print("{}", options.json ? json.dump(2) + "\n" : text);
+  fmt::print("{}\n", json.dump(2));
   return 0;
 }
 

@@ -67,6 +67,7 @@ class DriveMeasures final : public records::Sink {
   // Completes what waits for its truth. Call once, at the end.
   DriveSummary finish();
 
+  using records::Sink::on;
   void on(const records::FusionInput&) override;
   void on(const records::ListFused&) override;
   void on(const records::TrackState&) override;

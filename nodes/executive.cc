@@ -55,7 +55,8 @@ Executive::Executive(const ExecutiveConfig& config, std::vector<std::shared_ptr<
   TTF_CHECK(steps.size() == node_.tasks.size(), "{} steps for {} tasks", steps.size(), node_.tasks.size());
   if (node_.flexray) {
     TTF_CHECK(flexray != nullptr, "{} needs a FlexRay port", node_.name);
-    flexray_ = std::make_unique<bus::FlexRayController>(cluster_, config.node, config.clock, *flexray, *this);
+    flexray_ = std::make_unique<bus::FlexRayController>(cluster_, config.node, config.clock, *flexray,
+                                                        static_cast<bus::ControllerEvents&>(*this));
   }
   frame_duration_ = {wire::frame_duration_ps(cluster_.flexray, cluster_.flexray.gPayloadLengthStatic) / 1000};
   cans_.resize(cluster_.can_buses.size());

@@ -92,7 +92,8 @@ ClusterSimulation::ClusterSimulation(const SimulationConfig& config, records::Si
         can_taps_.push_back(std::make_unique<CanTap>(*this, id, b));
         ports[b] = can_taps_.back().get();
       }
-    nodes_.push_back(std::make_unique<nodes::Executive>(executive, config.make_steps(id), port, ports, *this, sink_));
+    nodes_.push_back(std::make_unique<nodes::Executive>(executive, config.make_steps(id), port, ports,
+                                                        static_cast<nodes::SensorLines&>(*this), sink_));
     next_.push_back(kNever);
     refresh(n);
   }

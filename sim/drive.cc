@@ -22,6 +22,7 @@ class Observer final : public records::Sink {
     start_ = start;
   }
 
+  using records::Sink::on;
   void on(const records::Measured& measured) override { truth(measured.stamp.true_time); }
   void on(const records::FeatureUsed& used) override { truth(used.stamp.true_time); }
   void on(const records::FusionStep& step) override {
