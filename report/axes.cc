@@ -147,6 +147,10 @@ void draw_legend(Svg& svg, Point top_left, double width, std::span<const LegendE
         break;
       case LegendEntry::Kind::kLine: svg.line({left, y}, {left + 20, y}, line); break;
       case LegendEntry::Kind::kArrow: svg.arrow({left, y}, {left + 20, y}, line, {}, "sample"); break;
+      case LegendEntry::Kind::kNumber:
+        svg.rect({left + 3, y - 7, 17, 14}, {.fill = "#ffffff", .stroke = e.colour, .width = 0.7});
+        svg.text({left + 11.5, y + 3.2}, "12", {.size = 8.5, .anchor = Anchor::kMiddle});
+        break;
       case LegendEntry::Kind::kBox:
         svg.rect({left + 3, y - 5, 17, 10},
                  {.fill = e.filled ? std::string_view(e.colour) : "#ffffff", .stroke = e.filled ? std::string_view("#444444") : std::string_view(e.colour), .width = e.filled ? 0.6 : 1.4, .dash = e.dash});

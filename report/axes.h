@@ -81,9 +81,9 @@ class LabelSpace {
   std::vector<Area> taken_;
 };
 
-// One legend entry: a marker, a line, a box or an arrow, and what it stands for.
+// One legend entry: a marker, a line, a box, an arrow or a boxed number, and what it stands for.
 struct LegendEntry {
-  enum class Kind : std::uint8_t { kMarker, kLine, kBox, kArrow };
+  enum class Kind : std::uint8_t { kMarker, kLine, kBox, kArrow, kNumber };
   Kind kind = Kind::kMarker;
   std::string text;
   std::string colour;

@@ -81,7 +81,7 @@ std::vector<LegendEntry> legend_of(std::span<const Selection> selections, const 
   }
   if (any(&Selection::fusion)) legend.push_back({K::kMarker, "fusion (image at its instant of use)", std::string(kFusion), Marker::kSquare});
   if (any(&Selection::truth)) legend.push_back({K::kLine, "truth", std::string(kTruth)});
-  if (any(&Selection::instants)) legend.push_back({K::kBox, "numbered fusion instant", std::string(kBlack), {}, false});
+  if (any(&Selection::instants)) legend.push_back({K::kNumber, "fusion instant", std::string(kBlack)});
   const auto late = [](const auto& a) { return a.late; };
   const bool any_late = std::ranges::any_of(selections, [&](const Selection& s) { return std::ranges::any_of(s.laser_arrows, late); });
   if (any(&Selection::laser_arrows)) legend.push_back({K::kArrow, "laser measurement to its integration", std::string(kVermilion)});
@@ -131,10 +131,17 @@ void draw_instants(Svg& svg, const PlotFrame& frame, const Selection& s, Positio
     const Point p = frame.at(coordinates(sample, view).x, coordinates(sample, view).y);
     space.take({p.x - 4, p.y - 4, 8, 8});
   });
+  for (const auto& a : s.laser_arrows)
+    for (int k = 1; k < 8; ++k) {
+      const Point p = frame.at(a.measured.x + (a.fused.x - a.measured.x) * k / 8, a.measured.y + (a.fused.y - a.measured.y) * k / 8);
+      space.take({p.x - 2, p.y - 2, 4, 4});
+    }
   for (const auto* i : by_importance(s)) {
     const Point p = frame.at(i->at.x, i->at.y);
+    svg.marker(Marker::kCircle, p, 2.6, {.fill = kBlack}, {}, "fused-at");
     const std::string text = fmt::format("{}", i->step);
     for (const double reach : {26.0, 40.0, 56.0, 74.0}) {
+      if (!i->laser && reach > 40) break;   // in a crowd only the instants the arrows lead to
       bool done = false;
       for (const Point d : {Point{0, -1}, Point{0, 1}, Point{0.7, -0.7}, Point{-0.7, -0.7}, Point{0.7, 0.7}, Point{-0.7, 0.7}}) {
         const Point c{p.x + reach * d.x, p.y + reach * d.y};

@@ -18,7 +18,7 @@ using schedules::Channel;
 using schedules::Cluster;
 using schedules::FrameSlot;
 
-constexpr double kLeft = 150, kPlot = 1300, kSlotLane = 96, kTaskLane = 26;
+constexpr double kPlot = 1300, kSlotLane = 110, kTaskLane = 26;
 
 class Painter {
  public:
@@ -31,10 +31,11 @@ class Painter {
   }
 
   std::string picture() {
-    std::vector<LegendEntry> legend = make_legend();
+    const std::vector<LegendEntry> legend = make_legend();
     const std::vector<TaskLane> lanes = task_lanes();
+    for (const TaskLane& lane : lanes) left_ = std::clamp(text_width(lane.label, 10) + 24, left_, 320.0);
     const double matrix_cell = std::clamp(kPlot / std::max<double>(1.0, static_cast<double>(used_.size())), 16.0, 90.0);
-    const double width = kLeft + std::max(kPlot, matrix_cell * static_cast<double>(used_.size())) + 30;
+    const double width = left_ + std::max(kPlot, matrix_cell * static_cast<double>(used_.size())) + 30;
     const double legend_y = 40, strip = legend_y + legend_height(legend, kPlot) + 34;
     const double tasks = strip + 2 * (kSlotLane + 6) + 14;
     const double axis = tasks + static_cast<double>(lanes.size()) * kTaskLane;
@@ -50,13 +51,13 @@ class Painter {
                                    number(static_cast<double>(g.cycle_ps()) * 1e-9), g.gNumberOfStaticSlots, g.gdStaticSlot,
                                    g.gNumberOfMinislots, g.gdNIT),
              {.size = 14, .bold = true});
-    draw_legend(svg, {kLeft, legend_y}, kPlot, legend);
+    draw_legend(svg, {left_, legend_y}, kPlot, legend);
+    draw_axis(strip - 6, axis);
     for (const Channel channel : {Channel::kA, Channel::kB})
       draw_channel(channel, strip + (channel == Channel::kA ? 0 : kSlotLane + 6));
     draw_tasks(lanes, tasks);
-    draw_axis(strip - 6, axis);
     for (std::size_t i = 0; i < notes_text.size(); ++i)
-      svg.text({kLeft, notes + 14 * static_cast<double>(i)}, notes_text[i], {.size = 10, .fill = "#333333"});
+      svg.text({left_, notes + 14 * static_cast<double>(i)}, notes_text[i], {.size = 10, .fill = "#333333"});
     draw_matrix(matrix, matrix_cell, row);
     return svg.str();
   }
@@ -66,7 +67,7 @@ class Painter {
   struct TaskLane { std::string label; std::vector<TaskBox> boxes; };
 
   double macroticks(Duration d) const { return static_cast<double>(d.ns) * 1000.0 / static_cast<double>(c_.flexray.gdMacrotick_ps); }
-  double x(double macrotick) const { return kLeft + macrotick / c_.flexray.gMacroPerCycle * kPlot; }
+  double x(double macrotick) const { return left_ + macrotick / c_.flexray.gMacroPerCycle * kPlot; }
   // Rows of the matrix: cycles until everything repeats, at most the 64 the counter knows.
   int rows() const { return std::min(repetition_, c_.flexray.gCycleCountMax + 1); }
 
@@ -108,7 +109,7 @@ class Painter {
 
   void draw_channel(Channel channel, double top) {
     const auto& g = c_.flexray;
-    svg_->text({kLeft - 12, top + kSlotLane / 2 + 4}, channel == Channel::kA ? "channel A" : "channel B", {.size = 11.5, .anchor = Anchor::kEnd});
+    svg_->text({left_ - 12, top + kSlotLane / 2 + 4}, channel == Channel::kA ? "channel A" : "channel B", {.size = 11.5, .anchor = Anchor::kEnd});
     for (int slot = 1; slot <= g.gNumberOfStaticSlots; ++slot) {
       const double left = x((slot - 1.0) * g.gdStaticSlot), width = x(static_cast<double>(slot) * g.gdStaticSlot) - left;
       std::vector<const FrameSlot*> here;
@@ -128,9 +129,14 @@ class Painter {
       if (width >= 7 * std::max<double>(1.0, text_width(fmt::format("{}", slot), 1.0)) + 1)
         svg_->text({left + width / 2, top + kSlotLane - 4}, fmt::format("{}", slot), {.size = 7, .anchor = Anchor::kMiddle});
       if (width >= 10 && !here.empty()) {
-        std::string text = frame_text(*here.front());
+        // The owner above the PDU where two lines have room, else the PDU; the hover text has it all.
+        const FrameSlot& f = *here.front();
+        std::string text = f.pdu == kNoPdu ? "status" : fmt::format("{} {}/{}", names_.pdu(f.pdu), f.fragment + 1, c_.pdu(f.pdu).max_fragments());
         if (here.size() > 1) text += fmt::format(" +{}", here.size() - 1);
-        svg_->text({left + width / 2 + 3, top + kSlotLane - 14}, fitted(text, 8.5, kSlotLane - 20), {.size = 8.5, .rotate = -90});
+        const bool two = width >= 21;
+        const double centre = left + width / 2 + 3, foot = top + kSlotLane - 14;
+        if (two) svg_->text({centre - 5, foot}, fitted(names_.node(f.sender), 8.5, kSlotLane - 18), {.size = 8.5, .rotate = -90});
+        svg_->text({two ? centre + 5 : centre, foot}, fitted(text, 8.5, kSlotLane - 18), {.size = 8.5, .rotate = -90});
       }
     }
     double at = g.gNumberOfStaticSlots * static_cast<double>(g.gdStaticSlot);
@@ -170,8 +176,8 @@ class Painter {
     const double cycle = c_.flexray.gMacroPerCycle;
     for (std::size_t i = 0; i < lanes.size(); ++i) {
       const double centre = top + kTaskLane * (static_cast<double>(i) + 0.5);
-      svg_->line({kLeft, centre}, {kLeft + kPlot, centre}, {.stroke = "#e0e0e0", .width = 0.7});
-      svg_->text({kLeft - 12, centre + 4}, fitted(lanes[i].label, 10, kLeft - 20), {.size = 10, .anchor = Anchor::kEnd});
+      svg_->line({left_, centre}, {left_ + kPlot, centre}, {.stroke = "#e0e0e0", .width = 0.7});
+      svg_->text({left_ - 12, centre + 4}, fitted(lanes[i].label, 10, left_ - 20), {.size = 10, .anchor = Anchor::kEnd});
       for (const TaskBox& box : lanes[i].boxes) {
         if (box.length_mt <= 0) {
           svg_->marker(Marker::kDownTriangle, {x(box.offset_mt), centre}, 11, {.fill = kBlack}, box.text, "instant");
@@ -191,13 +197,13 @@ class Painter {
   void draw_axis(double top, double bottom) {
     const double ms = static_cast<double>(c_.flexray.cycle_ps()) * 1e-9;
     const Ticks ticks = nice_ticks({0, ms}, 12);
-    svg_->line({kLeft, bottom}, {kLeft + kPlot, bottom}, {.stroke = kBlack, .width = 0.8});
+    svg_->line({left_, bottom}, {left_ + kPlot, bottom}, {.stroke = kBlack, .width = 0.8});
     for (const double t : ticks.at) {
-      const double px = kLeft + t / ms * kPlot;
+      const double px = left_ + t / ms * kPlot;
       svg_->line({px, top}, {px, bottom + 4}, {.stroke = "#888888", .width = 0.5, .dash = "2 3"});
       svg_->text({px, bottom + 16}, tick_label(t, ticks.step), {.size = 10.5, .anchor = Anchor::kMiddle});
     }
-    svg_->text({kLeft + kPlot / 2, bottom + 33}, "time in the cycle [ms]", {.size = 11.5, .anchor = Anchor::kMiddle});
+    svg_->text({left_ + kPlot / 2, bottom + 33}, "time in the cycle [ms]", {.size = 11.5, .anchor = Anchor::kMiddle});
   }
 
   // Tasks without a place in the cycle, in words.
@@ -222,34 +228,33 @@ class Painter {
   // Slot by cycle: both channels in one cell, A above B.
   void draw_matrix(double top, double cell, double row) {
     if (used_.empty()) return;
-    svg_->text({kLeft, top - 26}, fmt::format("Owned slots over cycles, the pattern repeats every {} (upper half of a cell: channel A, lower half: B)", rows() == 1 ? "cycle" : fmt::format("{} cycles", rows())), {.size = 11.5, .bold = true});
+    svg_->text({left_, top - 26}, fmt::format("Owned slots over cycles, the pattern repeats every {} (upper half of a cell: channel A, lower half: B)", rows() == 1 ? "cycle" : fmt::format("{} cycles", rows())), {.size = 11.5, .bold = true});
     for (std::size_t s = 0; s < used_.size(); ++s)
-      svg_->text({kLeft + cell * (static_cast<double>(s) + 0.5), top - 6}, fmt::format("{}", used_[s]), {.size = cell < 22 ? 7.5 : 9.5, .anchor = Anchor::kMiddle});
-    svg_->text({kLeft - 12, top - 6}, "slot", {.size = 10, .anchor = Anchor::kEnd});
+      svg_->text({left_ + cell * (static_cast<double>(s) + 0.5), top - 6}, fmt::format("{}", used_[s]), {.size = cell < 22 ? 7.5 : 9.5, .anchor = Anchor::kMiddle});
+    svg_->text({left_ - 12, top - 6}, "slot", {.size = 10, .anchor = Anchor::kEnd});
     for (int cycle = 0; cycle < rows(); ++cycle) {
       const double y = top + row * cycle;
-      svg_->text({kLeft - 12, y + row / 2 + 4}, fmt::format("cycle {}", cycle), {.size = 10, .anchor = Anchor::kEnd});
+      svg_->text({left_ - 12, y + row / 2 + 4}, fmt::format("cycle {}", cycle), {.size = 10, .anchor = Anchor::kEnd});
       for (std::size_t s = 0; s < used_.size(); ++s) {
-        const double left = kLeft + cell * static_cast<double>(s);
-        std::string text;
+        const double left = left_ + cell * static_cast<double>(s);
         svg_->rect({left, y, cell, row}, {.fill = "#ffffff"});
         for (const FrameSlot* f : frames_.at(used_[s])) {
           if (cycle % f->repetition != f->base_cycle) continue;
           const bool a = includes(f->channels, Channel::kA), b = includes(f->channels, Channel::kB);
           svg_->rect({left, a ? y : y + row / 2, cell, a && b ? row : row / 2}, {.fill = colour(f->pdu)}, frame_text(*f), "cell");
-          const std::string one = f->pdu == kNoPdu ? "status" : fmt::format("{}/{}", f->fragment + 1, c_.pdu(f->pdu).max_fragments());
-          if (text.empty()) text = one;
-          else if (text != one) text += " " + one;
+          const std::string text = f->pdu == kNoPdu ? "status" : fmt::format("{}/{}", f->fragment + 1, c_.pdu(f->pdu).max_fragments());
+          const double middle = a && b ? y + row / 2 : a ? y + row / 4 : y + row * 3 / 4;
+          if (text_width(text, 8) <= cell - 2) svg_->text({left + cell / 2, middle + 3}, text, {.size = 8, .anchor = Anchor::kMiddle});
         }
         svg_->rect({left, y, cell, row}, {.stroke = "#bbbbbb", .width = 0.5});
-        if (!text.empty() && text_width(text, 8) <= cell - 2) svg_->text({left + cell / 2, y + row / 2 + 3}, text, {.size = 8, .anchor = Anchor::kMiddle});
       }
     }
-    svg_->text({kLeft, top + row * rows() + 18}, "Numbers in the cells: fragment of the PDU / most fragments it can have.", {.size = 10, .fill = "#444444"});
+    svg_->text({left_, top + row * rows() + 18}, "Numbers in the cells: fragment of the PDU / most fragments it can have.", {.size = 10, .fill = "#444444"});
   }
 
   const Cluster& c_;
   Names names_;
+  double left_ = 110;              // of the plot: what the lane labels need
   int repetition_ = 1;
   std::map<int, std::vector<const FrameSlot*>> frames_;
   std::vector<int> used_;

@@ -106,7 +106,7 @@ class Painter {
     for (const Way& way : ways_) {
       any_late |= way.out_of_sequence;
       any_dropped |= way.dropped;
-      for (const Leg& leg : way.legs) any_waiting |= leg.waiting;
+      for (const Leg& leg : way.legs) any_waiting |= leg.kind == Leg::Kind::kHeld;
     }
     for (const Lane& lane : lanes_)
       if (lane.key.kind == LaneKey::Kind::kSensor)
@@ -257,6 +257,10 @@ class Painter {
                                                   way.out_of_sequence ? ", out of sequence" : "");
     for (const Leg& leg : way.legs) {
       if (!visible(leg.from.at, leg.to.at)) continue;
+      if (leg.kind == Leg::Kind::kStored) {
+        svg_->arrow({x(leg.from.at), y(leg.from.lane)}, {x(leg.to.at), y(leg.to.lane)}, {.stroke = colour}, hover, "arrow image");
+        continue;
+      }
       const bool same = leg.from.lane == leg.to.lane;
       const double a = y(leg.from.lane), b = y(leg.to.lane), down = same ? 0 : b > a ? 1 : -1;
       const auto edge = [&](const LaneKey& lane) {
@@ -267,7 +271,7 @@ class Painter {
       const Point q{x(leg.to.at), b + shift(leg.to.lane) + (same ? kBox / 2 + 3 : -down * edge(leg.to.lane))};
       svg_->arrow(p, q,
                   {.stroke = colour, .width = way.out_of_sequence ? 2.0 : image ? 1.0 : 1.2,
-                   .dash = leg.waiting ? "1.5 2.5" : way.out_of_sequence ? "5 3" : ""},
+                   .dash = leg.kind == Leg::Kind::kHeld ? "1.5 2.5" : way.out_of_sequence ? "5 3" : ""},
                   hover, image ? "arrow image" : way.out_of_sequence ? "arrow late" : "arrow");
     }
   }
@@ -301,6 +305,11 @@ class Painter {
           in_box(brief, t.start, t.end, y(t.lane), tint(pdu_colour(t.pdu), 0.55));
         continue;
       }
+      // Where channel A carries the same list, B needs no label of its own.
+      if (t.lane.index == 1 && std::ranges::any_of(transfers_, [&](const Transfer& o) {
+            return o.lane.kind == t.lane.kind && o.lane.index == 0 && o.pdu == t.pdu && o.sequence == t.sequence && o.start == t.start;
+          }))
+        continue;
       const double baseline = y(t.lane) + 4 - kBox / 2 - 4;
       const std::array<Point, 1> at{Point{stay_inside(x(t.start)), baseline}};
       const TextStyle style{.size = 9, .halo = true};

@@ -63,7 +63,7 @@ std::vector<Leg> legs_through(const Stop& first, const std::vector<Segment>& seg
   std::vector<Leg> legs;
   Stop from = first;
   for (const Segment& s : segments) {
-    legs.push_back({from, {s.lane, s.in}});
+    legs.push_back({from, {s.lane, s.in}, Leg::Kind::kMoves});
     from = {s.lane, s.out};
   }
   return legs;
@@ -104,7 +104,7 @@ void lead_to_image(const TimingData& data, Way& way) {
     const TimingData::Run* fuser = run_at(data, image.node, way.last.at);
     const Stop start{task_lane(image.node, writer), writer != nullptr ? writer->start : image.at};
     const Stop fused{way.last.lane, fuser != nullptr && fuser->end <= start.at ? fuser->end : way.last.at};
-    if (start.lane != fused.lane) way.legs.push_back({fused, start});
+    if (start.lane != fused.lane) way.legs.push_back({fused, start, Leg::Kind::kMoves});
     return;
   }
 }
@@ -159,7 +159,7 @@ std::vector<Way> measurement_ways(const TimingData& data, const Names& names, co
       if (!mine) continue;
       const TimingData::Run* run = run_at(data, f.node, f.at);
       const Stop step{task_lane(f.node, run), run != nullptr ? run->start : f.at};
-      way.legs.push_back({way.last, step, reached});
+      way.legs.push_back({way.last, step, reached ? Leg::Kind::kHeld : Leg::Kind::kMoves});
       way.last = step;
       reached = true;
       if (late.contains({f.id, f.at})) way.out_of_sequence = true;
@@ -195,7 +195,10 @@ std::vector<Way> image_ways(const TimingData& data, const Names& names, const st
       if (!same_sequence(u.image, image.sequence) || u.at < image.at || u.at >= image.at + kLongestWay) continue;
       const TimingData::Run* run = run_at(data, u.node, u.at);
       const Stop use{task_lane(u.node, run), run != nullptr ? run->start : u.at};
-      way.legs.push_back({way.last, use});
+      // Down to the reader's lane when the last frame has arrived, then along it until it is read.
+      const Stop received{use.lane, std::min(way.last.at, use.at)};
+      way.legs.push_back({way.last, received, Leg::Kind::kMoves});
+      way.legs.push_back({received, use, Leg::Kind::kStored});
       way.last = use;
       break;
     }

@@ -38,7 +38,12 @@ struct Stop {
 };
 struct Leg {
   Stop from, to;
-  bool waiting = false;           // held back by the strategy, along the fusion lane
+  enum class Kind : std::uint8_t {
+    kMoves,   // from lane to lane
+    kHeld,    // held back by the strategy, along the fusion lane
+    kStored,  // waits in the receiver's CNI
+  };
+  Kind kind = Kind::kMoves;
 };
 struct Way {
   MeasurementId id;               // of an image: sensor kNoSensor and the image's sequence number

@@ -1,0 +1,81 @@
+// What tests ask of an SVG: its texts with their areas, and how many elements have a class.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <regex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "report/svg.h"
+
+namespace ttf::report {
+
+struct DrawnText {
+  std::string text;
+  Area area;
+};
+
+inline std::string unescape(std::string s) {
+  for (const auto& [from, to] : {std::pair{"&lt;", "<"}, std::pair{"&gt;", ">"}, std::pair{"&quot;", "\""}, std::pair{"&amp;", "&"}})
+    for (std::size_t at = 0; (at = s.find(from, at)) != std::string::npos; ++at) s.replace(at, std::string(from).size(), to);
+  return s;
+}
+
+// Unrotated texts.
+inline std::vector<DrawnText> texts_of(const std::string& svg) {
+  static const std::regex element("<text x=\"([-0-9.]+)\" y=\"([-0-9.]+)\" font-size=\"([0-9.]+)\"([^>]*)>([^<]*)</text>");
+  std::vector<DrawnText> out;
+  for (std::sregex_iterator it(svg.begin(), svg.end(), element), end; it != end; ++it) {
+    const std::string more = (*it)[4];
+    if (more.find("rotate") != std::string::npos) continue;
+    TextStyle style;
+    style.size = std::stod((*it)[3]);
+    style.bold = more.find("bold") != std::string::npos;
+    if (more.find("middle") != std::string::npos) style.anchor = Anchor::kMiddle;
+    if (more.find("\"end\"") != std::string::npos) style.anchor = Anchor::kEnd;
+    const std::string text = unescape((*it)[5]);
+    out.push_back({text, text_area({std::stod((*it)[1]), std::stod((*it)[2])}, text, style)});
+  }
+  return out;
+}
+
+inline std::size_t count(const std::string& svg, const std::string& what) {
+  std::size_t n = 0;
+  for (std::size_t at = 0; (at = svg.find(what, at)) != std::string::npos; at += what.size()) ++n;
+  return n;
+}
+
+inline std::size_t count_class(const std::string& svg, const std::string& css_class) {
+  return count(svg, " class=\"" + css_class + "\"");
+}
+
+inline void expect_no_overlaps(const std::string& svg) {
+  const std::vector<DrawnText> texts = texts_of(svg);
+  EXPECT_GT(texts.size(), 4u);
+  for (std::size_t i = 0; i < texts.size(); ++i)
+    for (std::size_t j = i + 1; j < texts.size(); ++j)
+      EXPECT_FALSE(texts[i].area.overlaps(texts[j].area))
+          << "\"" << texts[i].text << "\" at " << texts[i].area.x << "," << texts[i].area.y << " and \"" << texts[j].text << "\" at "
+          << texts[j].area.x << "," << texts[j].area.y;
+}
+
+// All text inside the picture.
+inline void expect_inside(const std::string& svg) {
+  static const std::regex size("<svg [^>]*width=\"([0-9.]+)\" height=\"([0-9.]+)\"");
+  std::smatch m;
+  ASSERT_TRUE(std::regex_search(svg, m, size));
+  const double width = std::stod(m[1]), height = std::stod(m[2]);
+  for (const DrawnText& t : texts_of(svg)) {
+    EXPECT_GE(t.area.x, 0) << t.text;
+    EXPECT_LE(t.area.x + t.area.width, width) << t.text;
+    EXPECT_GE(t.area.y, 0) << t.text;
+    EXPECT_LE(t.area.y + t.area.height, height) << t.text;
+  }
+}
+
+// librsvg, as a judge of well-formedness: writes a PNG beside the other files of the test run.
+void expect_renders(const std::string& svg);
+
+}  // namespace ttf::report

@@ -1,0 +1,184 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "report/timing_diagram.h"
+#include "report/timing_ways.h"
+#include "tests/report/layout.h"
+#include "tests/report/synthetic_run.h"
+
+namespace ttf::report {
+namespace {
+
+using records::Disposition;
+
+std::string diagram(std::int64_t from_ms, std::int64_t to_ms) {
+  TimingDiagram d(synthetic_names(), Duration::milliseconds(5), at_us(from_ms * 1000), at_us(to_ms * 1000));
+  SyntheticRun{}.drive(d, 1'500'000);
+  return d.svg();
+}
+
+TEST(TimingDiagram, HasALaneForEverythingThatTakesPart) {
+  const std::string svg = diagram(200, 350);
+  for (const char* lane : {"laser", "camera", "laser_can", "camera_can", "object_can", "laser_pc: extract", "camera_pc: extract",
+                           "gateway: forward_laser", "FlexRay A", "FlexRay B", "fusion: track", "fusion: image", "feature: serve"})
+    EXPECT_EQ(count(svg, std::string(">") + lane + "</text>"), 1u) << lane;
+  EXPECT_NE(svg.find("true time [ms]"), std::string::npos);
+}
+
+TEST(TimingDiagram, LanesFollowTheWayOfAMeasurement) {
+  const std::string svg = diagram(200, 350);
+  std::size_t before = 0;
+  for (const char* lane : {">laser</text>", ">laser_device: emulate<", ">laser_can<", ">laser_pc: extract<", ">object_can<", ">gateway: forward_laser<", ">FlexRay A<", ">FlexRay B<", ">fusion: track<", ">feature: serve<"}) {
+    const std::size_t at = svg.find(lane);
+    ASSERT_NE(at, std::string::npos) << lane;
+    EXPECT_GT(at, before) << lane;
+    before = at;
+  }
+}
+
+TEST(TimingDiagram, NumbersTheCyclesOfTheWindow) {
+  const std::string svg = diagram(200, 350);
+  for (int cycle = 40; cycle < 70; ++cycle) EXPECT_EQ(count(svg, fmt::format("fill=\"#444444\">{}</text>", cycle)), 1u) << cycle;
+  EXPECT_EQ(count(svg, ">70</text>"), 0u);
+}
+
+TEST(TimingDiagram, NoLabelsOverlapInAnyWindow) {
+  for (const auto& [from, to] : {std::pair{200, 350}, std::pair{0, 150}, std::pair{100, 110}, std::pair{0, 1500}, std::pair{640, 1000}}) {
+    SCOPED_TRACE(fmt::format("{} to {} ms", from, to));
+    const std::string svg = diagram(from, to);
+    expect_no_overlaps(svg);
+    expect_inside(svg);
+  }
+}
+
+TEST(TimingDiagram, IsWellFormedAndDeterministic) {
+  EXPECT_EQ(diagram(200, 350), diagram(200, 350));
+  expect_renders(diagram(200, 350));
+}
+
+TEST(TimingDiagram, MarksDeadlinesNullFramesStatusFramesAndLateWays) {
+  const std::string svg = diagram(50, 250);
+  EXPECT_EQ(count_class(svg, "task missed"), 1u);
+  EXPECT_GT(count_class(svg, "null"), 0u);
+  EXPECT_GT(count_class(svg, "status"), 0u);
+  EXPECT_GT(count_class(svg, "arrow late"), 0u);
+  for (const char* entry : {"task, deadline missed", "null frame", "status frame", "out of sequence", "way of the real-time image"})
+    EXPECT_EQ(count(svg, std::string(">") + entry + "</text>"), 1u) << entry;
+}
+
+TEST(TimingDiagram, AnEmptyWindowSaysSo) {
+  const std::string svg = diagram(9000, 9100);
+  EXPECT_NE(svg.find("no records between 9000 ms and 9100 ms"), std::string::npos);
+  expect_renders(svg);
+  EXPECT_NE(TimingDiagram({}, {}, {}, {}).svg().find("no records"), std::string::npos);
+}
+
+TEST(TimingDiagram, NamesAndTasksMayBeMissing) {
+  TimingDiagram d({}, {}, at_us(0), at_us(100'000));
+  d.on(records::Measured{SyntheticRun{}.stamp(5000, 0), {SensorId{1}, 0}, {}});
+  d.on(records::ListFused{SyntheticRun{}.stamp(9000, 1), 1, {SensorId{1}, 0}, {5'000'000}, Disposition::kFused});
+  const std::string svg = d.svg();
+  EXPECT_NE(svg.find(">sensor 1</text>"), std::string::npos);
+  EXPECT_EQ(count_class(svg, "arrow"), 1u);
+  expect_renders(svg);
+}
+
+// Ways, checked stop by stop.
+class Ways : public ::testing::Test {
+ protected:
+  static TimingData::Fused fused(std::int64_t us, std::uint32_t sequence, std::int64_t measured_us, Disposition what, std::uint8_t sensor = 0) {
+    return {at_us(us), NodeId{5}, 1, {SensorId{sensor}, sequence}, {measured_us * 1000}, what};
+  }
+  std::vector<Way> ways() const { return measurement_ways(data_, synthetic_names(), transfers_of(data_)); }
+  TimingData data_;
+};
+
+TEST_F(Ways, LeadFromTheSensorThroughEveryHop) {
+  // measured 0 -> CAN 1..3 -> task of node 2, 4..9 -> slots 10..11 on A and B -> fused at 13
+  data_.measurements = {{at_us(0), {SensorId{0}, 7}}};
+  data_.can_frames = {{0, at_us(1000), at_us(2000), PduId{0}, 7}, {0, at_us(2500), at_us(3000), PduId{0}, 7}};
+  data_.hops = {{at_us(4000), NodeId{2}, records::Hop::kRead, PduId{0}, 7}};
+  data_.runs = {{at_us(3000), at_us(4000), at_us(9000), NodeId{2}, 0, true}, {at_us(13000), at_us(13000), at_us(14000), NodeId{5}, 0, true}};
+  for (std::uint8_t channel : {0, 1})
+    data_.slot_frames.push_back({at_us(10000), at_us(11000), {}, NodeId{4}, 2, 3, channel, false, PduId{2}, 7, 0});
+  data_.steps = {{at_us(13000), NodeId{5}, 1}};
+  data_.fused = {fused(13000, 7, 0, Disposition::kFused)};
+  const auto all = ways();
+  ASSERT_EQ(all.size(), 1u);
+  ASSERT_EQ(all[0].legs.size(), 4u);
+  using Kind = LaneKey::Kind;
+  const std::vector<Stop> from{{{Kind::kSensor, 0, 0}, at_us(0)}, {{Kind::kCan, 0, 0}, at_us(3000)}, {{Kind::kTask, 2, 0}, at_us(9000)}, {{Kind::kChannel, 0, 0}, at_us(11000)}};
+  const std::vector<Stop> to{{{Kind::kCan, 0, 0}, at_us(1000)}, {{Kind::kTask, 2, 0}, at_us(4000)}, {{Kind::kChannel, 0, 0}, at_us(10000)}, {{Kind::kTask, 5, 0}, at_us(13000)}};
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(all[0].legs[i].from.lane, from[i].lane) << i;
+    EXPECT_EQ(all[0].legs[i].from.at, from[i].at) << i;
+    EXPECT_EQ(all[0].legs[i].to.lane, to[i].lane) << i;
+    EXPECT_EQ(all[0].legs[i].to.at, to[i].at) << i;
+  }
+  EXPECT_FALSE(all[0].dropped);
+  EXPECT_FALSE(all[0].out_of_sequence);
+}
+
+TEST_F(Ways, AListThatArrivesAfterANewerOneIsOutOfSequence) {
+  data_.measurements = {{at_us(0), {SensorId{0}, 0}}, {at_us(5000), {SensorId{1}, 0}}};
+  data_.fused = {fused(13000, 0, 5000, Disposition::kFused, 1), fused(23000, 0, 0, Disposition::kFused, 0)};
+  const auto all = ways();
+  EXPECT_TRUE(all[0].out_of_sequence);
+  EXPECT_FALSE(all[1].out_of_sequence);
+}
+
+TEST_F(Ways, ListsOfOneStepArriveTogether) {
+  data_.measurements = {{at_us(0), {SensorId{0}, 0}}, {at_us(5000), {SensorId{1}, 0}}};
+  data_.fused = {fused(13000, 0, 5000, Disposition::kFused, 1), fused(13000, 0, 0, Disposition::kFused, 0)};
+  EXPECT_FALSE(ways()[0].out_of_sequence);
+}
+
+TEST_F(Ways, AHeldListWaitsAndIsFusedLater) {
+  data_.measurements = {{at_us(0), {SensorId{0}, 0}}};
+  data_.fused = {fused(13000, 0, 0, Disposition::kHeld), fused(23000, 0, 0, Disposition::kFused)};
+  const auto all = ways();
+  ASSERT_EQ(all[0].legs.size(), 2u);
+  EXPECT_EQ(all[0].legs[1].kind, Leg::Kind::kHeld);
+  EXPECT_EQ(all[0].last.at, at_us(23000));
+  EXPECT_FALSE(all[0].out_of_sequence);
+}
+
+TEST_F(Ways, ADroppedOrOverwrittenListEndsThere) {
+  data_.measurements = {{at_us(0), {SensorId{0}, 0}}, {at_us(80000), {SensorId{0}, 1}}};
+  data_.fused = {fused(13000, 0, 0, Disposition::kDroppedTooOld)};
+  data_.hops = {{at_us(90000), NodeId{2}, records::Hop::kOverwritten, PduId{0}, 1}};
+  const auto all = ways();
+  EXPECT_TRUE(all[0].dropped);
+  EXPECT_TRUE(all[1].dropped);
+}
+
+TEST_F(Ways, AWrappedCounterIsNotMistakenForAnOldList) {
+  // Sequence 3 and, 256 measurements later, 259 (3 on an eight-bit wire).
+  data_.measurements = {{at_us(0), {SensorId{0}, 3}}, {at_us(20'480'000), {SensorId{0}, 259}}};
+  data_.fused = {fused(13000, 3, 0, Disposition::kFused), fused(20'493'000, 3, 20'480'000, Disposition::kFused)};
+  const auto all = ways();
+  ASSERT_EQ(all[0].legs.size(), 1u);
+  ASSERT_EQ(all[1].legs.size(), 1u);
+  EXPECT_EQ(all[0].last.at, at_us(13000));
+  EXPECT_EQ(all[1].last.at, at_us(20'493'000));
+}
+
+TEST_F(Ways, AnImageGoesOverItsSlotsToTheFeatureService) {
+  data_.images = {{at_us(1000), NodeId{5}, 4, {}}};
+  data_.runs = {{at_us(1000), at_us(1000), at_us(1500), NodeId{5}, 1, true}, {at_us(30000), at_us(30000), at_us(30300), NodeId{6}, 0, true}};
+  data_.slot_frames = {{at_us(5000), at_us(5100), {}, NodeId{5}, 1, 12, 0, false, PduId{4}, 4, 0}, {at_us(5100), at_us(5200), {}, NodeId{5}, 1, 13, 0, false, PduId{4}, 4, 1}};
+  data_.uses = {{at_us(30000), NodeId{6}, 4, true}};
+  const auto all = image_ways(data_, synthetic_names(), transfers_of(data_));
+  ASSERT_EQ(all.size(), 1u);
+  ASSERT_EQ(all[0].legs.size(), 3u);
+  EXPECT_EQ(all[0].legs[0].from.at, at_us(1500));
+  EXPECT_EQ(all[0].legs[0].to.at, at_us(5000));
+  EXPECT_EQ(all[0].legs[1].to.at, at_us(5200));
+  EXPECT_EQ(all[0].legs[2].kind, Leg::Kind::kStored);
+  EXPECT_EQ(all[0].legs[2].to.at, at_us(30000));
+}
+
+}  // namespace
+}  // namespace ttf::report
