@@ -46,10 +46,11 @@ class Ages {
   // BUFF: any measurement is released when `held` has passed since it was made, at the next fusion instant.
   void buffer(AgePath& ages, Duration held) {
     const Path path = path_of(cluster_, ages.sensor);
-    std::size_t gate = path.available;
+    const std::size_t gate = path.available;
     std::int64_t fused = 0, used = 0;
     const std::size_t last = std::max(path.used, path.fused);
-    if (path.stages[gate].kind != Stage::Kind::kActivation) return;   // not activated by time: nothing is held
+    // Not activated by time: there are no fusion instants to hold a list for.
+    if (gate >= path.stages.size() || path.stages[gate].kind != Stage::Kind::kActivation) return;
     for (const std::int64_t entry : entries(cluster_, path.stages[gate], kFromCycle, true)) {
       const auto instants = walk(cluster_, path, gate, last, entry, true, true);
       fused = std::max(fused, instants[path.fused - gate - 1] - entry);

@@ -1,0 +1,47 @@
+// The shipped cluster files, and what is found when one of them is changed.
+#pragma once
+
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "core/errors.h"
+#include "schedules/checker.h"
+#include "schedules/loader.h"
+
+namespace ttf::schedules {
+
+inline const std::vector<std::string>& shipped_clusters() {
+  static const std::vector<std::string> kNames{"paper_unsynchronised", "paper_synchronised", "laser_radar",
+                                               "laser_radar_synchronised"};
+  return kNames;
+}
+
+inline std::string shipped_path(const std::string& name) {
+  return std::string(TTF_SOURCE_DIR) + "/schedules/" + name + ".yaml";
+}
+
+inline std::string shipped_text(const std::string& name) {
+  std::ifstream stream(shipped_path(name), std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+// Of the loader, or of the checker where loading goes well.
+inline std::vector<Finding> findings_of(const std::string& text) {
+  try {
+    return check(parse_cluster(text, "cluster.yaml"));
+  } catch (const InputError& error) {
+    return error.findings();
+  }
+}
+
+inline std::string sentences(const std::vector<Finding>& findings) {
+  std::string text;
+  for (const Finding& finding : findings) text += "\n  " + finding.sentence();
+  return text;
+}
+
+}  // namespace ttf::schedules
