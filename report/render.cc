@@ -97,6 +97,8 @@ void write_picture(const std::string& svg, const std::string& path) {
     return;
   }
   const Surface surface(cairo_pdf_surface_create(path.c_str(), width * kPointsPerPixel, height * kPointsPerPixel));
+  if (const cairo_status_t status = cairo_surface_status(surface.get()); status != CAIRO_STATUS_SUCCESS)
+    fail(path, "", "", std::string("cannot be written: ") + cairo_status_to_string(status));
   // cairo would write today's date: a fixed one keeps equal pictures equal bytes.
   cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE, "2000-01-01T00:00:00Z");
   draw(handle.get(), surface.get(), kPointsPerPixel, width, height, path);

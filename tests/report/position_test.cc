@@ -33,7 +33,9 @@ TEST(PositionPlots, TakeOfEachListTheObservationOfTheObject) {
 
 TEST(PositionPlots, PutGlobalInstantsOnTrueTime) {
   // Global time is 3 us ahead in this run; the laser measured at 4 ms + k 80 ms of true time.
-  for (const auto& o : drive().select().observations[0]) EXPECT_NEAR(std::fmod(o.t - 0.004 + 1e-9, 0.08), 0.0, 1e-8) << o.t;
+  const PositionPlots::Selection s = drive().select();
+  ASSERT_FALSE(s.observations.empty());
+  for (const auto& o : s.observations[0]) EXPECT_NEAR(std::fmod(o.t - 0.004 + 1e-9, 0.08), 0.0, 1e-8) << o.t;
 }
 
 TEST(PositionPlots, ArrowsLeadToTheStepThatIntegratedTheMeasurement) {

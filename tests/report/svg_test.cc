@@ -1,12 +1,13 @@
 #include "report/svg.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <set>
 #include <sstream>
 
 #include "core/errors.h"
@@ -21,7 +22,7 @@
 namespace ttf::report {
 
 namespace {
-std::string scratch(const std::string& name) { return (std::filesystem::temp_directory_path() / ("ttf_report_" + name)).string(); }
+std::string scratch(const std::string& name) { return (std::filesystem::temp_directory_path() / ("ttf_report_" + std::to_string(getpid()) + "_" + name)).string(); }
 
 std::string bytes_of(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
