@@ -90,7 +90,7 @@ std::vector<Mutation> mutations() {
       {"execution_order", inside("publish", "best_case") + "[0-9]+ [a-z]+", "$0130 ms", "publish.worst_case",
        "below best_case"},
       {"overlap", inside("publish", "base_cycle") + "[0-9], repetition: 8, offset: [0-9]+",
-       "$011, repetition: 2, offset: 1801", "publish.activation", "overlaps fuse"},
+       "$010, repetition: 1, offset: 1801", "publish.activation", "overlaps fuse"},
       {"self_overlap", inside("use", "worst_case") + "[0-9]+ [a-z]+", "$0150 ms", "use.worst_case", "overlaps itself"},
       {"message_port", inside("laser_pre", "port") + "raw", "$01cooked", "activation.port", "ports the task reads"},
       {"too_slow_for_messages", inside("camera_pre", "worst_case") + "[0-9]+ [a-z]+", "$0160 ms",
