@@ -1,8 +1,9 @@
 // Records to protobuf messages and back. Private to the room: it drags in generated code.
 //
-// encode() fills a message that is used again and again (Clear keeps its memory). A Decoder checks that every
-// number fits its field's type and that lists have their lengths: it returns false, and calls nothing, where
-// they do not.
+// encode() fills a message that is used again and again: it sets every field, so that the message need not be
+// cleared, for Clear() frees the messages within. No heap use once the lists have had their largest size. A
+// Decoder checks that every number fits its field's type and that lists have their lengths: it returns false,
+// and calls nothing, where they do not.
 #pragma once
 
 #include <vector>

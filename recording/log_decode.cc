@@ -208,9 +208,12 @@ bool Decoder::decode(RecordKind kind, std::string_view bytes, records::Sink& sin
     case RecordKind::kFeature: {
       const auto& in = payloads_.feature;
       feature_objects_.clear();
-      for (const auto& object : in.objects())
-        feature_objects_.push_back({object_of(object.image(), narrow), object.time_gap_s(),
-                                    object.time_to_collision_s(), object.warning()});
+      if (in.time_gap_s_size() != in.objects_size() || in.time_to_collision_s_size() != in.objects_size() ||
+          in.warning_size() != in.objects_size())
+        return false;
+      for (int i = 0; i < in.objects_size(); ++i)
+        feature_objects_.push_back(
+            {object_of(in.objects(i), narrow), in.time_gap_s(i), in.time_to_collision_s(i), in.warning(i)});
       return hand_on(records::FeatureUsed{stamp_of(in.stamp(), narrow), in.image_sequence(),
                                           GlobalTime{in.image_valid_at()}, in.fresh(), feature_objects_});
     }

@@ -49,16 +49,15 @@ void fill_bytes(std::string& out, std::span<const std::byte> in) {
 
 Encoded encode(const records::Measured& in, Payloads& payloads) {
   auto& out = payloads.measured;
-  out.Clear();
   fill(*out.mutable_stamp(), in.stamp);
   fill(*out.mutable_id(), in.id);
+  out.clear_truth_ids();
   for (const ObjectId id : in.truth_ids) out.add_truth_ids(number(id));
   return {RecordKind::kMeasured, &out, times_of(in.stamp)};
 }
 
 Encoded encode(const records::CanFrameSent& in, Payloads& payloads) {
   auto& out = payloads.can_frame;
-  out.Clear();
   out.set_bus(in.bus);
   out.set_sender(number(in.sender));
   out.set_start(in.start.ns);
@@ -74,7 +73,6 @@ Encoded encode(const records::CanFrameSent& in, Payloads& payloads) {
 
 Encoded encode(const records::SlotFrameSent& in, Payloads& payloads) {
   auto& out = payloads.slot_frame;
-  out.Clear();
   fill(*out.mutable_stamp(), in.stamp);
   out.set_end(in.end.ns);
   out.set_cycle(in.cycle);
@@ -90,7 +88,6 @@ Encoded encode(const records::SlotFrameSent& in, Payloads& payloads) {
 
 Encoded encode(const records::SlotProblem& in, Payloads& payloads) {
   auto& out = payloads.slot_problem;
-  out.Clear();
   fill(*out.mutable_stamp(), in.stamp);
   out.set_cycle(in.cycle);
   out.set_slot(in.slot);
@@ -101,7 +98,6 @@ Encoded encode(const records::SlotProblem& in, Payloads& payloads) {
 
 Encoded encode(const records::ListHop& in, Payloads& payloads) {
   auto& out = payloads.list_hop;
-  out.Clear();
   fill(*out.mutable_stamp(), in.stamp);
   out.set_hop(number(in.hop));
   out.set_pdu(number(in.pdu));
@@ -112,7 +108,6 @@ Encoded encode(const records::ListHop& in, Payloads& payloads) {
 
 Encoded encode(const records::TaskRun& in, Payloads& payloads) {
   auto& out = payloads.task_run;
-  out.Clear();
   fill(*out.mutable_start(), in.start);
   out.set_task(in.task);
   out.set_activated(in.activated.ns);
@@ -123,7 +118,6 @@ Encoded encode(const records::TaskRun& in, Payloads& payloads) {
 
 Encoded encode(const records::ClockCorrected& in, Payloads& payloads) {
   auto& out = payloads.clock_corrected;
-  out.Clear();
   fill(*out.mutable_stamp(), in.stamp);
   out.set_cycle(in.cycle);
   out.set_offset_microticks(in.offset_microticks);
@@ -137,7 +131,6 @@ Encoded encode(const records::ClockCorrected& in, Payloads& payloads) {
 
 Encoded encode(const records::PrecisionSample& in, Payloads& payloads) {
   auto& out = payloads.precision;
-  out.Clear();
   out.set_at(in.at.ns);
   out.set_cycle(in.cycle);
   out.set_precision(in.precision.ns);
@@ -146,7 +139,6 @@ Encoded encode(const records::PrecisionSample& in, Payloads& payloads) {
 
 Encoded encode(const records::FusionInput& in, Payloads& payloads) {
   auto& out = payloads.fusion_input;
-  out.Clear();
   fill(*out.mutable_stamp(), in.stamp);
   out.set_step(in.step);
   out.set_pdu(number(in.pdu));
@@ -159,7 +151,6 @@ Encoded encode(const records::FusionInput& in, Payloads& payloads) {
 
 Encoded encode(const records::ListFused& in, Payloads& payloads) {
   auto& out = payloads.list_fused;
-  out.Clear();
   fill(*out.mutable_stamp(), in.stamp);
   out.set_step(in.step);
   fill(*out.mutable_id(), in.id);
@@ -170,7 +161,6 @@ Encoded encode(const records::ListFused& in, Payloads& payloads) {
 
 Encoded encode(const records::FusionStep& in, Payloads& payloads) {
   auto& out = payloads.fusion_step;
-  out.Clear();
   fill(*out.mutable_stamp(), in.stamp);
   out.set_step(in.step);
   out.set_confirmed(in.confirmed);
@@ -180,11 +170,12 @@ Encoded encode(const records::FusionStep& in, Payloads& payloads) {
 
 Encoded encode(const records::TrackState& in, Payloads& payloads) {
   auto& out = payloads.track;
-  out.Clear();
   fill(*out.mutable_stamp(), in.stamp);
   out.set_step(in.step);
   out.set_track(number(in.track));
   out.set_valid_at(in.valid_at.ns);
+  out.clear_state();
+  out.clear_covariance();
   for (const double value : in.state) out.add_state(value);
   for (const double value : in.covariance) out.add_covariance(value);
   out.set_predicted_for_image(in.predicted_for_image);
@@ -193,7 +184,6 @@ Encoded encode(const records::TrackState& in, Payloads& payloads) {
 
 Encoded encode(const records::ObservationSeen& in, Payloads& payloads) {
   auto& out = payloads.observation;
-  out.Clear();
   fill(*out.mutable_stamp(), in.stamp);
   fill(*out.mutable_id(), in.id);
   out.set_measured(in.measured.ns);
@@ -208,11 +198,12 @@ Encoded encode(const records::ObservationSeen& in, Payloads& payloads) {
 
 Encoded encode(const records::ImageWritten& in, Payloads& payloads) {
   auto& out = payloads.image;
-  out.Clear();
   fill(*out.mutable_stamp(), in.stamp);
   out.set_sequence(in.sequence);
   out.set_valid_at(in.valid_at.ns);
   out.set_newest_measurement(in.newest_measurement.ns);
+  out.clear_objects();
+  out.clear_newest();
   for (const auto& object : in.objects) fill(*out.add_objects(), object);
   for (const auto& id : in.newest) fill(*out.add_newest(), id);
   return {RecordKind::kImage, &out, times_of(in.stamp)};
@@ -220,24 +211,25 @@ Encoded encode(const records::ImageWritten& in, Payloads& payloads) {
 
 Encoded encode(const records::FeatureUsed& in, Payloads& payloads) {
   auto& out = payloads.feature;
-  out.Clear();
   fill(*out.mutable_stamp(), in.stamp);
   out.set_image_sequence(in.image_sequence);
   out.set_image_valid_at(in.image_valid_at.ns);
   out.set_fresh(in.fresh);
+  out.clear_objects();
+  out.clear_time_gap_s();
+  out.clear_time_to_collision_s();
+  out.clear_warning();
   for (const auto& object : in.objects) {
-    auto& item = *out.add_objects();
-    fill(*item.mutable_image(), object.image);
-    item.set_time_gap_s(object.time_gap_s);
-    item.set_time_to_collision_s(object.time_to_collision_s);
-    item.set_warning(object.warning);
+    fill(*out.add_objects(), object.image);
+    out.add_time_gap_s(object.time_gap_s);
+    out.add_time_to_collision_s(object.time_to_collision_s);
+    out.add_warning(object.warning);
   }
   return {RecordKind::kFeature, &out, times_of(in.stamp)};
 }
 
 Encoded encode(const records::ReferenceFix& in, Payloads& payloads) {
   auto& out = payloads.reference;
-  out.Clear();
   out.set_measured_true(in.measured_true.ns);
   out.set_measured(in.measured.ns);
   out.set_available(in.available.ns);
@@ -250,7 +242,6 @@ Encoded encode(const records::ReferenceFix& in, Payloads& payloads) {
 
 Encoded encode(const records::TruthState& in, Payloads& payloads) {
   auto& out = payloads.truth;
-  out.Clear();
   out.set_at(in.at.ns);
   out.set_object(number(in.object));
   out.set_x(in.x);

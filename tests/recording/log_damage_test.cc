@@ -159,7 +159,7 @@ TEST(LogDamage, ManyChangesNeverCrashNorInventRecords) {
 // them.
 TEST(LogDamage, UncheckedPayloadsAreDecodedWithCare) {
   const auto put = [](std::string& out, std::uint64_t value, int size) {
-    for (int i = 0; i < size; ++i) out += static_cast<char>(value >> (8 * i));
+    for (int i = 0; i < size; ++i) out += i < 8 ? static_cast<char>(value >> (8 * i)) : '\0';
   };
   const std::string& bytes = small_log();
   const std::size_t header = bytes.find('\x0c', 8);  // the manifest's record follows the header

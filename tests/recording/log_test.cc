@@ -1,19 +1,19 @@
 // What is written is read again; the same records give the same bytes; the hash follows the records.
 #include <gtest/gtest.h>
 
-#include <cstdio>
 #include <filesystem>
-#include <limits>
 #include <numeric>
 #include <set>
 
 #include "core/errors.h"
 #include "recording/log_reader.h"
 #include "recording/log_writer.h"
+#include "tests/recording/allocations.h"
 #include "tests/recording/log_fixture.h"
 #include "tests/recording/record_text.h"
 
 namespace ttf::recording {
+
 namespace {
 
 constexpr int kKinds = static_cast<int>(kRecordKinds);
@@ -194,6 +194,39 @@ TEST(Log, WhatCannotBeWrittenIsSaid) {
   LogWriter writer("/dev/full", {});
   emit_drive(writer, 100);
   EXPECT_THROW(writer.close(), std::runtime_error);
+}
+
+// After a first drive has shown the lists' largest sizes, a second of log costs no allocation per record.
+// What remains is one entry per chunk in the index, whose memory doubles now and then.
+TEST(Log, RecordingDoesNotAllocatePerRecord) {
+  LogWriter writer(scratch("allocations.mcap"), {});
+  std::vector<std::int64_t> counts;
+  std::array<records::ImageObject, 25> images{};
+  std::array<records::FeatureObject, 25> features{};
+  std::array<MeasurementId, 3> newest{};
+  std::array<ObjectId, 200> ids{};
+  std::array<std::byte, 262> bytes{};
+  const std::array<double, 6> state{1};
+  const std::array<double, 36> covariance{1};
+  for (int second = 0; second < 4; ++second) {
+    const std::int64_t before = allocations();
+    for (int i = 0; i < 1000; ++i) {
+      const std::size_t objects = static_cast<std::size_t>(i) % 26;  // lists that grow and shrink
+      records::Stamp stamp;
+      stamp.true_time.ns = (second * 1000 + i) * 1'000'000ll;
+      writer.on(records::Measured{stamp, {}, std::span(ids).first(objects * 8)});
+      writer.on(records::SlotFrameSent{.stamp = stamp, .bytes = std::span(bytes).first(objects * 10)});
+      writer.on(records::ListHop{stamp});
+      writer.on(records::TaskRun{stamp});
+      writer.on(records::TrackState{stamp, 1, TrackId{1}, {}, state, covariance, false});
+      writer.on(records::ImageWritten{stamp, 1, {}, {}, std::span(images).first(objects), newest});
+      writer.on(records::FeatureUsed{stamp, 1, {}, true, std::span(features).first(objects)});
+    }
+    counts.push_back(allocations() - before);
+  }
+  EXPECT_LE(counts[1], 20) << "7000 records";
+  EXPECT_LE(counts[2], 20) << "7000 records";
+  EXPECT_LE(counts[3], 20) << "7000 records";
 }
 
 }  // namespace
