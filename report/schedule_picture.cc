@@ -135,8 +135,8 @@ class Painter {
         if (here.size() > 1) text += fmt::format(" +{}", here.size() - 1);
         const bool two = width >= 21;
         const double centre = left + width / 2 + 3, foot = top + kSlotLane - 14;
-        if (two) svg_->text({centre - 5, foot}, fitted(names_.node(f.sender), 8.5, kSlotLane - 18), {.size = 8.5, .rotate = -90});
-        svg_->text({two ? centre + 5 : centre, foot}, fitted(text, 8.5, kSlotLane - 18), {.size = 8.5, .rotate = -90});
+        if (two) svg_->text({centre - 6, foot}, fitted(names_.node(f.sender), 8.5, kSlotLane - 18), {.size = 8.5, .rotate = -90});
+        svg_->text({two ? centre + 3.5 : centre, foot}, fitted(text, 8.5, kSlotLane - 18), {.size = 8.5, .rotate = -90});
       }
     }
     double at = g.gNumberOfStaticSlots * static_cast<double>(g.gdStaticSlot);

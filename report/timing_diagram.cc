@@ -129,7 +129,7 @@ class Painter {
     if (!data_.runs.empty()) {
       legend_.push_back({K::kBox, "task", "#c9d7e6", {}, true});
       legend_.push_back({K::kLine, "activated, waiting", "#666666"});
-      if (std::ranges::any_of(data_.runs, [](const auto& r) { return !r.deadline_met; }))
+      if (std::ranges::any_of(data_.runs, [&](const auto& r) { return !r.deadline_met && visible(r.activated, r.end); }))
         legend_.push_back({K::kBox, "task, deadline missed", std::string(kMissed), {}, true});
     }
   }

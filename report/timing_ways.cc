@@ -124,9 +124,14 @@ std::vector<Transfer> transfers_of(const TimingData& data) {
     transfers.push_back(t);
   };
   for (const auto& f : data.can_frames) add({{LaneKey::Kind::kCan, f.bus, 0}, f.start, f.end, f.pdu, f.sequence});
-  for (const auto& f : data.slot_frames)
-    if (!f.null_frame && f.pdu != kNoPdu)
+  // A state message is sent again in every cycle its slots come; what travels is the first time.
+  std::map<std::tuple<std::uint8_t, PduId, std::uint32_t>, const TimingData::SlotFrame*> first_sent;
+  for (const auto& f : data.slot_frames) {
+    if (f.null_frame || f.pdu == kNoPdu) continue;
+    const auto [entry, first] = first_sent.try_emplace({f.channel, f.pdu, f.sequence}, &f);
+    if (first || entry->second->cycle == f.cycle)
       add({{LaneKey::Kind::kChannel, f.channel, 0}, f.start, f.end, f.pdu, f.sequence});
+  }
   return transfers;
 }
 

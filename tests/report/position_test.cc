@@ -4,6 +4,7 @@
 
 #include "report/position_plot.h"
 #include "report/schedule_picture.h"
+#include "schedules/loader.h"
 #include "tests/report/layout.h"
 #include "tests/report/synthetic_cluster.h"
 #include "tests/report/synthetic_run.h"
@@ -138,6 +139,16 @@ TEST(SchedulePicture, ShowsSlotsTasksAndMultiplexing) {
   expect_inside(svg);
   expect_renders(svg);
   EXPECT_EQ(svg, schedule_svg(synthetic_cluster()));
+}
+
+TEST(SchedulePicture, DrawsEveryShippedClusterLegibly) {
+  for (const char* name : {"paper_unsynchronised", "paper_synchronised", "laser_radar", "laser_radar_synchronised"}) {
+    SCOPED_TRACE(name);
+    const std::string svg = schedule_svg(schedules::load_cluster(std::string(TTF_SOURCE_DIR) + "/schedules/" + name + ".yaml"));
+    expect_no_overlaps(svg);
+    expect_inside(svg);
+    expect_renders(svg);
+  }
 }
 
 TEST(SchedulePicture, AnEmptyClusterSaysSo) {
