@@ -33,13 +33,7 @@ class Ages {
     ages.reaches_use = path.used != 0;
     if (!ages.reaches_use) return ages;
     bounds(path, id, path.used, ages.use_best, ages.use_worst, &ages.to_use);
-    // The next measurement is first used at the latest use_worst after it, and the use before that one is a use period
-    // earlier; it is the last one that still shows this measurement as the newest.
-    const Sensor& sensor = cluster_.sensor(id);
-    const std::int64_t period = sensor.period.ns + (sensor.scheduled ? 0 : drift(sensor.period.ns));
-    const std::int64_t between_uses =
-        path.use.repetition > 0 ? cluster_.cycle().ns * path.use.repetition - clocks_.apart_ns : 0;
-    ages.newest_worst = {ages.use_worst.ns + std::max<std::int64_t>(0, period - between_uses)};
+    ages.newest_worst = ages.use_worst + until_next_newest(path, id);
     return ages;
   }
 
@@ -60,10 +54,22 @@ class Ages {
       return Duration{sum + clocks_.apart_ns + drift(sum)};
     };
     ages.buffered_fused_worst = with_clocks(held.ns + fused);
-    if (path.used != 0) ages.buffered_use_worst = with_clocks(held.ns + used);
+    if (path.used == 0) return;
+    ages.buffered_use_worst = with_clocks(held.ns + used);
+    ages.buffered_newest_worst = ages.buffered_use_worst + until_next_newest(path, ages.sensor);
   }
 
  private:
+  // The next measurement is first used at the latest one period and the bound of a first use after this one; the use
+  // before that, a use period earlier, is the last that still shows this measurement as the newest.
+  Duration until_next_newest(const Path& path, SensorId id) const {
+    const Sensor& sensor = cluster_.sensor(id);
+    const std::int64_t period = sensor.period.ns + (sensor.scheduled ? 0 : drift(sensor.period.ns));
+    const std::int64_t between_uses =
+        path.use.repetition > 0 ? cluster_.cycle().ns * path.use.repetition - clocks_.apart_ns : 0;
+    return {std::max<std::int64_t>(0, period - between_uses)};
+  }
+
   std::int64_t drift(std::int64_t ns) const { return ns / 1000 * 2 * clocks_.drift_ppb / 1'000'000 + 1; }
 
   Extreme extreme(const Path& path, const Sensor& sensor, std::size_t last, bool latest) const {
@@ -153,6 +159,7 @@ std::string ages_text(const Cluster& cluster) {
     if (path.reaches_use) bound("  newest one at any use", path.newest_worst);
     bound("  fused, if held for order (BUFF)", path.buffered_fused_worst);
     if (path.reaches_use) bound("  used first, if held for order (BUFF)", path.buffered_use_worst);
+    if (path.reaches_use) bound("  newest one at any use, if held (BUFF)", path.buffered_newest_worst);
   }
   return text;
 }

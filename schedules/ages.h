@@ -50,6 +50,7 @@ struct AgePath {
   Duration newest_worst{};
   // With BUFF: held until no older measurement of any sensor can still arrive, the largest fusion_worst of all.
   Duration buffered_fused_worst{}, buffered_use_worst{};
+  Duration buffered_newest_worst{};      // the newest one at any use, as newest_worst
   bool reaches_use = false;              // else everything about use is zero
 };
 

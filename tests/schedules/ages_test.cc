@@ -123,6 +123,7 @@ TEST(Ages, OfHeldMeasurements) {
   const auto ages = measurement_ages(small(false));
   EXPECT_EQ(ages[0].buffered_fused_worst.ns, ages[0].fusion_worst.ns + 10'000'000 - 1 + kClocks);
   EXPECT_EQ(ages[0].buffered_use_worst.ns, ages[0].buffered_fused_worst.ns + 4'500'000);
+  EXPECT_EQ(ages[0].buffered_newest_worst - ages[0].buffered_use_worst, ages[0].newest_worst - ages[0].use_worst);
 }
 
 TEST(Ages, ASensorNobodyFusesIsLeftOut) {
