@@ -30,7 +30,7 @@ struct Path {
   std::size_t available = 0;       // stages until the list is in the fusion node's CNI
   std::size_t fused = 0;           // until the fusing task starts
   std::size_t used = 0;            // until the image's reader starts; 0: there is none
-  CycleInstant use{};              // of that reader, when time activates it
+  CycleInstant use{0, 0, {}};      // of that reader; repetition 0 where time does not activate it
 };
 
 // Nothing of a path for a sensor whose lists reach no fusing task: stages is empty.
