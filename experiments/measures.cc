@@ -19,9 +19,13 @@ DriveMeasures::DriveMeasures(TrueTime from, double gate_m) : from_(from), gate_(
 
 void DriveMeasures::on(const records::FusionInput& input) {
   ++summary_.received;
-  if (any_received_ && input.measured < newest_received_) ++summary_.out_of_sequence;
-  newest_received_ = any_received_ ? std::max(newest_received_, input.measured) : input.measured;
-  any_received_ = true;
+  // Lists that a fusion step takes in together have no order among themselves.
+  if (input.step != receiving_step_) {
+    receiving_step_ = input.step;
+    newest_before_ = newest_received_;
+  }
+  if (newest_before_ && input.measured < *newest_before_) ++summary_.out_of_sequence;
+  newest_received_ = newest_received_ ? std::max(*newest_received_, input.measured) : input.measured;
 }
 
 void DriveMeasures::on(const records::ListFused& fused) {

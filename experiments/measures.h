@@ -103,8 +103,8 @@ class DriveMeasures final : public records::Sink {
   DriveSummary summary_;
   std::array<double, 4> squares_{};
   double nees_sum_ = 0.0;
-  GlobalTime newest_received_{};
-  bool any_received_ = false;
+  std::uint32_t receiving_step_ = 0;
+  std::optional<GlobalTime> newest_received_, newest_before_;     // before: in earlier steps
   std::map<MeasurementId, GlobalTime> measured_;                  // of fused lists
   std::map<std::uint32_t, std::vector<MeasurementId>> newest_;    // by image sequence
   std::vector<Predicted> predicted_;

@@ -1,8 +1,8 @@
 #include "sim/world/camera.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <optional>
 
 #include "core/random.h"
 #include "sim/world/shape.h"
@@ -10,23 +10,28 @@
 namespace ttf::world {
 namespace {
 
-// Middle of the face that is turned most to the origin: largest cosine between its outward normal and the way back.
-Corner seen_point(const ObjectState& state) {
-  const auto corner = corners(state);
-  Corner best;
-  double best_cosine = -2.0;
-  for (std::size_t k = 0; k < 4; ++k) {
-    const Corner& a = corner[k];
-    const Corner& b = corner[(k + 1) % 4];
-    const Corner middle{0.5 * (a.x + b.x), 0.5 * (a.y + b.y)};
-    const double nx = middle.x - state.x, ny = middle.y - state.y;
-    const double cosine = -(nx * middle.x + ny * middle.y) / (std::hypot(nx, ny) * std::hypot(middle.x, middle.y));
-    if (cosine > best_cosine) {
-      best_cosine = cosine;
-      best = middle;
+// What the pair matches of an object: the middle of its silhouette, at the mean depth of the outline that shows.
+struct Seen {
+  double bearing = 0.0;
+  double depth = 0.0;        // along the optical axis
+  double silhouette = 0.0;   // [rad]
+};
+std::optional<Seen> see(const ObjectState& state) {
+  const auto span = azimuth_span(state);
+  if (!span) return std::nullopt;
+  Seen seen{0.5 * (span->low + span->high), 0.0, span->high - span->low};
+  constexpr int kRays = 16;
+  int hits = 0;
+  for (int k = 0; k < kRays; ++k) {
+    const double azimuth = span->low + (k + 0.5) / kRays * seen.silhouette;
+    if (const auto range = ray_to(state, azimuth)) {
+      seen.depth += *range * std::cos(azimuth);
+      ++hits;
     }
   }
-  return best;
+  if (hits == 0) return std::nullopt;
+  seen.depth /= hits;
+  return seen;
 }
 
 int poisson(RandomStream& stream, double mean) {
@@ -64,21 +69,19 @@ void measure_camera(const CameraConfig& config, std::span<const ObjectState> obj
     // Draws are made for every object, seen or not, so that one object's visibility never shifts another's noise.
     const bool missed = misses.uniform() < config.miss_probability;
     const double disparity_noise = noise.normal(), bearing_noise = noise.normal(), width_noise = noise.normal();
-    const Corner point = seen_point(object);
-    const double range = std::hypot(point.x, point.y), bearing = std::atan2(point.y, point.x);
-    if (missed || point.x <= 0.0 || range > config.max_range_m || std::abs(bearing) > config.half_field_rad) continue;
+    const auto seen = see(object);
+    if (missed || !seen || seen->depth <= 0.0 || std::abs(seen->bearing) > config.half_field_rad) continue;
+    const double range = seen->depth / std::cos(seen->bearing);
+    if (range > config.max_range_m) continue;
     const bool hidden = std::any_of(objects.begin(), objects.end(), [&](const ObjectState& other) {
       if (other.id == object.id) return false;
-      const auto distance = ray_to(other, bearing);
+      const auto distance = ray_to(other, seen->bearing);
       return distance && *distance < range;
     });
     if (hidden) continue;
-    const auto span = azimuth_span(object);
-    const double silhouette = span ? span->high - span->low : 0.0;
-    // The silhouette's width as it would measure at the seen depth, in pixels.
-    const double width_px = config.focal_px * silhouette * range / point.x;
-    detections.push_back({bearing + config.bearing_sigma_rad * bearing_noise,
-                          config.focal_px * config.baseline_m / point.x + config.disparity_sigma_px * disparity_noise,
+    const double width_px = config.focal_px * seen->silhouette / std::cos(seen->bearing);
+    detections.push_back({seen->bearing + config.bearing_sigma_rad * bearing_noise,
+                          config.focal_px * config.baseline_m / seen->depth + config.disparity_sigma_px * disparity_noise,
                           std::max(1.0, width_px + config.width_sigma_px * width_noise)});
     truth.push_back(object.id);
   }

@@ -2,8 +2,8 @@
 //
 // Rectified pinhole pair: a point at depth z has the disparity f b / z, so depth noise grows with the square of the depth.
 // Defaults are of the class of the paper's stereo system (automotive baseline of some decimetres, sub-pixel matching). What
-// is seen of an object is the middle of the face turned most to the camera; an object whose seen point lies behind
-// another's outline is missed, others are missed at random, and false detections appear anywhere in the field of view.
+// is seen of an object is the middle of its silhouette, at the mean depth of the outline that shows; an object whose
+// middle is hidden by another is missed, others are missed at random, and false detections appear anywhere in the field.
 #pragma once
 
 #include <cstdint>
