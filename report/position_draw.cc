@@ -138,7 +138,6 @@ void draw_instants(Svg& svg, const PlotFrame& frame, const Selection& s, Positio
     }
   for (const auto* i : by_importance(s)) {
     const Point p = frame.at(i->at.x, i->at.y);
-    svg.marker(Marker::kCircle, p, 2.6, {.fill = kBlack}, {}, "fused-at");
     const std::string text = fmt::format("{}", i->step);
     for (const double reach : {26.0, 40.0, 56.0, 74.0}) {
       if (!i->laser && reach > 40) break;   // in a crowd only the instants the arrows lead to
@@ -149,6 +148,7 @@ void draw_instants(Svg& svg, const PlotFrame& frame, const Selection& s, Positio
         if (box.x < area.x || box.y < area.y || box.x + box.width > area.x + area.width || box.y + box.height > area.y + area.height) continue;
         if (!space.claim(box)) continue;
         svg.line(p, c, {.stroke = "#9a9a9a", .width = 0.6}, "leader");
+        svg.marker(Marker::kCircle, p, 2.6, {.fill = kBlack}, {}, "fused-at");
         boxed_number(svg, c, text, kSize);
         done = true;
         break;

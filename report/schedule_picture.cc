@@ -206,6 +206,12 @@ class Painter {
     svg_->text({left_ + kPlot / 2, bottom + 33}, "time in the cycle [ms]", {.size = 11.5, .anchor = Anchor::kMiddle});
   }
 
+  std::string list_of(const schedules::Task& task) const {
+    for (const auto& binding : task.reads)
+      if (binding.port == task.activation.port) return "a list of " + names_.pdu(binding.pdu);
+    return "a list at " + task.activation.port;
+  }
+
   // Tasks without a place in the cycle, in words.
   std::vector<std::string> other_tasks() const {
     using schedules::ActivationKind;
@@ -215,7 +221,7 @@ class Painter {
         std::string when;
         switch (task.activation.kind) {
           case ActivationKind::kTime: continue;
-          case ActivationKind::kMessage: when = "when a list of " + task.activation.port + " has arrived"; break;
+          case ActivationKind::kMessage: when = "when " + list_of(task) + " has arrived"; break;
           case ActivationKind::kSensor: when = "when " + names_.sensor(task.activation.sensor) + " measures"; break;
           case ActivationKind::kCompletion: when = "when " + task.activation.after + " ends"; break;
         }

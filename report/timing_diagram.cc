@@ -17,7 +17,7 @@ namespace {
 constexpr Duration kMargin = Duration::milliseconds(300);   // ways of at most this length are followed into the window
 constexpr double kPixelsPerMs = 14, kLeastPlot = 1000, kMostPlot = 5600;
 constexpr double kTop = 62, kBox = 14, kText = 9.5;
-constexpr std::string_view kMissed = kYellow;
+constexpr std::string_view kMissed = kYellow, kStatus = "#a8a8a8";
 
 double lane_height(const Lane& lane) {
   switch (lane.key.kind) {
@@ -92,7 +92,7 @@ class Painter {
   // A PDU has its sensor's colour, paler before preprocessing would be a second code: one colour per origin. Others take
   // their own from what the sensors leave over.
   std::string pdu_colour(PduId pdu) const {
-    if (pdu == kNoPdu) return std::string(kLightGrey);
+    if (pdu == kNoPdu) return std::string(kStatus);
     if (const SensorId sensor = names_.sensor_of(pdu); sensor != kNoSensor) return sensor_colour(names_, sensor);
     constexpr std::array<std::string_view, 3> rest{kPurple, kSkyBlue, kOrange};
     std::size_t nth = 0;
@@ -121,7 +121,7 @@ class Painter {
     }
     for (const auto& [pdu, used] : pdus) legend_.push_back({K::kBox, names_.pdu(pdu), pdu_colour(pdu), {}, true});
     if (!images_.empty()) legend_.push_back({K::kArrow, "way of the real-time image", std::string(kBlack)});
-    if (status) legend_.push_back({K::kBox, "status frame", std::string(kLightGrey), {}, true});
+    if (status) legend_.push_back({K::kBox, "status frame", std::string(kStatus), {}, true});
     if (null_frames) legend_.push_back({K::kBox, "null frame", std::string(kGrey), {}, false});
     if (any_late) legend_.push_back({K::kArrow, "out of sequence", "#444444", {}, false, "5 3"});
     if (any_waiting) legend_.push_back({K::kArrow, "held back", "#444444", {}, false, "1.5 2.5"});
@@ -204,8 +204,16 @@ class Painter {
           fmt::format("slot {}, cycle {}, {}{} #{} fragment {}, from {}", f.slot, f.cycle, f.null_frame ? "null frame, " : "",
                       names_.pdu(f.pdu), f.sequence, f.fragment, names_.node(f.node));
       const Area area{x(f.start), centre - kBox / 2, width, kBox};
-      if (f.null_frame) svg_->rect(area, {.fill = "#ffffff", .stroke = kGrey, .width = 0.5}, hover, "null");
-      else svg_->rect(area, {.fill = colour, .stroke = width > 4 ? "#444444" : "none", .width = 0.5}, hover, f.pdu == kNoPdu ? "status" : "frame");
+      if (f.null_frame && width > 3) {
+        svg_->rect(area, {.fill = "#ffffff", .stroke = kGrey, .width = 0.5}, hover, "null");
+      } else if (f.null_frame) {
+        // Side walls of neighbours would fill a narrow box: only its top and bottom then.
+        svg_->rect(area, {.fill = "#ffffff"}, hover, "null");
+        for (const double edge : {area.y, area.y + kBox})
+          svg_->line({area.x, edge}, {area.x + width, edge}, {.stroke = kGrey, .width = 0.6});
+      } else {
+        svg_->rect(area, {.fill = colour, .stroke = width > 4 ? "#444444" : "none", .width = 0.5}, hover, f.pdu == kNoPdu ? "status" : "frame");
+      }
     }
   }
 

@@ -134,7 +134,7 @@ TEST(SchedulePicture, ShowsSlotsTasksAndMultiplexing) {
   EXPECT_EQ(count_class(svg, "overrun"), 1u) << "track starts at 3.5 ms and takes 3 ms of a 5 ms cycle";
   // Eight cycles: three status slots in each, two lists of five slots in every other, the image in one.
   EXPECT_EQ(count_class(svg, "cell"), 8u * 3u + 4u * 10u + 5u);
-  EXPECT_NE(svg.find("gateway: forward_laser runs when a list of objects has arrived"), std::string::npos);
+  EXPECT_NE(svg.find("gateway: forward_laser runs when a list of laser_objects has arrived"), std::string::npos);
   expect_no_overlaps(svg);
   expect_inside(svg);
   expect_renders(svg);

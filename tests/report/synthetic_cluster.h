@@ -36,6 +36,7 @@ inline schedules::Cluster synthetic_cluster() {
   gateway.tasks = {task("forward_laser", 4300, 1, 100)};
   gateway.tasks[0].activation.kind = ActivationKind::kMessage;
   gateway.tasks[0].activation.port = "objects";
+  gateway.tasks[0].reads = {{"objects", PduId{0}, {}, 0}};
   fusion.name = "fusion";
   fusion.tasks = {task("track", 3500, 2, 3000), task("image", 2000, 8, 400)};
   feature.name = "feature";
