@@ -1,6 +1,7 @@
 #include "report/timing_ways.h"
 
 #include <algorithm>
+#include <bitset>
 #include <map>
 #include <optional>
 #include <set>
@@ -124,13 +125,17 @@ std::vector<Transfer> transfers_of(const TimingData& data) {
     transfers.push_back(t);
   };
   for (const auto& f : data.can_frames) add({{LaneKey::Kind::kCan, f.bus, 0}, f.start, f.end, f.pdu, f.sequence});
-  // A state message is sent again in every cycle its slots come; what travels is the first time.
-  std::map<std::tuple<std::uint8_t, PduId, std::uint32_t>, const TimingData::SlotFrame*> first_sent;
+  // A state message is sent again whenever its slots come round: what travels is the first time of each fragment.
+  struct Sent { std::bitset<256> fragments; TrueTime last; };
+  std::map<std::tuple<std::uint8_t, PduId, std::uint32_t>, Sent> sent;
   for (const auto& f : data.slot_frames) {
     if (f.null_frame || f.pdu == kNoPdu) continue;
-    const auto [entry, first] = first_sent.try_emplace({f.channel, f.pdu, f.sequence}, &f);
-    if (first || entry->second->cycle == f.cycle)
-      add({{LaneKey::Kind::kChannel, f.channel, 0}, f.start, f.end, f.pdu, f.sequence});
+    const auto [entry, first] = sent.try_emplace({f.channel, f.pdu, f.sequence}, Sent{{}, f.end});
+    if (f.start - entry->second.last >= kSameList) entry->second.fragments.reset();   // the counter has come round
+    entry->second.last = f.end;
+    if (entry->second.fragments[f.fragment]) continue;
+    entry->second.fragments.set(f.fragment);
+    add({{LaneKey::Kind::kChannel, f.channel, 0}, f.start, f.end, f.pdu, f.sequence});
   }
   return transfers;
 }
@@ -164,7 +169,9 @@ std::vector<Way> measurement_ways(const TimingData& data, const Names& names, co
       if (!mine) continue;
       const TimingData::Run* run = run_at(data, f.node, f.at);
       const Stop step{task_lane(f.node, run), run != nullptr ? run->start : f.at};
-      way.legs.push_back({way.last, step, reached ? Leg::Kind::kHeld : Leg::Kind::kMoves});
+      // However many steps hold a list back, it waits once.
+      if (reached && way.legs.back().kind == Leg::Kind::kHeld) way.legs.back().to = step;
+      else way.legs.push_back({way.last, step, reached ? Leg::Kind::kHeld : Leg::Kind::kMoves});
       way.last = step;
       reached = true;
       if (late.contains({f.id, f.at})) way.out_of_sequence = true;

@@ -145,6 +145,28 @@ TEST_F(Ways, AHeldListWaitsAndIsFusedLater) {
   EXPECT_FALSE(all[0].out_of_sequence);
 }
 
+TEST_F(Ways, ARepeatedStateMessageTravelsTheFirstTime) {
+  // Fragments 0 and 1 in cycles 2 and 3, then both again every cycle until the next list.
+  data_.measurements = {{at_us(0), {SensorId{0}, 0}}};
+  for (std::int64_t cycle = 2; cycle < 8; ++cycle) {
+    const std::uint8_t fragment = cycle % 2 == 0 ? 0 : 1;
+    data_.slot_frames.push_back({at_us(cycle * 5000), at_us(cycle * 5000 + 70), {}, NodeId{4}, cycle, 3, 0, false, PduId{2}, 0, fragment});
+  }
+  const auto transfers = transfers_of(data_);
+  ASSERT_EQ(transfers.size(), 1u);
+  EXPECT_EQ(transfers[0].start, at_us(10000));
+  EXPECT_EQ(transfers[0].end, at_us(15070)) << "complete with the first fragment 1";
+}
+
+TEST_F(Ways, HoweverManyStepsHoldAListItWaitsOnce) {
+  data_.measurements = {{at_us(0), {SensorId{0}, 0}}};
+  data_.fused = {fused(13000, 0, 0, Disposition::kHeld), fused(23000, 0, 0, Disposition::kHeld), fused(33000, 0, 0, Disposition::kFused)};
+  const auto all = ways();
+  ASSERT_EQ(all[0].legs.size(), 2u);
+  EXPECT_EQ(all[0].legs[1].from.at, at_us(13000));
+  EXPECT_EQ(all[0].legs[1].to.at, at_us(33000));
+}
+
 TEST_F(Ways, ADroppedOrOverwrittenListEndsThere) {
   data_.measurements = {{at_us(0), {SensorId{0}, 0}}, {at_us(80000), {SensorId{0}, 1}}};
   data_.fused = {fused(13000, 0, 0, Disposition::kDroppedTooOld)};
