@@ -36,7 +36,7 @@ Microticks CycleClock::start_of(Macroticks m) const {
 GlobalTime CycleClock::global_time(Microticks t) const {
   const std::int64_t length = geometry_.micro_per_cycle + rate_;
   const std::int64_t into = (t - start_).value;
-  TTF_CHECK(into >= 0, "{} microticks before the cycle", -into);
+  TTF_CHECK(into >= 0 || cycle_ == 0, "{} microticks before the cycle", -into);
   const std::int64_t correction_start = geometry_.offset_correction_start;
   const std::int64_t before = ceil_div(correction_start * length, geometry_.macro_per_cycle);
   // Elapsed picoseconds of the cycle: linear up to the correction phase, linear at another slope in it and, should
@@ -53,7 +53,9 @@ GlobalTime CycleClock::global_time(Microticks t) const {
                      geometry_.macrotick_ps / rest;
   }
   const Int128 cycle_ps = static_cast<Int128>(geometry_.macro_per_cycle) * geometry_.macrotick_ps;
-  return {static_cast<std::int64_t>((cycle_ps * cycle_ + elapsed_ps) / 1000)};
+  // Rounded down, also for instants just before cycle 0.
+  const Int128 ps = cycle_ps * cycle_ + elapsed_ps;
+  return {static_cast<std::int64_t>(ps < 0 ? (ps - 999) / 1000 : ps / 1000)};
 }
 
 Microticks CycleClock::when(GlobalTime time) const {
