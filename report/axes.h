@@ -1,5 +1,6 @@
-// What plots share: extents, ticks, scales, a frame with labels and units, a legend that stands beside the data, a
-// palette that colour-blind readers can tell apart, and the bookkeeping that keeps labels from overlapping.
+// What plots share: extents, ticks, scales, a frame with labels and units, a legend that stands beside the
+// data, a palette that colour-blind readers can tell apart, and the bookkeeping that keeps labels from
+// overlapping.
 #pragma once
 
 #include <array>
@@ -15,9 +16,10 @@
 namespace ttf::report {
 
 // M. Okabe, K. Ito: Color Universal Design (2008).
-inline constexpr std::string_view kBlack = "#000000", kOrange = "#e69f00", kSkyBlue = "#56b4e9", kGreen = "#009e73",
-                                  kYellow = "#f0e442", kBlue = "#0072b2", kVermilion = "#d55e00", kPurple = "#cc79a7",
-                                  kGrey = "#8c8c8c", kLightGrey = "#dddddd";
+inline constexpr std::string_view kBlack = "#000000", kOrange = "#e69f00", kSkyBlue = "#56b4e9",
+                                  kGreen = "#009e73", kYellow = "#f0e442", kBlue = "#0072b2",
+                                  kVermilion = "#d55e00", kPurple = "#cc79a7", kGrey = "#8c8c8c",
+                                  kStatusFrame = "#a8a8a8";
 // The i-th colour for things without a colour of their own; lighter tints of the palette after its end.
 std::string palette(std::size_t i);
 // Mixed with white: amount 0 is the colour itself, 1 white. `colour` as "#rrggbb".
@@ -28,7 +30,7 @@ std::string_view text_colour_on(std::string_view colour);
 struct Extent {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
-  void add(double v);                        // ignores what is not finite
+  void add(double v);  // ignores what is not finite
   void add(const Extent& other);
   bool empty() const { return low > high; }
   double size() const { return high - low; }
@@ -52,7 +54,8 @@ struct Scale {
   double operator()(double v) const { return from + (v - data.low) / data.size() * (to - from); }
 };
 
-// A rectangle with ticks, grid and axis labels. `area` is the inner rectangle; labels stand outside, below and left.
+// A rectangle with ticks, grid and axis labels. `area` is the inner rectangle; labels stand outside, below
+// and left.
 class PlotFrame {
  public:
   PlotFrame(const Area& area, const Extent& x, const Extent& y);
@@ -91,8 +94,8 @@ struct LegendEntry {
   bool filled = false;
   std::string dash = {};
 };
-// Entries in rows from left to right, wrapped at `width`. The legend is given its own space beside the plot, so it never
-// covers data.
+// Entries in rows from left to right, wrapped at `width`. The legend is given its own space beside the plot,
+// so it never covers data.
 double legend_height(std::span<const LegendEntry> entries, double width);
 void draw_legend(Svg& svg, Point top_left, double width, std::span<const LegendEntry> entries);
 

@@ -12,7 +12,8 @@ namespace {
 std::array<Point, 4> corners(const Box& b) {
   const double c = std::cos(b.heading), s = std::sin(b.heading);
   const auto at = [&](double u, double v) {
-    return Point{b.x + c * u * b.length / 2 - s * v * b.width / 2, b.y + s * u * b.length / 2 + c * v * b.width / 2};
+    return Point{b.x + c * u * b.length / 2 - s * v * b.width / 2,
+                 b.y + s * u * b.length / 2 + c * v * b.width / 2};
   };
   return {at(1, 1), at(-1, 1), at(-1, -1), at(1, -1)};
 }
@@ -22,7 +23,8 @@ bool finite(Point p) { return std::isfinite(p.x) && std::isfinite(p.y); }
 }  // namespace
 
 std::string boxes_svg(std::span<const Point> points, std::span<const Box> boxes, std::string_view title) {
-  if (points.empty() && boxes.empty()) return empty_picture(title, "There are no points and no boxes to show.");
+  if (points.empty() && boxes.empty())
+    return empty_picture(title, "There are no points and no boxes to show.");
   Extent x, y;
   for (const Point& p : points) x.add(p.x), y.add(p.y);
   for (const Box& b : boxes)
@@ -35,9 +37,10 @@ std::string boxes_svg(std::span<const Point> points, std::span<const Box> boxes,
   x = x.padded(0, width / scale);
   y = y.padded(0, height / scale);
 
-  const std::vector<LegendEntry> legend{{LegendEntry::Kind::kMarker, "scan point", std::string(kBlue), Marker::kCircle, true},
-                                        {LegendEntry::Kind::kBox, "fitted box, arrow along its heading", std::string(kVermilion)},
-                                        {LegendEntry::Kind::kMarker, "sensor", std::string(kBlack), Marker::kTriangle, true}};
+  const std::vector<LegendEntry> legend{
+      {LegendEntry::Kind::kMarker, "scan point", std::string(kBlue), Marker::kCircle, true},
+      {LegendEntry::Kind::kBox, "fitted box, arrow along its heading", std::string(kVermilion)},
+      {LegendEntry::Kind::kMarker, "sensor", std::string(kBlack), Marker::kTriangle, true}};
   const double top = 34 + legend_height(legend, width) + 8;
   Svg svg(width + 90, top + height + 62, title);
   svg.text({70 + width / 2, 22}, title, {.size = 14, .anchor = Anchor::kMiddle, .bold = true});
@@ -58,17 +61,22 @@ std::string boxes_svg(std::span<const Point> points, std::span<const Box> boxes,
     svg.polyline(outline, {.stroke = kVermilion, .width = 1.4}, true, b.label, "box");
     const Point centre = frame.at(b.x, b.y);
     const double reach = std::max(b.length / 2, 9.0 / scale);
-    svg.arrow(centre, frame.at(b.x + std::cos(b.heading) * reach, b.y + std::sin(b.heading) * reach), {.stroke = kVermilion, .width = 1.0}, {}, "heading");
+    svg.arrow(centre, frame.at(b.x + std::cos(b.heading) * reach, b.y + std::sin(b.heading) * reach),
+              {.stroke = kVermilion, .width = 1.0}, {}, "heading");
     if (b.label.empty()) continue;
     double above = centre.y, below = centre.y, right = centre.x;
-    for (const Point& p : outline) above = std::min(above, p.y), below = std::max(below, p.y), right = std::max(right, p.x);
+    for (const Point& p : outline)
+      above = std::min(above, p.y), below = std::max(below, p.y), right = std::max(right, p.x);
     const TextStyle style{.size = 10, .anchor = Anchor::kMiddle, .halo = true};
     const double half = text_width(b.label, 10) / 2;
-    const std::array<Point, 3> candidates{Point{centre.x, above - 4}, Point{centre.x, below + 12}, Point{right + 6 + half, centre.y + 4}};
+    const std::array<Point, 3> candidates{Point{centre.x, above - 4}, Point{centre.x, below + 12},
+                                          Point{right + 6 + half, centre.y + 4}};
     if (const auto p = labels.place(b.label, style, candidates, frame.area())) svg.text(*p, b.label, style);
   }
   svg.close_group();
-  svg.text({70, top + height + 54}, "Coordinates follow ISO 8855: x forward, y to the left; both axes in the same scale.", {.size = 10, .fill = "#444444"});
+  svg.text({70, top + height + 54},
+           "Coordinates follow ISO 8855: x forward, y to the left; both axes in the same scale.",
+           {.size = 10, .fill = "#444444"});
   return svg.str();
 }
 

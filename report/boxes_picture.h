@@ -12,7 +12,7 @@ namespace ttf::report {
 // A rectangle centred at (x, y), `length` along `heading` (radians from x to y).
 struct Box {
   double x = 0, y = 0, heading = 0, length = 0, width = 0;
-  std::string label;              // may be empty
+  std::string label;  // may be empty
 };
 
 // Both axes in the same scale. The sensor stands at the origin if that lies in the picture.

@@ -13,7 +13,8 @@ namespace {
 constexpr std::string_view kStyle =
     "body{font-family:'DejaVu Sans',sans-serif;max-width:1500px;margin:2em auto;padding:0 1em;color:#111}"
     "h1{font-size:1.5em}h2{font-size:1.15em;margin-top:2em}img{max-width:100%;border:1px solid #ddd}"
-    "pre{background:#f6f6f6;padding:.8em;overflow-x:auto;font-family:'DejaVu Sans Mono',monospace;font-size:.85em}"
+    "pre{background:#f6f6f6;padding:.8em;overflow-x:auto;font-family:'DejaVu Sans "
+    "Mono',monospace;font-size:.85em}"
     "p.caption{color:#333;max-width:70em}";
 
 // A file name as a relative URL.
@@ -21,8 +22,8 @@ std::string url(std::string_view name) {
   std::string out;
   for (const char c : name) {
     const auto u = static_cast<unsigned char>(c);
-    const bool plain = (u >= '0' && u <= '9') || (u >= 'A' && u <= 'Z') || (u >= 'a' && u <= 'z') || c == '-' ||
-                       c == '_' || c == '.' || c == '/' || c == '~';
+    const bool plain = (u >= '0' && u <= '9') || (u >= 'A' && u <= 'Z') || (u >= 'a' && u <= 'z') ||
+                       c == '-' || c == '_' || c == '.' || c == '/' || c == '~';
     out += plain ? std::string(1, c) : fmt::format("%{:02X}", u);
   }
   return out;
@@ -32,7 +33,8 @@ std::string url(std::string_view name) {
 
 std::string index_html(std::string_view title, std::span<const IndexEntry> entries) {
   std::string out = fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"/><title>{0}</title><style>{1}</style></head>\n"
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta "
+      "charset=\"utf-8\"/><title>{0}</title><style>{1}</style></head>\n"
       "<body><h1>{0}</h1>\n",
       escape(title), kStyle);
   for (const IndexEntry& e : entries) {

@@ -8,13 +8,13 @@
 
 namespace ttf::report {
 
-// One section. Every part may be empty. `picture` and `more` are file names inside the folder (more: the same picture in
-// other formats, the log, ...).
+// One section. Every part may be empty. `picture` and `more` are file names inside the folder (more: the same
+// picture in other formats, the log, ...).
 struct IndexEntry {
   std::string heading;
   std::string picture;
   std::string caption;
-  std::string preformatted;            // a text table
+  std::string preformatted;  // a text table
   std::vector<std::string> more;
 };
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 
 #include "report/axes.h"
@@ -27,7 +28,8 @@ std::string Names::sensor(SensorId id) const { return at(sensors, index_of(id), 
 std::string Names::can_bus(std::size_t index) const { return at(can_buses, index, "CAN"); }
 
 std::string Names::task(NodeId node, std::uint8_t task) const {
-  return index_of(node) < tasks.size() ? at(tasks[index_of(node)], task, "task") : fmt::format("task {}", task);
+  return index_of(node) < tasks.size() ? at(tasks[index_of(node)], task, "task")
+                                       : fmt::format("task {}", task);
 }
 
 SensorId Names::sensor_of(PduId id) const {
@@ -65,13 +67,27 @@ SensorLook look_of(const std::string& sensor_name) {
 
 std::string sensor_colour(const Names& names, SensorId sensor) {
   switch (look_of(names.sensor(sensor))) {
-    case SensorLook::kLaser: return std::string(kVermilion);
-    case SensorLook::kCamera: return std::string(kBlue);
-    case SensorLook::kRadar: return std::string(kGreen);
-    case SensorLook::kOther: break;
+    case SensorLook::kLaser:
+      return std::string(kVermilion);
+    case SensorLook::kCamera:
+      return std::string(kBlue);
+    case SensorLook::kRadar:
+      return std::string(kGreen);
+    case SensorLook::kOther:
+      break;
   }
   const std::string others[] = {std::string(kPurple), std::string(kSkyBlue), std::string(kOrange)};
   return others[index_of(sensor) % 3];
+}
+
+// A PDU that descends from no sensor takes one of the colours that the sensors leave over.
+std::string pdu_colour(const Names& names, PduId pdu) {
+  if (pdu == kNoPdu) return std::string(kStatusFrame);
+  if (const SensorId sensor = names.sensor_of(pdu); sensor != kNoSensor) return sensor_colour(names, sensor);
+  constexpr std::array<std::string_view, 3> rest{kPurple, kSkyBlue, kOrange};
+  std::size_t nth = 0;
+  for (std::size_t p = 0; p < index_of(pdu); ++p) nth += names.sensor_of(PduId(p)) == kNoSensor ? 1u : 0u;
+  return tint(rest[nth % rest.size()], nth >= rest.size() ? 0.4 : 0.0);
 }
 
 }  // namespace ttf::report

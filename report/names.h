@@ -13,8 +13,8 @@ namespace ttf::report {
 struct Names {
   std::vector<std::string> nodes, pdus, sensors, can_buses;
   std::vector<std::vector<std::string>> tasks;
-  // Per PDU the sensor whose measurement the list descends from, kNoSensor for none. May be left empty: then a PDU belongs
-  // to the sensor whose name its own name contains.
+  // Per PDU the sensor whose measurement the list descends from, kNoSensor for none. May be left empty: then
+  // a PDU belongs to the sensor whose name its own name contains.
   std::vector<SensorId> pdu_sensors;
 
   std::string node(NodeId id) const;
@@ -32,5 +32,8 @@ enum class SensorLook : std::uint8_t { kLaser, kCamera, kRadar, kOther };
 SensorLook look_of(const std::string& sensor_name);
 // Laser vermilion, camera blue, radar green; others from the rest of the palette by index.
 std::string sensor_colour(const Names& names, SensorId sensor);
+
+// Of a PDU: its sensor's colour if it descends from one; grey for status frames.
+std::string pdu_colour(const Names& names, PduId pdu);
 
 }  // namespace ttf::report

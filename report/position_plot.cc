@@ -9,8 +9,8 @@ namespace {
 
 double seconds(TrueTime t) { return static_cast<double>(t.ns) * 1e-9; }
 
-// True time of a global instant, as the clock that stamped the record shows. A recording without true time (all zero)
-// keeps global time.
+// True time of a global instant, as the clock that stamped the record shows. A recording without true time
+// (all zero) keeps global time.
 double seconds(GlobalTime t, const records::Stamp& stamp) {
   const std::int64_t offset = stamp.true_time.ns != 0 ? stamp.true_time.ns - stamp.global.ns : 0;
   return static_cast<double>(t.ns + offset) * 1e-9;
@@ -44,7 +44,8 @@ void PositionPlots::on(const records::ListFused& r) {
     fused_.push_back({r.step, r.id, r.disposition == Disposition::kFusedLate, seconds(r.measured, r.stamp)});
 }
 void PositionPlots::on(const records::FusionStep& r) {
-  steps_.push_back({r.step, r.stamp.true_time.ns != 0 ? seconds(r.stamp.true_time) : seconds(r.stamp.global, r.stamp)});
+  steps_.push_back(
+      {r.step, r.stamp.true_time.ns != 0 ? seconds(r.stamp.true_time) : seconds(r.stamp.global, r.stamp)});
 }
 void PositionPlots::on(const records::TrackState& r) {
   if (!r.predicted_for_image)
@@ -52,11 +53,16 @@ void PositionPlots::on(const records::TrackState& r) {
 }
 void PositionPlots::on(const records::ImageWritten& r) {
   images_.emplace_back();
-  for (const records::ImageObject& o : r.objects) images_.back().push_back({seconds(r.valid_at, r.stamp), o.x, o.y, {}});
+  for (const records::ImageObject& o : r.objects)
+    images_.back().push_back({seconds(r.valid_at, r.stamp), o.x, o.y, {}});
 }
 void PositionPlots::on(const records::ReferenceFix& r) {
   if (r.object == options_.object)
-    fixes_.push_back({r.measured_true.ns != 0 ? seconds(r.measured_true) : static_cast<double>(r.measured.ns) * 1e-9, r.x, r.y, {}});
+    fixes_.push_back(
+        {r.measured_true.ns != 0 ? seconds(r.measured_true) : static_cast<double>(r.measured.ns) * 1e-9,
+         r.x,
+         r.y,
+         {}});
 }
 void PositionPlots::on(const records::TruthState& r) {
   if (r.object == options_.object) truth_.push_back({seconds(r.at), r.x, r.y, {}});
@@ -73,7 +79,7 @@ PositionPlots::Selection PositionPlots::select() const {
   std::ranges::stable_sort(truth, earlier);
   std::ranges::stable_sort(fixes, earlier);
   const std::vector<Sample>& guide = truth.empty() ? fixes : truth;
-  const double slack = truth.empty() ? 0.5 : 0.1;   // s beyond the ends of the guide
+  const double slack = truth.empty() ? 0.5 : 0.1;  // s beyond the ends of the guide
   const auto inside = [&](double t) {
     return (!options_.from || t >= seconds(*options_.from)) && (!options_.to || t <= seconds(*options_.to));
   };
@@ -88,8 +94,10 @@ PositionPlots::Selection PositionPlots::select() const {
   };
   const bool all = guide.empty();
   Selection out;
-  for (const Sample& s : truth) if (inside(s.t)) out.truth.push_back(s);
-  for (const Sample& s : fixes) if (inside(s.t)) out.reference.push_back(s);
+  for (const Sample& s : truth)
+    if (inside(s.t)) out.truth.push_back(s);
+  for (const Sample& s : fixes)
+    if (inside(s.t)) out.reference.push_back(s);
 
   // Observations: the nearest of each list. A list is one measurement: id and time (a wire counter wraps).
   std::map<std::pair<MeasurementId, std::int64_t>, std::pair<double, std::size_t>> best;
@@ -99,8 +107,10 @@ PositionPlots::Selection PositionPlots::select() const {
     if (!d) continue;
     const std::int64_t time_us = std::llround(s.t * 1e6);
     const auto [entry, first] = best.try_emplace({s.id, time_us}, *d, chosen.size());
-    if (first || all) chosen.push_back(s);
-    else if (*d < entry->second.first) entry->second.first = *d, chosen[entry->second.second] = s;
+    if (first || all)
+      chosen.push_back(s);
+    else if (*d < entry->second.first)
+      entry->second.first = *d, chosen[entry->second.second] = s;
   }
   for (const Sample& s : chosen) {
     out.observations.resize(std::max(out.observations.size(), index_of(s.id.sensor) + 1));
@@ -112,8 +122,10 @@ PositionPlots::Selection PositionPlots::select() const {
     for (const Sample& s : candidates) {
       const auto d = distance(s);
       if (!d) continue;
-      if (all) to.push_back(s);
-      else if (nearest == nullptr || *d < nearest_distance) nearest = &s, nearest_distance = *d;
+      if (all)
+        to.push_back(s);
+      else if (nearest == nullptr || *d < nearest_distance)
+        nearest = &s, nearest_distance = *d;
     }
     if (nearest != nullptr) to.push_back(*nearest);
   };
@@ -135,7 +147,8 @@ PositionPlots::Selection PositionPlots::select() const {
       if (s.id == f.id && std::abs(s.t - f.measured) < 1e-3) measured = &s;
     std::vector<Sample> at_step;
     if (const auto it = tracks.find(f.step); it != tracks.end()) add_nearest(it->second, at_step);
-    std::optional<Sample> at = at_step.empty() ? interpolate(out.fusion, t->second, 0.05) : std::optional(at_step.front());
+    std::optional<Sample> at =
+        at_step.empty() ? interpolate(out.fusion, t->second, 0.05) : std::optional(at_step.front());
     if (!at && measured != nullptr) at = *measured;
     if (!at) continue;
     at->t = t->second;

@@ -15,9 +15,15 @@ namespace {
 constexpr double kPngSharpWidth = 2600;   // SVG units up to which a PNG gets two pixels per unit
 constexpr double kPointsPerPixel = 0.75;  // 72 / 96
 
-struct SurfaceFree { void operator()(cairo_surface_t* s) const { cairo_surface_destroy(s); } };
-struct CairoFree { void operator()(cairo_t* c) const { cairo_destroy(c); } };
-struct HandleFree { void operator()(RsvgHandle* h) const { g_object_unref(h); } };
+struct SurfaceFree {
+  void operator()(cairo_surface_t* s) const { cairo_surface_destroy(s); }
+};
+struct CairoFree {
+  void operator()(cairo_t* c) const { cairo_destroy(c); }
+};
+struct HandleFree {
+  void operator()(RsvgHandle* h) const { g_object_unref(h); }
+};
 using Surface = std::unique_ptr<cairo_surface_t, SurfaceFree>;
 using Cairo = std::unique_ptr<cairo_t, CairoFree>;
 using Handle = std::unique_ptr<RsvgHandle, HandleFree>;
@@ -74,7 +80,8 @@ void write_picture(const std::string& svg, const std::string& path) {
     return;
   }
   GError* error = nullptr;
-  const Handle handle(rsvg_handle_new_from_data(reinterpret_cast<const guint8*>(svg.data()), svg.size(), &error));
+  const Handle handle(
+      rsvg_handle_new_from_data(reinterpret_cast<const guint8*>(svg.data()), svg.size(), &error));
   if (!handle) fail(path, "picture", "", "is not valid SVG: " + take(error));
   rsvg_handle_set_dpi(handle.get(), 96);
   double width = 0, height = 0;
@@ -96,7 +103,8 @@ void write_picture(const std::string& svg, const std::string& path) {
       fail(path, "", "", "cannot be written");
     return;
   }
-  const Surface surface(cairo_pdf_surface_create(path.c_str(), width * kPointsPerPixel, height * kPointsPerPixel));
+  const Surface surface(
+      cairo_pdf_surface_create(path.c_str(), width * kPointsPerPixel, height * kPointsPerPixel));
   if (const cairo_status_t status = cairo_surface_status(surface.get()); status != CAIRO_STATUS_SUCCESS)
     fail(path, "", "", std::string("cannot be written: ") + cairo_status_to_string(status));
   // cairo would write today's date: a fixed one keeps equal pictures equal bytes.

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <vector>
@@ -34,7 +33,8 @@ class Painter {
     const std::vector<LegendEntry> legend = make_legend();
     const std::vector<TaskLane> lanes = task_lanes();
     for (const TaskLane& lane : lanes) left_ = std::clamp(text_width(lane.label, 10) + 24, left_, 320.0);
-    const double matrix_cell = std::clamp(kPlot / std::max<double>(1.0, static_cast<double>(used_.size())), 16.0, 90.0);
+    const double matrix_cell =
+        std::clamp(kPlot / std::max<double>(1.0, static_cast<double>(used_.size())), 16.0, 90.0);
     const double width = left_ + std::max(kPlot, matrix_cell * static_cast<double>(used_.size())) + 30;
     const double legend_y = 40, strip = legend_y + legend_height(legend, kPlot) + 34;
     const double tasks = strip + 2 * (kSlotLane + 6) + 14;
@@ -47,9 +47,10 @@ class Painter {
     Svg svg(width, height, "Schedule of " + c_.name);
     svg_ = &svg;
     const auto& g = c_.flexray;
-    svg.text({20, 24}, fmt::format("Schedule of {}: cycle {} ms, {} static slots of {} MT, {} minislots, NIT {} MT", c_.name,
-                                   number(static_cast<double>(g.cycle_ps()) * 1e-9), g.gNumberOfStaticSlots, g.gdStaticSlot,
-                                   g.gNumberOfMinislots, g.gdNIT),
+    svg.text({20, 24},
+             fmt::format("Schedule of {}: cycle {} ms, {} static slots of {} MT, {} minislots, NIT {} MT",
+                         c_.name, number(static_cast<double>(g.cycle_ps()) * 1e-9), g.gNumberOfStaticSlots,
+                         g.gdStaticSlot, g.gNumberOfMinislots, g.gdNIT),
              {.size = 14, .bold = true});
     draw_legend(svg, {left_, legend_y}, kPlot, legend);
     draw_axis(strip - 6, axis);
@@ -63,22 +64,24 @@ class Painter {
   }
 
  private:
-  struct TaskBox { double offset_mt, length_mt; std::string text; };
-  struct TaskLane { std::string label; std::vector<TaskBox> boxes; };
+  struct TaskBox {
+    double offset_mt, length_mt;
+    std::string text;
+  };
+  struct TaskLane {
+    std::string label;
+    std::vector<TaskBox> boxes;
+  };
 
-  double macroticks(Duration d) const { return static_cast<double>(d.ns) * 1000.0 / static_cast<double>(c_.flexray.gdMacrotick_ps); }
+  double macroticks(Duration d) const {
+    return static_cast<double>(d.ns) * 1000.0 / static_cast<double>(c_.flexray.gdMacrotick_ps);
+  }
   double x(double macrotick) const { return left_ + macrotick / c_.flexray.gMacroPerCycle * kPlot; }
   // Rows of the matrix: cycles until everything repeats, at most the 64 the counter knows.
   int rows() const { return std::min(repetition_, c_.flexray.gCycleCountMax + 1); }
 
-  std::string colour(PduId pdu) const {
-    if (pdu == kNoPdu) return std::string(kLightGrey);
-    if (const SensorId s = names_.sensor_of(pdu); s != kNoSensor) return tint(sensor_colour(names_, s), 0.35);
-    std::size_t nth = 0;
-    for (std::size_t p = 0; p < index_of(pdu); ++p) nth += names_.sensor_of(PduId(p)) == kNoSensor ? 1u : 0u;
-    constexpr std::array<std::string_view, 3> rest{kPurple, kSkyBlue, kOrange};
-    return tint(rest[nth % rest.size()], nth < rest.size() ? 0.25 : 0.6);
-  }
+  // Pale, for the text in the boxes.
+  std::string colour(PduId pdu) const { return tint(pdu_colour(names_, pdu), pdu == kNoPdu ? 0.55 : 0.35); }
 
   std::vector<LegendEntry> make_legend() const {
     std::map<std::pair<PduId, NodeId>, int> frames_of;
@@ -86,17 +89,24 @@ class Painter {
     std::vector<LegendEntry> legend;
     bool status = false;
     for (const auto& [key, n] : frames_of) {
-      if (key.first == kNoPdu) status = true;
-      else legend.push_back({LegendEntry::Kind::kBox, names_.pdu(key.first) + ", sent by " + names_.node(key.second), colour(key.first), {}, true});
+      if (key.first == kNoPdu)
+        status = true;
+      else
+        legend.push_back({LegendEntry::Kind::kBox,
+                          names_.pdu(key.first) + ", sent by " + names_.node(key.second),
+                          colour(key.first),
+                          {},
+                          true});
     }
-    if (status) legend.push_back({LegendEntry::Kind::kBox, "status frame", std::string(kLightGrey), {}, true});
+    if (status) legend.push_back({LegendEntry::Kind::kBox, "status frame", colour(kNoPdu), {}, true});
     legend.push_back({LegendEntry::Kind::kBox, "slot without owner", "#bbbbbb", {}, false});
     return legend;
   }
 
   std::string frame_text(const FrameSlot& f) const {
     return f.pdu == kNoPdu ? names_.node(f.sender) + ": status"
-                           : fmt::format("{}: {} {}/{}", names_.node(f.sender), names_.pdu(f.pdu), f.fragment + 1, c_.pdu(f.pdu).max_fragments());
+                           : fmt::format("{}: {} {}/{}", names_.node(f.sender), names_.pdu(f.pdu),
+                                         f.fragment + 1, c_.pdu(f.pdu).max_fragments());
   }
 
   // The longest beginning of a text that fits.
@@ -109,43 +119,59 @@ class Painter {
 
   void draw_channel(Channel channel, double top) {
     const auto& g = c_.flexray;
-    svg_->text({left_ - 12, top + kSlotLane / 2 + 4}, channel == Channel::kA ? "channel A" : "channel B", {.size = 11.5, .anchor = Anchor::kEnd});
+    svg_->text({left_ - 12, top + kSlotLane / 2 + 4}, channel == Channel::kA ? "channel A" : "channel B",
+               {.size = 11.5, .anchor = Anchor::kEnd});
     for (int slot = 1; slot <= g.gNumberOfStaticSlots; ++slot) {
-      const double left = x((slot - 1.0) * g.gdStaticSlot), width = x(static_cast<double>(slot) * g.gdStaticSlot) - left;
+      const double left = x((slot - 1.0) * g.gdStaticSlot),
+                   width = x(static_cast<double>(slot) * g.gdStaticSlot) - left;
       std::vector<const FrameSlot*> here;
       if (const auto it = frames_.find(slot); it != frames_.end())
         for (const FrameSlot* f : it->second)
           if (includes(f->channels, channel)) here.push_back(f);
       std::string hover = fmt::format("slot {}", slot);
-      for (const FrameSlot* f : here) hover += fmt::format("; {} in cycles {} mod {}", frame_text(*f), f->base_cycle, f->repetition);
+      for (const FrameSlot* f : here)
+        hover += fmt::format("; {} in cycles {} mod {}", frame_text(*f), f->base_cycle, f->repetition);
       if (here.empty()) {
-        svg_->rect({left, top, width, kSlotLane}, {.fill = "#ffffff", .stroke = "#bbbbbb", .width = 0.5}, hover, "slot free");
+        svg_->rect({left, top, width, kSlotLane}, {.fill = "#ffffff", .stroke = "#bbbbbb", .width = 0.5},
+                   hover, "slot free");
       } else {
         // Multiplexed frames share the slot's height.
         const double part = kSlotLane / static_cast<double>(here.size());
         for (std::size_t i = 0; i < here.size(); ++i)
-          svg_->rect({left, top + part * static_cast<double>(i), width, part}, {.fill = colour(here[i]->pdu), .stroke = "#444444", .width = 0.5}, hover, "slot");
+          svg_->rect({left, top + part * static_cast<double>(i), width, part},
+                     {.fill = colour(here[i]->pdu), .stroke = "#444444", .width = 0.5}, hover, "slot");
       }
       if (width >= 7 * std::max<double>(1.0, text_width(fmt::format("{}", slot), 1.0)) + 1)
-        svg_->text({left + width / 2, top + kSlotLane - 4}, fmt::format("{}", slot), {.size = 7, .anchor = Anchor::kMiddle});
+        svg_->text({left + width / 2, top + kSlotLane - 4}, fmt::format("{}", slot),
+                   {.size = 7, .anchor = Anchor::kMiddle});
       if (width >= 10 && !here.empty()) {
         // The owner above the PDU where two lines have room, else the PDU; the hover text has it all.
         const FrameSlot& f = *here.front();
-        std::string text = f.pdu == kNoPdu ? "status" : fmt::format("{} {}/{}", names_.pdu(f.pdu), f.fragment + 1, c_.pdu(f.pdu).max_fragments());
+        std::string text = f.pdu == kNoPdu ? "status"
+                                           : fmt::format("{} {}/{}", names_.pdu(f.pdu), f.fragment + 1,
+                                                         c_.pdu(f.pdu).max_fragments());
         if (here.size() > 1) text += fmt::format(" +{}", here.size() - 1);
         const bool two = width >= 21;
         const double centre = left + width / 2 + 3, foot = top + kSlotLane - 14;
-        if (two) svg_->text({centre - 6, foot}, fitted(names_.node(f.sender), 8.5, kSlotLane - 18), {.size = 8.5, .rotate = -90});
-        svg_->text({two ? centre + 3.5 : centre, foot}, fitted(text, 8.5, kSlotLane - 18), {.size = 8.5, .rotate = -90});
+        if (two)
+          svg_->text({centre - 6, foot}, fitted(names_.node(f.sender), 8.5, kSlotLane - 18),
+                     {.size = 8.5, .rotate = -90});
+        svg_->text({two ? centre + 3.5 : centre, foot}, fitted(text, 8.5, kSlotLane - 18),
+                   {.size = 8.5, .rotate = -90});
       }
     }
     double at = g.gNumberOfStaticSlots * static_cast<double>(g.gdStaticSlot);
     const auto segment = [&](double length, const char* name, std::string_view fill) {
       if (length <= 0) return;
       const double left = x(at), width = x(at + length) - left;
-      svg_->rect({left, top, width, kSlotLane}, {.fill = fill, .stroke = "#666666", .width = 0.5}, fmt::format("{}: {} MT", name, number(length)), "segment");
-      if (width > text_width(name, 10) + 6) svg_->text({left + width / 2, top + kSlotLane / 2 + 4}, name, {.size = 10, .anchor = Anchor::kMiddle});
-      else if (width > 11) svg_->text({left + width / 2 + 4, top + kSlotLane / 2}, name, {.size = 9, .anchor = Anchor::kMiddle, .rotate = -90});
+      svg_->rect({left, top, width, kSlotLane}, {.fill = fill, .stroke = "#666666", .width = 0.5},
+                 fmt::format("{}: {} MT", name, number(length)), "segment");
+      if (width > text_width(name, 10) + 6)
+        svg_->text({left + width / 2, top + kSlotLane / 2 + 4}, name,
+                   {.size = 10, .anchor = Anchor::kMiddle});
+      else if (width > 11)
+        svg_->text({left + width / 2 + 4, top + kSlotLane / 2}, name,
+                   {.size = 9, .anchor = Anchor::kMiddle, .rotate = -90});
       at += length;
     };
     segment(static_cast<double>(g.gNumberOfMinislots) * g.gdMinislot, "dynamic segment", "#e6f0f7");
@@ -159,16 +185,22 @@ class Painter {
       for (const auto& task : node.tasks) {
         if (task.activation.kind != schedules::ActivationKind::kTime) continue;
         const auto& at = task.activation.at;
-        const std::string when = at.repetition > 1 ? fmt::format(" ({} mod {})", at.base_cycle, at.repetition) : "";
-        lanes.push_back({node.name + ": " + task.name + when,
-                         {{static_cast<double>(at.offset.value), macroticks(task.worst_case),
-                           fmt::format("{}, at {} MT of cycles {} mod {}, at most {} us", task.name, at.offset.value, at.base_cycle,
-                                       at.repetition, number(task.worst_case.seconds() * 1e6))}}});
+        const std::string when =
+            at.repetition > 1 ? fmt::format(" ({} mod {})", at.base_cycle, at.repetition) : "";
+        lanes.push_back(
+            {node.name + ": " + task.name + when,
+             {{static_cast<double>(at.offset.value), macroticks(task.worst_case),
+               fmt::format("{}, at {} MT of cycles {} mod {}, at most {} us", task.name, at.offset.value,
+                           at.base_cycle, at.repetition, number(task.worst_case.seconds() * 1e6))}}});
       }
     for (const auto& sensor : c_.sensors)
       if (sensor.scheduled)
-        lanes.push_back({fmt::format("{} measures{}", sensor.name, sensor.at.repetition > 1 ? fmt::format(" ({} mod {})", sensor.at.base_cycle, sensor.at.repetition) : ""),
-                         {{static_cast<double>(sensor.at.offset.value), 0, sensor.name}}});
+        lanes.push_back(
+            {fmt::format("{} measures{}", sensor.name,
+                         sensor.at.repetition > 1
+                             ? fmt::format(" ({} mod {})", sensor.at.base_cycle, sensor.at.repetition)
+                             : ""),
+             {{static_cast<double>(sensor.at.offset.value), 0, sensor.name}}});
     return lanes;
   }
 
@@ -177,19 +209,26 @@ class Painter {
     for (std::size_t i = 0; i < lanes.size(); ++i) {
       const double centre = top + kTaskLane * (static_cast<double>(i) + 0.5);
       svg_->line({left_, centre}, {left_ + kPlot, centre}, {.stroke = "#e0e0e0", .width = 0.7});
-      svg_->text({left_ - 12, centre + 4}, fitted(lanes[i].label, 10, left_ - 20), {.size = 10, .anchor = Anchor::kEnd});
+      svg_->text({left_ - 12, centre + 4}, fitted(lanes[i].label, 10, left_ - 20),
+                 {.size = 10, .anchor = Anchor::kEnd});
       for (const TaskBox& box : lanes[i].boxes) {
         if (box.length_mt <= 0) {
-          svg_->marker(Marker::kDownTriangle, {x(box.offset_mt), centre}, 11, {.fill = kBlack}, box.text, "instant");
+          svg_->marker(Marker::kDownTriangle, {x(box.offset_mt), centre}, 11, {.fill = kBlack}, box.text,
+                       "instant");
           continue;
         }
         // What runs on into the next cycle ends in an arrow at the cycle's end.
         const double end = std::min(cycle, box.offset_mt + box.length_mt);
-        svg_->rect({x(box.offset_mt), centre - 8, std::max(2.0, x(end) - x(box.offset_mt)), 16}, {.fill = "#c9d7e6", .stroke = "#5b7083", .width = 0.7}, box.text, "task");
-        if (box.offset_mt + box.length_mt > cycle) svg_->arrow({x(end) - 1, centre}, {x(end) + 14, centre}, {.stroke = "#5b7083", .width = 1.6}, "runs on into the next cycle", "overrun");
-        const std::string length = fmt::format("{} us", number(box.length_mt * static_cast<double>(c_.flexray.gdMacrotick_ps) * 1e-6));
+        svg_->rect({x(box.offset_mt), centre - 8, std::max(2.0, x(end) - x(box.offset_mt)), 16},
+                   {.fill = "#c9d7e6", .stroke = "#5b7083", .width = 0.7}, box.text, "task");
+        if (box.offset_mt + box.length_mt > cycle)
+          svg_->arrow({x(end) - 1, centre}, {x(end) + 14, centre}, {.stroke = "#5b7083", .width = 1.6},
+                      "runs on into the next cycle", "overrun");
+        const std::string length = fmt::format(
+            "{} us", number(box.length_mt * static_cast<double>(c_.flexray.gdMacrotick_ps) * 1e-6));
         if (x(end) - x(box.offset_mt) > text_width(length, 9) + 6)
-          svg_->text({(x(box.offset_mt) + x(end)) / 2, centre + 3.5}, length, {.size = 9, .anchor = Anchor::kMiddle});
+          svg_->text({(x(box.offset_mt) + x(end)) / 2, centre + 3.5}, length,
+                     {.size = 9, .anchor = Anchor::kMiddle});
       }
     }
   }
@@ -203,7 +242,8 @@ class Painter {
       svg_->line({px, top}, {px, bottom + 4}, {.stroke = "#888888", .width = 0.5, .dash = "2 3"});
       svg_->text({px, bottom + 16}, tick_label(t, ticks.step), {.size = 10.5, .anchor = Anchor::kMiddle});
     }
-    svg_->text({left_ + kPlot / 2, bottom + 33}, "time in the cycle [ms]", {.size = 11.5, .anchor = Anchor::kMiddle});
+    svg_->text({left_ + kPlot / 2, bottom + 33}, "time in the cycle [ms]",
+               {.size = 11.5, .anchor = Anchor::kMiddle});
   }
 
   std::string list_of(const schedules::Task& task) const {
@@ -220,12 +260,20 @@ class Painter {
       for (const auto& task : node.tasks) {
         std::string when;
         switch (task.activation.kind) {
-          case ActivationKind::kTime: continue;
-          case ActivationKind::kMessage: when = "when " + list_of(task) + " has arrived"; break;
-          case ActivationKind::kSensor: when = "when " + names_.sensor(task.activation.sensor) + " measures"; break;
-          case ActivationKind::kCompletion: when = "when " + task.activation.after + " ends"; break;
+          case ActivationKind::kTime:
+            continue;
+          case ActivationKind::kMessage:
+            when = "when " + list_of(task) + " has arrived";
+            break;
+          case ActivationKind::kSensor:
+            when = "when " + names_.sensor(task.activation.sensor) + " measures";
+            break;
+          case ActivationKind::kCompletion:
+            when = "when " + task.activation.after + " ends";
+            break;
         }
-        lines.push_back(fmt::format("{}: {} runs {}, {} to {} us", node.name, task.name, when, number(task.best_case.seconds() * 1e6),
+        lines.push_back(fmt::format("{}: {} runs {}, {} to {} us", node.name, task.name, when,
+                                    number(task.best_case.seconds() * 1e6),
                                     number(task.worst_case.seconds() * 1e6)));
       }
     return lines;
@@ -234,33 +282,45 @@ class Painter {
   // Slot by cycle: both channels in one cell, A above B.
   void draw_matrix(double top, double cell, double row) {
     if (used_.empty()) return;
-    svg_->text({left_, top - 26}, fmt::format("Owned slots over cycles, the pattern repeats every {} (upper half of a cell: channel A, lower half: B)", rows() == 1 ? "cycle" : fmt::format("{} cycles", rows())), {.size = 11.5, .bold = true});
+    svg_->text({left_, top - 26},
+               fmt::format("Owned slots over cycles, the pattern repeats every {} (upper half of a cell: "
+                           "channel A, lower half: B)",
+                           rows() == 1 ? "cycle" : fmt::format("{} cycles", rows())),
+               {.size = 11.5, .bold = true});
     for (std::size_t s = 0; s < used_.size(); ++s)
-      svg_->text({left_ + cell * (static_cast<double>(s) + 0.5), top - 6}, fmt::format("{}", used_[s]), {.size = cell < 22 ? 7.5 : 9.5, .anchor = Anchor::kMiddle});
+      svg_->text({left_ + cell * (static_cast<double>(s) + 0.5), top - 6}, fmt::format("{}", used_[s]),
+                 {.size = cell < 22 ? 7.5 : 9.5, .anchor = Anchor::kMiddle});
     svg_->text({left_ - 12, top - 6}, "slot", {.size = 10, .anchor = Anchor::kEnd});
     for (int cycle = 0; cycle < rows(); ++cycle) {
       const double y = top + row * cycle;
-      svg_->text({left_ - 12, y + row / 2 + 4}, fmt::format("cycle {}", cycle), {.size = 10, .anchor = Anchor::kEnd});
+      svg_->text({left_ - 12, y + row / 2 + 4}, fmt::format("cycle {}", cycle),
+                 {.size = 10, .anchor = Anchor::kEnd});
       for (std::size_t s = 0; s < used_.size(); ++s) {
         const double left = left_ + cell * static_cast<double>(s);
         svg_->rect({left, y, cell, row}, {.fill = "#ffffff"});
         for (const FrameSlot* f : frames_.at(used_[s])) {
           if (cycle % f->repetition != f->base_cycle) continue;
           const bool a = includes(f->channels, Channel::kA), b = includes(f->channels, Channel::kB);
-          svg_->rect({left, a ? y : y + row / 2, cell, a && b ? row : row / 2}, {.fill = colour(f->pdu)}, frame_text(*f), "cell");
-          const std::string text = f->pdu == kNoPdu ? "status" : fmt::format("{}/{}", f->fragment + 1, c_.pdu(f->pdu).max_fragments());
+          svg_->rect({left, a ? y : y + row / 2, cell, a && b ? row : row / 2}, {.fill = colour(f->pdu)},
+                     frame_text(*f), "cell");
+          const std::string text =
+              f->pdu == kNoPdu ? "status"
+                               : fmt::format("{}/{}", f->fragment + 1, c_.pdu(f->pdu).max_fragments());
           const double middle = a && b ? y + row / 2 : a ? y + row / 4 : y + row * 3 / 4;
-          if (text_width(text, 8) <= cell - 2) svg_->text({left + cell / 2, middle + 3}, text, {.size = 8, .anchor = Anchor::kMiddle});
+          if (text_width(text, 8) <= cell - 2)
+            svg_->text({left + cell / 2, middle + 3}, text, {.size = 8, .anchor = Anchor::kMiddle});
         }
         svg_->rect({left, y, cell, row}, {.stroke = "#bbbbbb", .width = 0.5});
       }
     }
-    svg_->text({left_, top + row * rows() + 18}, "Numbers in the cells: fragment of the PDU / most fragments it can have.", {.size = 10, .fill = "#444444"});
+    svg_->text({left_, top + row * rows() + 18},
+               "Numbers in the cells: fragment of the PDU / most fragments it can have.",
+               {.size = 10, .fill = "#444444"});
   }
 
   const Cluster& c_;
   Names names_;
-  double left_ = 110;              // of the plot: what the lane labels need
+  double left_ = 110;  // of the plot: what the lane labels need
   int repetition_ = 1;
   std::map<int, std::vector<const FrameSlot*>> frames_;
   std::vector<int> used_;

@@ -1,8 +1,8 @@
 // A small SVG writer: shapes, text, groups and arrows in the order they are to be painted.
 //
-// Coordinates are SVG user units (y down), sizes in the same unit. Numbers are written with at most two decimals, so
-// equal input gives equal bytes. Text is measured with the advance widths of DejaVu Sans, the font the pictures ask
-// for, so that layout can avoid overlaps without a renderer.
+// Coordinates are SVG user units (y down), sizes in the same unit. Numbers are written with at most two
+// decimals, so equal input gives equal bytes. Text is measured with the advance widths of DejaVu Sans, the
+// font the pictures ask for, so that layout can avoid overlaps without a renderer.
 #pragma once
 
 #include <cstdint>
@@ -35,7 +35,7 @@ struct Paint {
   std::string_view fill = "none";
   std::string_view stroke = "none";
   double width = 1.0;
-  std::string_view dash = {};        // as stroke-dasharray, e.g. "4 3"
+  std::string_view dash = {};  // as stroke-dasharray, e.g. "4 3"
   double opacity = 1.0;
 };
 
@@ -46,8 +46,8 @@ struct TextStyle {
   Anchor anchor = Anchor::kStart;
   std::string_view fill = "#000000";
   bool bold = false;
-  double rotate = 0;                 // degrees clockwise about the anchor point
-  bool halo = false;                 // white outline, for text over lines
+  double rotate = 0;  // degrees clockwise about the anchor point
+  bool halo = false;  // white outline, for text over lines
 };
 
 // Area a text covers when drawn unrotated at `at` (the baseline).
@@ -68,11 +68,13 @@ class Svg {
   void close_group();
 
   // `hover` becomes the shape's <title>.
-  void rect(const Area& area, const Paint& paint, std::string_view hover = {}, std::string_view css_class = {});
+  void rect(const Area& area, const Paint& paint, std::string_view hover = {},
+            std::string_view css_class = {});
   void line(Point a, Point b, const Paint& paint, std::string_view css_class = {});
-  void polyline(std::span<const Point> points, const Paint& paint, bool closed = false, std::string_view hover = {},
-                std::string_view css_class = {});
-  void arrow(Point a, Point b, const Paint& paint, std::string_view hover = {}, std::string_view css_class = "arrow");
+  void polyline(std::span<const Point> points, const Paint& paint, bool closed = false,
+                std::string_view hover = {}, std::string_view css_class = {});
+  void arrow(Point a, Point b, const Paint& paint, std::string_view hover = {},
+             std::string_view css_class = "arrow");
   void marker(Marker kind, Point at, double size, const Paint& paint, std::string_view hover = {},
               std::string_view css_class = {});
   void text(Point at, std::string_view text, const TextStyle& style = {});
@@ -86,7 +88,7 @@ class Svg {
   std::string title_;
   std::string defs_;
   std::string body_;
-  std::set<std::string, std::less<>> heads_;   // colours that have an arrow head defined
+  std::set<std::string, std::less<>> heads_;  // colours that have an arrow head defined
   int clips_ = 0;
 };
 

@@ -46,14 +46,16 @@ void Table::add(std::vector<std::string> row) {
 }
 
 bool Table::numeric(std::size_t column) const {
-  return !rows_.empty() && std::ranges::all_of(rows_, [&](const auto& row) { return is_number(row[column]); });
+  return !rows_.empty() &&
+         std::ranges::all_of(rows_, [&](const auto& row) { return is_number(row[column]); });
 }
 
 std::vector<std::size_t> Table::widths(bool escaped) const {
   std::vector<std::size_t> out;
   for (std::size_t c = 0; c < header_.size(); ++c) {
     std::size_t width = shown_width(escaped ? markdown_cell(header_[c]) : header_[c]);
-    for (const auto& row : rows_) width = std::max(width, shown_width(escaped ? markdown_cell(row[c]) : row[c]));
+    for (const auto& row : rows_)
+      width = std::max(width, shown_width(escaped ? markdown_cell(row[c]) : row[c]));
     out.push_back(width);
   }
   return out;

@@ -7,8 +7,8 @@
 
 namespace ttf::report {
 
-// Columns whose cells are all numbers (or empty or "-") are aligned right, others left. Widths count UTF-8 characters.
-// A row with fewer cells than the header is filled with empty ones; one with more is our bug.
+// Columns whose cells are all numbers (or empty or "-") are aligned right, others left. Widths count UTF-8
+// characters. A row with fewer cells than the header is filled with empty ones; one with more is our bug.
 class Table {
  public:
   explicit Table(std::vector<std::string> header) : header_(std::move(header)) {}

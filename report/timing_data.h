@@ -9,8 +9,16 @@
 namespace ttf::report {
 
 struct TimingData {
-  struct Measurement { TrueTime at; MeasurementId id; };
-  struct CanFrame { std::size_t bus; TrueTime start, end; PduId pdu; std::uint32_t sequence; };
+  struct Measurement {
+    TrueTime at;
+    MeasurementId id;
+  };
+  struct CanFrame {
+    std::size_t bus;
+    TrueTime start, end;
+    PduId pdu;
+    std::uint32_t sequence;
+  };
   struct SlotFrame {
     TrueTime start, end;
     GlobalTime global;
@@ -23,12 +31,44 @@ struct TimingData {
     std::uint32_t sequence;
     std::uint8_t fragment;
   };
-  struct HopAt { TrueTime at; NodeId node; records::Hop hop; PduId pdu; std::uint32_t sequence; };
-  struct Run { TrueTime activated, start, end; NodeId node; std::uint8_t task; bool deadline_met; };
-  struct Fused { TrueTime at; NodeId node; std::uint32_t step; MeasurementId id; GlobalTime measured; records::Disposition what; };
-  struct Step { TrueTime at; NodeId node; std::uint32_t step; };
-  struct Image { TrueTime at; NodeId node; std::uint32_t sequence; std::vector<MeasurementId> newest; };
-  struct Use { TrueTime at; NodeId node; std::uint32_t image; bool fresh; };
+  struct HopAt {
+    TrueTime at;
+    NodeId node;
+    records::Hop hop;
+    PduId pdu;
+    std::uint32_t sequence;
+  };
+  struct Run {
+    TrueTime activated, start, end;
+    NodeId node;
+    std::uint8_t task;
+    bool deadline_met;
+  };
+  struct Fused {
+    TrueTime at;
+    NodeId node;
+    std::uint32_t step;
+    MeasurementId id;
+    GlobalTime measured;
+    records::Disposition what;
+  };
+  struct Step {
+    TrueTime at;
+    NodeId node;
+    std::uint32_t step;
+  };
+  struct Image {
+    TrueTime at;
+    NodeId node;
+    std::uint32_t sequence;
+    std::vector<MeasurementId> newest;
+  };
+  struct Use {
+    TrueTime at;
+    NodeId node;
+    std::uint32_t image;
+    bool fresh;
+  };
 
   std::vector<Measurement> measurements;
   std::vector<CanFrame> can_frames;

@@ -2,361 +2,23 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <map>
-#include <optional>
-
 #include "report/axes.h"
-#include "report/timing_ways.h"
+#include "report/timing_painter.h"
 
 namespace ttf::report {
 namespace {
 
-constexpr Duration kMargin = Duration::milliseconds(300);   // ways of at most this length are followed into the window
-constexpr double kPixelsPerMs = 14, kLeastPlot = 1000, kMostPlot = 5600;
-constexpr double kTop = 62, kBox = 14, kText = 9.5;
-constexpr std::string_view kMissed = kYellow, kStatus = "#a8a8a8";
-
-double lane_height(const Lane& lane) {
-  switch (lane.key.kind) {
-    case LaneKey::Kind::kSensor: return 28;
-    case LaneKey::Kind::kChannel: return 40;
-    case LaneKey::Kind::kCan:
-    case LaneKey::Kind::kTask: break;
-  }
-  return 30;
-}
-
-// Everything needed to draw one picture; lives for one call of svg().
-class Painter {
- public:
-  Painter(const Names& names, const TimingData& data, Duration cycle, TrueTime from, TrueTime to)
-      : names_(names), data_(data), cycle_(cycle), from_(from), to_(to), transfers_(transfers_of(data)),
-        ways_(measurement_ways(data, names, transfers_)), images_(image_ways(data, names, transfers_)) {
-    std::vector<Way> all = ways_;
-    all.insert(all.end(), images_.begin(), images_.end());
-    lanes_ = lanes_of(data, names, all);
-    const double ms = (to - from).seconds() * 1e3;
-    plot_.x = 24;
-    for (const Lane& lane : lanes_) plot_.x = std::max(plot_.x, text_width(lane.label, 11) + 24);
-    plot_.width = std::clamp(ms * kPixelsPerMs, kLeastPlot, kMostPlot);
-    plot_.y = kTop;
-    double y = kTop;
-    for (std::size_t i = 0; i < lanes_.size(); ++i) {
-      if (i > 0 && lanes_[i].section != lanes_[i - 1].section) y += 10;
-      centre_[lanes_[i].key] = y + lane_height(lanes_[i]) / 2;
-      y += lane_height(lanes_[i]);
-    }
-    plot_.height = y - kTop;
-    make_legend();
-  }
-
-  std::string picture() {
-    const double legend_width = plot_.width + plot_.x - 24;
-    const double legend_top = plot_.y + plot_.height + 46;
-    const double height = legend_top + legend_height(legend_, legend_width) + 12;
-    const std::string title = fmt::format("Timing diagram, {} ms to {} ms", number(ms(from_)), number(ms(to_)));
-    Svg svg(plot_.x + plot_.width + 24, height, title);
-    svg_ = &svg;
-    svg.text({24, 22}, title, {.size = 14, .bold = true});
-    grid();
-    svg.open_group("events", plot_);
-    slots();
-    can();
-    tasks();
-    svg.close_group();
-    svg.open_group("ways", plot_);
-    for (const Way& way : images_) draw(way);
-    for (const Way& way : ways_) draw(way);
-    svg.close_group();
-    svg.open_group("events", plot_);
-    instants();
-    svg.close_group();
-    labels();
-    svg.rect(plot_, {.stroke = kBlack, .width = 0.8});
-    draw_legend(svg, {24, legend_top}, legend_width, legend_);
-    return svg.str();
-  }
-
- private:
-  static double ms(TrueTime t) { return static_cast<double>(t.ns) * 1e-6; }
-  double x(TrueTime t) const {
-    return plot_.x + static_cast<double>((t - from_).ns) / static_cast<double>((to_ - from_).ns) * plot_.width;
-  }
-  double y(const LaneKey& lane) const { return centre_.at(lane); }
-  bool visible(TrueTime start, TrueTime end) const { return start < to_ && end >= from_; }
-  double stay_inside(double px) const { return std::clamp(px, plot_.x, plot_.x + plot_.width); }
-
-  // A PDU has its sensor's colour, paler before preprocessing would be a second code: one colour per origin. Others take
-  // their own from what the sensors leave over.
-  std::string pdu_colour(PduId pdu) const {
-    if (pdu == kNoPdu) return std::string(kStatus);
-    if (const SensorId sensor = names_.sensor_of(pdu); sensor != kNoSensor) return sensor_colour(names_, sensor);
-    constexpr std::array<std::string_view, 3> rest{kPurple, kSkyBlue, kOrange};
-    std::size_t nth = 0;
-    for (std::size_t p = 0; p < index_of(pdu); ++p) nth += names_.sensor_of(PduId(p)) == kNoSensor ? 1u : 0u;
-    return tint(rest[nth % rest.size()], nth >= rest.size() ? 0.4 : 0.0);
-  }
-
-  void make_legend() {
-    using K = LegendEntry::Kind;
-    bool any_late = false, any_waiting = false, any_dropped = false;
-    for (const Way& way : ways_) {
-      any_late |= way.out_of_sequence;
-      any_dropped |= way.dropped;
-      for (const Leg& leg : way.legs) any_waiting |= leg.kind == Leg::Kind::kHeld;
-    }
-    for (const Lane& lane : lanes_)
-      if (lane.key.kind == LaneKey::Kind::kSensor)
-        legend_.push_back({K::kMarker, lane.label + " measures, its lists and their way",
-                           sensor_colour(names_, SensorId(lane.key.index)), Marker::kDownTriangle, true});
-    std::map<PduId, bool> pdus;
-    bool null_frames = false, status = false;
-    for (const auto& f : data_.slot_frames) {
-      if (f.null_frame) null_frames = true;
-      else if (f.pdu == kNoPdu) status = true;
-      else if (names_.sensor_of(f.pdu) == kNoSensor) pdus[f.pdu] = true;
-    }
-    for (const auto& [pdu, used] : pdus) legend_.push_back({K::kBox, names_.pdu(pdu), pdu_colour(pdu), {}, true});
-    if (!images_.empty()) legend_.push_back({K::kArrow, "way of the real-time image", std::string(kBlack)});
-    if (status) legend_.push_back({K::kBox, "status frame", std::string(kStatus), {}, true});
-    if (null_frames) legend_.push_back({K::kBox, "null frame", std::string(kGrey), {}, false});
-    if (any_late) legend_.push_back({K::kArrow, "out of sequence", "#444444", {}, false, "5 3"});
-    if (any_waiting) legend_.push_back({K::kArrow, "held back", "#444444", {}, false, "1.5 2.5"});
-    if (any_dropped) legend_.push_back({K::kMarker, "dropped", std::string(kBlack), Marker::kCross});
-    if (!data_.runs.empty()) {
-      legend_.push_back({K::kBox, "task", "#c9d7e6", {}, true});
-      legend_.push_back({K::kLine, "activated, waiting", "#666666"});
-      if (std::ranges::any_of(data_.runs, [&](const auto& r) { return !r.deadline_met && visible(r.activated, r.end); }))
-        legend_.push_back({K::kBox, "task, deadline missed", std::string(kMissed), {}, true});
-    }
-  }
-
-  // Start of each cycle in true time, from the frames: global time runs at the cluster's own rate.
-  std::map<std::int64_t, TrueTime> cycle_starts() const {
-    std::map<std::int64_t, TrueTime> known;
-    if (cycle_.ns <= 0) return known;
-    for (const auto& f : data_.slot_frames)
-      known.try_emplace(f.cycle, f.start - Duration{f.global.ns - f.cycle * cycle_.ns});
-    std::map<std::int64_t, TrueTime> all;
-    const std::pair<std::int64_t, TrueTime> anchor = known.empty() ? std::pair<std::int64_t, TrueTime>{} : std::pair<std::int64_t, TrueTime>(*known.begin());
-    const std::int64_t before = (anchor.second - from_).ns / cycle_.ns + 1;
-    TrueTime at = anchor.second - cycle_ * before;
-    for (std::int64_t c = anchor.first - before; at <= to_ + cycle_; ++c, at += cycle_) {
-      if (const auto k = known.find(c); k != known.end()) at = k->second;
-      all[c] = at;
-    }
-    return all;
-  }
-
-  void grid() {
-    svg_->open_group("grid");
-    const auto starts = cycle_starts();
-    LabelSpace above;
-    for (auto it = starts.begin(); it != starts.end(); ++it) {
-      const auto next = std::next(it);
-      const TrueTime end = next != starts.end() ? next->second : it->second + cycle_;
-      if (!visible(it->second, end)) continue;
-      const double left = stay_inside(x(it->second)), right = stay_inside(x(end));
-      if (it->first % 2 != 0) svg_->rect({left, plot_.y, right - left, plot_.height}, {.fill = "#f4f4f4"}, {}, "cycle");
-      if (it->second >= from_)
-        svg_->line({left, plot_.y - 4}, {left, plot_.y + plot_.height}, {.stroke = "#b8b8b8", .width = 0.7}, "cycle");
-      const std::string label = fmt::format("{}", it->first);
-      const TextStyle style{.size = 10, .anchor = Anchor::kMiddle, .fill = "#444444"};
-      Area area = text_area({(left + right) / 2, plot_.y - 7}, label, style);
-      area.x -= 4, area.width += 8;
-      if (it->first >= 0 && area.x >= plot_.x && area.x + area.width <= plot_.x + plot_.width && above.claim(area))
-        svg_->text({(left + right) / 2, plot_.y - 7}, label, style);
-    }
-    if (!starts.empty())
-      svg_->text({plot_.x - 10, plot_.y - 7}, "cycle", {.size = 10, .anchor = Anchor::kEnd, .fill = "#444444"});
-    int section = lanes_.front().section;
-    for (const Lane& lane : lanes_) {
-      const double centre = y(lane.key), half = lane_height(lane) / 2;
-      if (lane.section != section) {
-        section = lane.section;
-        svg_->line({12, centre - half - 5}, {plot_.x + plot_.width, centre - half - 5}, {.stroke = "#999999", .width = 0.8});
-      }
-      svg_->line({plot_.x, centre}, {plot_.x + plot_.width, centre}, {.stroke = "#e0e0e0", .width = 0.7});
-      svg_->text({plot_.x - 10, centre + 4}, lane.label, {.size = 11, .anchor = Anchor::kEnd});
-    }
-    const Extent window{ms(from_), ms(to_)};
-    const Ticks ticks = nice_ticks(window, static_cast<int>(plot_.width / 90));
-    const double bottom = plot_.y + plot_.height;
-    for (const double t : ticks.at) {
-      const double px = plot_.x + (t - window.low) / window.size() * plot_.width;
-      svg_->line({px, bottom}, {px, bottom + 4}, {.stroke = kBlack, .width = 0.8});
-      svg_->text({px, bottom + 16}, tick_label(t, ticks.step), {.size = 10.5, .anchor = Anchor::kMiddle});
-    }
-    svg_->text({plot_.x + plot_.width / 2, bottom + 33}, "true time [ms]", {.size = 11.5, .anchor = Anchor::kMiddle});
-    svg_->close_group();
-  }
-
-  void slots() {
-    for (const auto& f : data_.slot_frames) {
-      if (!visible(f.start, f.end)) continue;
-      const double centre = y({LaneKey::Kind::kChannel, f.channel, 0}) + 4;
-      const double width = std::max(1.0, x(f.end) - x(f.start));
-      const std::string colour = pdu_colour(f.pdu);
-      const std::string hover =
-          fmt::format("slot {}, cycle {}, {}{} #{} fragment {}, from {}", f.slot, f.cycle, f.null_frame ? "null frame, " : "",
-                      names_.pdu(f.pdu), f.sequence, f.fragment, names_.node(f.node));
-      const Area area{x(f.start), centre - kBox / 2, width, kBox};
-      if (f.null_frame && width > 3) {
-        svg_->rect(area, {.fill = "#ffffff", .stroke = kGrey, .width = 0.5}, hover, "null");
-      } else if (f.null_frame) {
-        // Side walls of neighbours would fill a narrow box: only its top and bottom then.
-        svg_->rect(area, {.fill = "#ffffff"}, hover, "null");
-        for (const double edge : {area.y, area.y + kBox})
-          svg_->line({area.x, edge}, {area.x + width, edge}, {.stroke = kGrey, .width = 0.6});
-      } else {
-        svg_->rect(area, {.fill = colour, .stroke = width > 4 ? "#444444" : "none", .width = 0.5}, hover, f.pdu == kNoPdu ? "status" : "frame");
-      }
-    }
-  }
-
-  void can() {
-    for (const Transfer& t : transfers_) {
-      if (t.lane.kind != LaneKey::Kind::kCan || !visible(t.start, t.end)) continue;
-      const std::string colour = pdu_colour(t.pdu);
-      svg_->rect({x(t.start), y(t.lane) - kBox / 2, std::max(1.5, x(t.end) - x(t.start)), kBox},
-                 {.fill = tint(colour, 0.55), .stroke = colour, .width = 0.9},
-                 fmt::format("{} #{}, {} ms to {} ms", names_.pdu(t.pdu), t.sequence, number(ms(t.start)), number(ms(t.end))),
-                 "transfer");
-    }
-  }
-
-  void tasks() {
-    for (const auto& r : data_.runs) {
-      if (!visible(r.activated, r.end)) continue;
-      const double centre = y({LaneKey::Kind::kTask, index_of(r.node), r.task});
-      if (r.activated < r.start) {
-        svg_->line({x(r.activated), centre}, {x(r.start), centre}, {.stroke = "#666666", .width = 1.5});
-        svg_->line({x(r.activated), centre - 4}, {x(r.activated), centre + 4}, {.stroke = "#666666", .width = 1.0});
-      }
-      const double width = std::max(1.5, x(r.end) - x(r.start));
-      svg_->rect({x(r.start), centre - kBox / 2, width, kBox},
-                 {.fill = r.deadline_met ? "#c9d7e6" : kMissed, .stroke = r.deadline_met ? "#5b7083" : kBlack,
-                  .width = r.deadline_met ? 0.6 : 1.6},
-                 fmt::format("{}: {}, {} ms to {} ms{}", names_.node(r.node), names_.task(r.node, r.task), number(ms(r.start)),
-                             number(ms(r.end)), r.deadline_met ? "" : ", deadline missed"),
-                 r.deadline_met ? "task" : "task missed");
-    }
-  }
-
-  void instants() {
-    for (const auto& m : data_.measurements)
-      if (visible(m.at, m.at))
-        svg_->marker(Marker::kDownTriangle, {x(m.at), y({LaneKey::Kind::kSensor, index_of(m.id.sensor), 0})}, 10,
-                     {.fill = sensor_colour(names_, m.id.sensor), .stroke = "#ffffff", .width = 0.8},
-                     fmt::format("{} #{} at {} ms", names_.sensor(m.id.sensor), m.id.sequence, number(ms(m.at))), "measured");
-    for (const Way& way : ways_)
-      if (way.dropped && visible(way.last.at, way.last.at))
-        svg_->marker(Marker::kCross, {x(way.last.at), y(way.last.lane)}, 11, {.stroke = kBlack, .width = 2.2}, "dropped", "dropped");
-  }
-
-  void draw(const Way& way) {
-    const bool image = way.id.sensor == kNoSensor;
-    const std::string colour = image ? std::string(kBlack) : sensor_colour(names_, way.id.sensor);
-    const std::string hover = image ? fmt::format("image #{}", way.id.sequence)
-                                    : fmt::format("{} #{}{}", names_.sensor(way.id.sensor), way.id.sequence,
-                                                  way.out_of_sequence ? ", out of sequence" : "");
-    for (const Leg& leg : way.legs) {
-      if (!visible(leg.from.at, leg.to.at)) continue;
-      if (leg.kind == Leg::Kind::kStored) {
-        svg_->arrow({x(leg.from.at), y(leg.from.lane)}, {x(leg.to.at), y(leg.to.lane)}, {.stroke = colour}, hover, "arrow image");
-        continue;
-      }
-      const bool same = leg.from.lane == leg.to.lane;
-      const double a = y(leg.from.lane), b = y(leg.to.lane), down = same ? 0 : b > a ? 1 : -1;
-      const auto edge = [&](const LaneKey& lane) {
-        return lane.kind == LaneKey::Kind::kSensor ? 5.0 : kBox / 2;
-      };
-      const auto shift = [](const LaneKey& lane) { return lane.kind == LaneKey::Kind::kChannel ? 4.0 : 0.0; };
-      const Point p{x(leg.from.at), a + shift(leg.from.lane) + (same ? kBox / 2 + 3 : down * edge(leg.from.lane))};
-      const Point q{x(leg.to.at), b + shift(leg.to.lane) + (same ? kBox / 2 + 3 : -down * edge(leg.to.lane))};
-      svg_->arrow(p, q,
-                  {.stroke = colour, .width = way.out_of_sequence ? 2.0 : image ? 1.0 : 1.2,
-                   .dash = leg.kind == Leg::Kind::kHeld ? "1.5 2.5" : way.out_of_sequence ? "5 3" : ""},
-                  hover, image ? "arrow image" : way.out_of_sequence ? "arrow late" : "arrow");
-    }
-  }
-
-  // Labels come last and only where nothing is in the way.
-  void label(const std::string& text, const TextStyle& style, std::span<const Point> candidates) {
-    if (const auto p = space_.place(text, style, candidates, plot_)) svg_->text(*p, text, style);
-  }
-
-  void labels() {
-    svg_->open_group("labels");
-    for (const auto& m : data_.measurements) {
-      if (!visible(m.at, m.at)) continue;
-      const double px = x(m.at), py = y({LaneKey::Kind::kSensor, index_of(m.id.sensor), 0});
-      const std::string text = fmt::format("{}", m.id.sequence);
-      const std::array<Point, 2> at{Point{px + 7, py + 4}, Point{px - 7 - text_width(text, kText), py + 4}};
-      label(text, {.size = kText, .halo = true}, at);
-    }
-    for (const auto& s : data_.steps) {
-      const TimingData::Run* box = nullptr;
-      for (const auto& r : data_.runs)
-        if (r.node == s.node && r.start.ns <= s.at.ns + 2000 && s.at.ns <= r.end.ns + 2000 && (box == nullptr || r.start > box->start)) box = &r;
-      if (box == nullptr) continue;
-      in_box(fmt::format("{}", s.step), box->start, box->end, y({LaneKey::Kind::kTask, index_of(box->node), box->task}), "#c9d7e6");
-    }
-    for (const Transfer& t : transfers_) {
-      if (!visible(t.start, t.end)) continue;
-      const std::string full = fmt::format("{} {}", names_.pdu(t.pdu), t.sequence), brief = fmt::format("{}", t.sequence);
-      if (t.lane.kind == LaneKey::Kind::kCan) {
-        if (!in_box(full, t.start, t.end, y(t.lane), tint(pdu_colour(t.pdu), 0.55)))
-          in_box(brief, t.start, t.end, y(t.lane), tint(pdu_colour(t.pdu), 0.55));
-        continue;
-      }
-      // Where channel A carries the same list, B needs no label of its own.
-      if (t.lane.index == 1 && std::ranges::any_of(transfers_, [&](const Transfer& o) {
-            return o.lane.kind == t.lane.kind && o.lane.index == 0 && o.pdu == t.pdu && o.sequence == t.sequence && o.start == t.start;
-          }))
-        continue;
-      const double baseline = y(t.lane) + 4 - kBox / 2 - 4;
-      const std::array<Point, 1> at{Point{stay_inside(x(t.start)), baseline}};
-      const TextStyle style{.size = 9, .halo = true};
-      if (const auto p = space_.place(full, style, at, plot_)) svg_->text(*p, full, style);
-      else label(brief, style, at);
-    }
-    svg_->close_group();
-  }
-
-  bool in_box(const std::string& text, TrueTime start, TrueTime end, double centre, std::string_view behind) {
-    const double left = stay_inside(x(start)), right = stay_inside(x(end));
-    if (right - left < text_width(text, kText) + 5) return false;
-    const TextStyle style{.size = kText, .anchor = Anchor::kMiddle, .fill = text_colour_on(behind)};
-    const std::array<Point, 1> at{Point{(left + right) / 2, centre + 3.5}};
-    const auto p = space_.place(text, style, at, plot_);
-    if (p) svg_->text(*p, text, style);
-    return p.has_value();
-  }
-
-  const Names& names_;
-  const TimingData& data_;
-  Duration cycle_;
-  TrueTime from_, to_;
-  std::vector<Transfer> transfers_;
-  std::vector<Way> ways_, images_;
-  std::vector<Lane> lanes_;
-  std::vector<LegendEntry> legend_;
-  std::map<LaneKey, double> centre_;
-  Area plot_;
-  LabelSpace space_;
-  Svg* svg_ = nullptr;
-};
+constexpr Duration kMargin =
+    Duration::milliseconds(300);  // ways of at most this length are followed into the window
 
 }  // namespace
 
 TimingDiagram::TimingDiagram(Names names, Duration cycle, TrueTime from, TrueTime to)
     : names_(std::move(names)), cycle_(cycle), from_(from), to_(to) {}
 
-bool TimingDiagram::near(TrueTime start, TrueTime end) const { return start <= to_ + kMargin && end >= from_ - kMargin; }
+bool TimingDiagram::near(TrueTime start, TrueTime end) const {
+  return start <= to_ + kMargin && end >= from_ - kMargin;
+}
 
 void TimingDiagram::on(const records::Measured& r) {
   if (near(r.stamp.true_time, r.stamp.true_time)) data_.measurements.push_back({r.stamp.true_time, r.id});
@@ -366,8 +28,8 @@ void TimingDiagram::on(const records::CanFrameSent& r) {
 }
 void TimingDiagram::on(const records::SlotFrameSent& r) {
   if (near(r.stamp.true_time, r.end))
-    data_.slot_frames.push_back({r.stamp.true_time, r.end, r.stamp.global, r.stamp.node, r.cycle, r.slot, r.channel,
-                                 r.null_frame, r.pdu, r.sequence, r.fragment});
+    data_.slot_frames.push_back({r.stamp.true_time, r.end, r.stamp.global, r.stamp.node, r.cycle, r.slot,
+                                 r.channel, r.null_frame, r.pdu, r.sequence, r.fragment});
 }
 void TimingDiagram::on(const records::ListHop& r) {
   if (near(r.stamp.true_time, r.stamp.true_time))
@@ -382,7 +44,8 @@ void TimingDiagram::on(const records::ListFused& r) {
     data_.fused.push_back({r.stamp.true_time, r.stamp.node, r.step, r.id, r.measured, r.disposition});
 }
 void TimingDiagram::on(const records::FusionStep& r) {
-  if (near(r.stamp.true_time, r.stamp.true_time)) data_.steps.push_back({r.stamp.true_time, r.stamp.node, r.step});
+  if (near(r.stamp.true_time, r.stamp.true_time))
+    data_.steps.push_back({r.stamp.true_time, r.stamp.node, r.step});
 }
 void TimingDiagram::on(const records::ImageWritten& r) {
   if (near(r.stamp.true_time, r.stamp.true_time))
@@ -400,7 +63,7 @@ std::string TimingDiagram::svg() const {
     return empty_picture("Timing diagram", fmt::format("There are no records between {} ms and {} ms.",
                                                        number(static_cast<double>(from_.ns) * 1e-6),
                                                        number(static_cast<double>(to_.ns) * 1e-6)));
-  return Painter(names_, data_, cycle_, from_, to_).picture();
+  return paint_timing(names_, data_, cycle_, from_, to_);
 }
 
 }  // namespace ttf::report

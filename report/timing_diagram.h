@@ -1,10 +1,11 @@
 // The timing diagram of a time window: who did what when, and the way of every measurement through it.
 //
-// Lanes from top to bottom: measurement instants of each sensor, private CANs and the tasks up to the gateway in the order a
-// measurement passes them, the frames of FlexRay channel A and of channel B, the tasks of the fusion node and of the
-// feature services. The grid shows the communication cycles. Arrows follow each measurement from its instant over
-// CAN, preprocessing, gateway and slots to the fusion step that used it, coloured per sensor and dashed where it arrived
-// out of sequence (after a newer one); black arrows follow the image to the feature service. Time is TrueTime.
+// Lanes from top to bottom: measurement instants of each sensor, private CANs and the tasks up to the gateway
+// in the order a measurement passes them, the frames of FlexRay channel A and of channel B, the tasks of the
+// fusion node and of the feature services. The grid shows the communication cycles. Arrows follow each
+// measurement from its instant over CAN, preprocessing, gateway and slots to the fusion step that used it,
+// coloured per sensor and dashed where it arrived out of sequence (after a newer one); black arrows follow
+// the image to the feature service. Time is TrueTime.
 #pragma once
 
 #include <string>
@@ -17,11 +18,11 @@ namespace ttf::report {
 
 class TimingDiagram : public records::Sink {
  public:
-  // `cycle`: length of the communication cycle, 0 for no grid. Records outside the window (with a margin for ways
-  // that lead into it) are passed over, so memory does not grow with the log.
+  // `cycle`: length of the communication cycle, 0 for no grid. Records outside the window (with a margin for
+  // ways that lead into it) are passed over, so memory does not grow with the log.
   TimingDiagram(Names names, Duration cycle, TrueTime from, TrueTime to);
 
-  using Sink::on;   // the kinds of record that are not shown
+  using Sink::on;  // the kinds of record that are not shown
   void on(const records::Measured& r) override;
   void on(const records::CanFrameSent& r) override;
   void on(const records::SlotFrameSent& r) override;

@@ -18,14 +18,17 @@ struct DrawnText {
 };
 
 inline std::string unescape(std::string s) {
-  for (const auto& [from, to] : {std::pair{"&lt;", "<"}, std::pair{"&gt;", ">"}, std::pair{"&quot;", "\""}, std::pair{"&amp;", "&"}})
-    for (std::size_t at = 0; (at = s.find(from, at)) != std::string::npos; ++at) s.replace(at, std::string(from).size(), to);
+  for (const auto& [from, to] :
+       {std::pair{"&lt;", "<"}, std::pair{"&gt;", ">"}, std::pair{"&quot;", "\""}, std::pair{"&amp;", "&"}})
+    for (std::size_t at = 0; (at = s.find(from, at)) != std::string::npos; ++at)
+      s.replace(at, std::string(from).size(), to);
   return s;
 }
 
 // Unrotated texts.
 inline std::vector<DrawnText> texts_of(const std::string& svg) {
-  static const std::regex element("<text x=\"([-0-9.]+)\" y=\"([-0-9.]+)\" font-size=\"([0-9.]+)\"([^>]*)>([^<]*)</text>");
+  static const std::regex element(
+      "<text x=\"([-0-9.]+)\" y=\"([-0-9.]+)\" font-size=\"([0-9.]+)\"([^>]*)>([^<]*)</text>");
   std::vector<DrawnText> out;
   for (std::sregex_iterator it(svg.begin(), svg.end(), element), end; it != end; ++it) {
     const std::string more = (*it)[4];
@@ -57,8 +60,8 @@ inline void expect_no_overlaps(const std::string& svg) {
   for (std::size_t i = 0; i < texts.size(); ++i)
     for (std::size_t j = i + 1; j < texts.size(); ++j)
       EXPECT_FALSE(texts[i].area.overlaps(texts[j].area))
-          << "\"" << texts[i].text << "\" at " << texts[i].area.x << "," << texts[i].area.y << " and \"" << texts[j].text << "\" at "
-          << texts[j].area.x << "," << texts[j].area.y;
+          << "\"" << texts[i].text << "\" at " << texts[i].area.x << "," << texts[i].area.y << " and \""
+          << texts[j].text << "\" at " << texts[j].area.x << "," << texts[j].area.y;
 }
 
 // All text inside the picture.

@@ -59,12 +59,14 @@ TEST(PositionPlots, ShowEverythingTheyPromise) {
   for (const std::string& svg : {plots.over_time_svg(), plots.plane_svg()}) {
     const std::size_t panels = svg == plots.plane_svg() ? 1 : 2;
     EXPECT_EQ(count_class(svg, "dgps"), panels * s.reference.size());
-    EXPECT_EQ(count_class(svg, "observation"), panels * (s.observations[0].size() + s.observations[1].size()));
+    EXPECT_EQ(count_class(svg, "observation"),
+              panels * (s.observations[0].size() + s.observations[1].size()));
     EXPECT_EQ(count_class(svg, "fusion"), panels * s.fusion.size());
     EXPECT_EQ(count_class(svg, "arrow") + count_class(svg, "arrow late"), panels * s.laser_arrows.size());
     EXPECT_EQ(count_class(svg, "truth"), panels);
     EXPECT_GT(count_class(svg, "instant"), s.laser_arrows.size() / 2);
-    for (const char* part : {"ISO 8855", "x, forward [m]", "y, left [m]", "A &amp; B", ">dgps<", ">laser<", ">camera<", ">truth<"})
+    for (const char* part : {"ISO 8855", "x, forward [m]", "y, left [m]", "A &amp; B", ">dgps<", ">laser<",
+                             ">camera<", ">truth<"})
       EXPECT_NE(svg.find(part), std::string::npos) << part;
     expect_no_overlaps(svg);
     expect_inside(svg);
@@ -134,7 +136,8 @@ TEST(SchedulePicture, ShowsSlotsTasksAndMultiplexing) {
   EXPECT_EQ(count_class(svg, "overrun"), 1u) << "track starts at 3.5 ms and takes 3 ms of a 5 ms cycle";
   // Eight cycles: three status slots in each, two lists of five slots in every other, the image in one.
   EXPECT_EQ(count_class(svg, "cell"), 8u * 3u + 4u * 10u + 5u);
-  EXPECT_NE(svg.find("gateway: forward_laser runs when a list of laser_objects has arrived"), std::string::npos);
+  EXPECT_NE(svg.find("gateway: forward_laser runs when a list of laser_objects has arrived"),
+            std::string::npos);
   expect_no_overlaps(svg);
   expect_inside(svg);
   expect_renders(svg);
@@ -142,9 +145,11 @@ TEST(SchedulePicture, ShowsSlotsTasksAndMultiplexing) {
 }
 
 TEST(SchedulePicture, DrawsEveryShippedClusterLegibly) {
-  for (const char* name : {"paper_unsynchronised", "paper_synchronised", "laser_radar", "laser_radar_synchronised"}) {
+  for (const char* name :
+       {"paper_unsynchronised", "paper_synchronised", "laser_radar", "laser_radar_synchronised"}) {
     SCOPED_TRACE(name);
-    const std::string svg = schedule_svg(schedules::load_cluster(std::string(TTF_SOURCE_DIR) + "/schedules/" + name + ".yaml"));
+    const std::string svg =
+        schedule_svg(schedules::load_cluster(std::string(TTF_SOURCE_DIR) + "/schedules/" + name + ".yaml"));
     expect_no_overlaps(svg);
     expect_inside(svg);
     expect_renders(svg);

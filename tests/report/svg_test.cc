@@ -22,7 +22,10 @@
 namespace ttf::report {
 
 namespace {
-std::string scratch(const std::string& name) { return (std::filesystem::temp_directory_path() / ("ttf_report_" + std::to_string(getpid()) + "_" + name)).string(); }
+std::string scratch(const std::string& name) {
+  return (std::filesystem::temp_directory_path() / ("ttf_report_" + std::to_string(getpid()) + "_" + name))
+      .string();
+}
 
 std::string bytes_of(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
@@ -62,7 +65,8 @@ TEST(Svg, EscapesWhatXmlReserves) {
 TEST(Svg, EveryShapeIsWellFormed) {
   Svg svg(200, 100, "shapes");
   svg.open_group("clipped", {10, 10, 50, 50});
-  for (const Marker m : {Marker::kCircle, Marker::kCross, Marker::kTriangle, Marker::kSquare, Marker::kDiamond, Marker::kDownTriangle})
+  for (const Marker m : {Marker::kCircle, Marker::kCross, Marker::kTriangle, Marker::kSquare,
+                         Marker::kDiamond, Marker::kDownTriangle})
     svg.marker(m, {20, 20}, 8, {.stroke = kBlack}, "m");
   svg.close_group();
   svg.arrow({0, 0}, {10, 10}, {.stroke = kBlue});
@@ -74,9 +78,10 @@ TEST(Svg, EveryShapeIsWellFormed) {
 }
 
 TEST(Svg, TextWidthFollowsTheFont) {
-  EXPECT_NEAR(text_width("0000000000", 10), 63.6, 0.1);   // DejaVu Sans digits are 0.636 em wide
+  EXPECT_NEAR(text_width("0000000000", 10), 63.6, 0.1);  // DejaVu Sans digits are 0.636 em wide
   EXPECT_LT(text_width("iii", 10), text_width("mmm", 10));
-  EXPECT_DOUBLE_EQ(text_width("\xc3\xa4", 10), text_width("\xe2\x80\xa6", 10)) << "one character each, not bytes";
+  EXPECT_DOUBLE_EQ(text_width("\xc3\xa4", 10), text_width("\xe2\x80\xa6", 10))
+      << "one character each, not bytes";
 }
 
 TEST(Axes, TicksAreOneTwoFiveAndInside) {
@@ -89,7 +94,9 @@ TEST(Axes, TicksAreOneTwoFiveAndInside) {
   EXPECT_EQ(nice_ticks({2, 2}, 5).at.size(), 1u);
   EXPECT_EQ(tick_label(0.30000000000000004, 0.1), "0.3");
   EXPECT_EQ(tick_label(-1e-17, 0.5), "0.0");
-  EXPECT_EQ(tick_label(-2, 1), "\xe2\x88\x92" "2");
+  EXPECT_EQ(tick_label(-2, 1),
+            "\xe2\x88\x92"
+            "2");
 }
 
 TEST(Axes, ExtentsIgnoreWhatIsNotFinite) {
@@ -115,7 +122,8 @@ TEST(Axes, LabelSpaceTakesTheFirstFreeCandidate) {
 
 TEST(Axes, ALegendWrapsAndTakesItsOwnSpace) {
   std::vector<LegendEntry> entries;
-  for (int i = 0; i < 9; ++i) entries.push_back({LegendEntry::Kind::kMarker, "an entry of some length", std::string(kBlue)});
+  for (int i = 0; i < 9; ++i)
+    entries.push_back({LegendEntry::Kind::kMarker, "an entry of some length", std::string(kBlue)});
   const double height = legend_height(entries, 500);
   EXPECT_GT(height, legend_height(entries, 5000));
   Svg svg(540, height + 20, "legend");
@@ -157,7 +165,8 @@ std::string message_of(const std::string& svg, const std::string& path) {
 }
 
 TEST(Render, NamesTheExtensionsItKnows) {
-  EXPECT_NE(message_of("", "out/a.jpg").find(".svg, .png or .pdf"), std::string::npos) << message_of("", "out/a.jpg");
+  EXPECT_NE(message_of("", "out/a.jpg").find(".svg, .png or .pdf"), std::string::npos)
+      << message_of("", "out/a.jpg");
   EXPECT_NE(message_of("", "out/a.jpg").find(".jpg"), std::string::npos);
   EXPECT_NE(message_of("", "dir.png/a").find("none"), std::string::npos);
   EXPECT_THROW(check_picture_path("x"), InputError);
@@ -167,7 +176,8 @@ TEST(Render, NamesTheExtensionsItKnows) {
 TEST(Render, SaysWhatCannotBeWrittenOrDrawn) {
   const std::string svg = Svg(10, 10, "p").str();
   for (const std::string extension : {"svg", "png", "pdf"})
-    EXPECT_NE(message_of(svg, "/no/such/folder/a." + extension).find("cannot be written"), std::string::npos) << extension;
+    EXPECT_NE(message_of(svg, "/no/such/folder/a." + extension).find("cannot be written"), std::string::npos)
+        << extension;
   EXPECT_NE(message_of("<svg", scratch("broken.png")).find("not valid SVG"), std::string::npos);
 }
 
@@ -176,10 +186,12 @@ TEST(Tables, AlignNumbersRightAndWordsLeft) {
   t.add({"BUFF", "0.25"});
   t.add({"ADVA", "12.5"});
   t.add({"TT", "-"});
-  EXPECT_EQ(t.text(),
-            "strategy  rmse [m]\n--------  --------\nBUFF          0.25\nADVA          12.5\nTT               -\n");
+  EXPECT_EQ(
+      t.text(),
+      "strategy  rmse [m]\n--------  --------\nBUFF          0.25\nADVA          12.5\nTT               -\n");
   EXPECT_EQ(t.markdown(),
-            "| strategy | rmse [m] |\n| -------- | -------: |\n| BUFF     |     0.25 |\n| ADVA     |     12.5 |\n| TT       |        - |\n");
+            "| strategy | rmse [m] |\n| -------- | -------: |\n| BUFF     |     0.25 |\n| ADVA     |     "
+            "12.5 |\n| TT       |        - |\n");
 }
 
 TEST(Tables, CountCharactersAndFillShortRows) {
@@ -193,13 +205,15 @@ TEST(Tables, CountCharactersAndFillShortRows) {
 }
 
 TEST(IndexPage, ListsPicturesAndTables) {
-  const std::vector<IndexEntry> entries{{"Timing <1>", "a b.svg", "caption & more", "x  y\n1  2\n", {"a.pdf"}}};
+  const std::vector<IndexEntry> entries{
+      {"Timing <1>", "a b.svg", "caption & more", "x  y\n1  2\n", {"a.pdf"}}};
   const std::string dir = scratch("index");
   std::filesystem::create_directories(dir);
   write_index(dir, "A \"run\"", entries);
   const std::string html = bytes_of(dir + "/index.html");
   EXPECT_EQ(html, index_html("A \"run\"", entries));
-  for (const char* part : {"<img src=\"a%20b.svg\"", "Timing &lt;1&gt;", "caption &amp; more", "<pre>x  y\n1  2\n</pre>", "href=\"a.pdf\"", "A &quot;run&quot;"})
+  for (const char* part : {"<img src=\"a%20b.svg\"", "Timing &lt;1&gt;", "caption &amp; more",
+                           "<pre>x  y\n1  2\n</pre>", "href=\"a.pdf\"", "A &quot;run&quot;"})
     EXPECT_NE(html.find(part), std::string::npos) << part;
   EXPECT_EQ(html.find("http"), std::string::npos) << "nothing from a network";
   std::filesystem::remove_all(dir);

@@ -48,11 +48,14 @@ inline schedules::Cluster synthetic_cluster() {
   laser.at = {3, 16, Macroticks{1000}};
   camera.name = "camera";
   c.sensors = {laser, camera};
-  const auto frame = [&](int slot, Channels channels, int base, int repetition, int node, PduId id, int fragment) {
-    c.frames.push_back({slot, channels, base, repetition, NodeId(static_cast<std::uint8_t>(node)), id, fragment, 0});
+  const auto frame = [&](int slot, Channels channels, int base, int repetition, int node, PduId id,
+                         int fragment) {
+    c.frames.push_back(
+        {slot, channels, base, repetition, NodeId(static_cast<std::uint8_t>(node)), id, fragment, 0});
   };
   for (int s = 1; s <= 3; ++s) frame(s, Channels::kAB, 0, 1, s - 1, kNoPdu, 0);
-  for (int s = 4; s <= 8; ++s) frame(s, Channels::kA, 0, 2, 0, PduId{0}, s - 4), frame(s, Channels::kB, 0, 2, 0, PduId{1}, s - 4);
+  for (int s = 4; s <= 8; ++s)
+    frame(s, Channels::kA, 0, 2, 0, PduId{0}, s - 4), frame(s, Channels::kB, 0, 2, 0, PduId{1}, s - 4);
   for (int s = 20; s <= 24; ++s) frame(s, Channels::kAB, 1, 8, 1, PduId{2}, s - 20);
   return c;
 }

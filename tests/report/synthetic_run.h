@@ -1,6 +1,6 @@
-// A made-up drive as records, written out by hand arithmetic: two free-running sensors whose preprocessing takes
-// different times (so that camera lists overtake laser lists), a 5 ms cycle with two slots per list, fusion every 10 ms and
-// images every 40 ms. For the pictures only; it obeys no schedule checker.
+// A made-up drive as records, written out by hand arithmetic: two free-running sensors whose preprocessing
+// takes different times (so that camera lists overtake laser lists), a 5 ms cycle with two slots per list,
+// fusion every 10 ms and images every 40 ms. For the pictures only; it obeys no schedule checker.
 #pragma once
 
 #include <array>
@@ -19,7 +19,9 @@ inline Names synthetic_names() {
   names.pdus = {"laser_points", "camera_frame", "laser_objects", "camera_objects", "image"};
   names.sensors = {"laser", "camera"};
   names.can_buses = {"laser_can", "camera_can", "object_can"};
-  names.tasks = {{"emulate"}, {"emulate"}, {"extract"}, {"extract"}, {"forward_laser", "forward_camera"}, {"track", "image"}, {"serve"}};
+  names.tasks = {
+      {"emulate"},        {"emulate"}, {"extract"}, {"extract"}, {"forward_laser", "forward_camera"},
+      {"track", "image"}, {"serve"}};
   return names;
 }
 
@@ -27,13 +29,15 @@ inline TrueTime at_us(std::int64_t us) { return {us * 1000}; }
 
 struct SyntheticRun {
   bool missed_deadline = true;
-  std::int64_t global_offset_us = 3;   // global minus true time
+  std::int64_t global_offset_us = 3;  // global minus true time
 
   records::Stamp stamp(std::int64_t us, int node) const {
-    return {at_us(us), {us * 1000}, {(us + global_offset_us) * 1000}, NodeId(static_cast<std::uint8_t>(node))};
+    return {
+        at_us(us), {us * 1000}, {(us + global_offset_us) * 1000}, NodeId(static_cast<std::uint8_t>(node))};
   }
 
-  void slot(records::Sink& sink, std::int64_t cycle, int number, int node, PduId pdu, std::uint32_t sequence, int fragment, bool null_frame) const {
+  void slot(records::Sink& sink, std::int64_t cycle, int number, int node, PduId pdu, std::uint32_t sequence,
+            int fragment, bool null_frame) const {
     records::SlotFrameSent f;
     const std::int64_t start = cycle * 5000 + (number - 1) * 84 + 7 - global_offset_us;
     f.stamp = stamp(start, node);
@@ -47,15 +51,20 @@ struct SyntheticRun {
     for (f.channel = 0; f.channel < 2; ++f.channel) sink.on(f);
   }
 
-  void hop(records::Sink& sink, std::int64_t us, int node, records::Hop what, int pdu, std::uint32_t sequence, int bus = -1) const {
-    sink.on(records::ListHop{stamp(us, node), what, PduId(static_cast<std::uint8_t>(pdu)), sequence, static_cast<std::int8_t>(bus)});
+  void hop(records::Sink& sink, std::int64_t us, int node, records::Hop what, int pdu, std::uint32_t sequence,
+           int bus = -1) const {
+    sink.on(records::ListHop{stamp(us, node), what, PduId(static_cast<std::uint8_t>(pdu)), sequence,
+                             static_cast<std::int8_t>(bus)});
   }
 
-  void task(records::Sink& sink, std::int64_t activated, std::int64_t start, std::int64_t end, int node, int number, bool met = true) const {
-    sink.on(records::TaskRun{stamp(start, node), static_cast<std::uint8_t>(number), at_us(activated), at_us(end), met});
+  void task(records::Sink& sink, std::int64_t activated, std::int64_t start, std::int64_t end, int node,
+            int number, bool met = true) const {
+    sink.on(records::TaskRun{stamp(start, node), static_cast<std::uint8_t>(number), at_us(activated),
+                             at_us(end), met});
   }
 
-  void can(records::Sink& sink, std::int64_t start, std::int64_t end, int bus, int sender, int pdu, std::uint32_t sequence) const {
+  void can(records::Sink& sink, std::int64_t start, std::int64_t end, int bus, int sender, int pdu,
+           std::uint32_t sequence) const {
     for (int i = 0; i < 4; ++i) {
       records::CanFrameSent f;
       f.bus = static_cast<std::uint8_t>(bus);
@@ -83,7 +92,9 @@ struct SyntheticRun {
   // From 0 to `end_us`, in the order of nothing in particular (a merged log has each process in turn).
   void drive(records::Sink& sink, std::int64_t end_us) const {
     std::vector<Arrival> arrivals;
-    struct Kind { std::int64_t period, phase, can_time, wait, work; };
+    struct Kind {
+      std::int64_t period, phase, can_time, wait, work;
+    };
     const std::array<Kind, 2> kinds{Kind{80000, 4000, 6000, 300, 31000}, Kind{50000, 11000, 2500, 200, 8000}};
     for (int s = 0; s < 2; ++s) {
       const Kind& k = kinds[static_cast<std::size_t>(s)];
@@ -95,7 +106,8 @@ struct SyntheticRun {
         hop(sink, t + 400, s, records::Hop::kWritten, s, n, s);
         can(sink, t + 500, t + 500 + k.can_time, s, s, s, n);
         hop(sink, t + 500 + k.can_time, s, records::Hop::kSent, s, n, s);
-        const std::int64_t received = t + 500 + k.can_time, start = received + k.wait, done = start + k.work + (n % 3) * 700;
+        const std::int64_t received = t + 500 + k.can_time, start = received + k.wait,
+                           done = start + k.work + (n % 3) * 700;
         hop(sink, received, 2 + s, records::Hop::kReceived, s, n, s);
         hop(sink, start, 2 + s, records::Hop::kRead, s, n, s);
         task(sink, received, start, done, 2 + s, 0, !(missed_deadline && s == 0 && n == 1));
@@ -106,7 +118,8 @@ struct SyntheticRun {
         task(sink, done + 1100, done + 1200, done + 1500, 4, s);
         hop(sink, done + 1500, 4, records::Hop::kWritten, 2 + s, n);
         const std::int64_t cycle = (done + 1500) / 5000 + 1;
-        for (int f = 0; f < 3; ++f) slot(sink, cycle, 3 + 4 * s + f, 4, PduId(static_cast<std::uint8_t>(2 + s)), n, f, false);
+        for (int f = 0; f < 3; ++f)
+          slot(sink, cycle, 3 + 4 * s + f, 4, PduId(static_cast<std::uint8_t>(2 + s)), n, f, false);
         arrivals.push_back({cycle * 5000 + 1200, id, t});
       }
     }
@@ -153,18 +166,24 @@ struct SyntheticRun {
           o.id = a.id;
           o.measured = {(a.measured_us + global_offset_us) * 1000};
           o.index = i;
-          o.x = x_at(tm) + noise(a.id.sequence * 7, 0.25) + 20.0 * i;   // the second belongs to another object
+          o.x = x_at(tm) + noise(a.id.sequence * 7, 0.25) + 20.0 * i;  // the second belongs to another object
           o.y = y_at(tm) + noise(a.id.sequence * 7 + 3, 0.2);
           sink.on(o);
         }
-        records::ListFused fused{stamp(t, 5), step, a.id, {(a.measured_us + global_offset_us) * 1000}, records::Disposition::kFused};
+        records::ListFused fused{stamp(t, 5),
+                                 step,
+                                 a.id,
+                                 {(a.measured_us + global_offset_us) * 1000},
+                                 records::Disposition::kFused};
         if (late) fused.disposition = records::Disposition::kFusedLate;
         sink.on(fused);
       }
       const double now = 1e-6 * static_cast<double>(t);
-      const std::array<double, 6> state{x_at(now) + noise(step, 0.08), y_at(now) + noise(step + 9, 0.06), 4, 0, 0, 0};
+      const std::array<double, 6> state{
+          x_at(now) + noise(step, 0.08), y_at(now) + noise(step + 9, 0.06), 4, 0, 0, 0};
       const std::array<double, 36> covariance{};
-      records::TrackState track{stamp(t, 5), step, TrackId(1), {(t + global_offset_us) * 1000}, state, covariance, false};
+      records::TrackState track{stamp(t, 5), step,       TrackId(1), {(t + global_offset_us) * 1000},
+                                state,       covariance, false};
       sink.on(track);
       sink.on(records::FusionStep{stamp(t, 5), step, 1, 0});
       if (step % 4 != 1) continue;

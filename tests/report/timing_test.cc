@@ -21,8 +21,9 @@ std::string diagram(std::int64_t from_ms, std::int64_t to_ms) {
 
 TEST(TimingDiagram, HasALaneForEverythingThatTakesPart) {
   const std::string svg = diagram(200, 350);
-  for (const char* lane : {"laser", "camera", "laser_can", "camera_can", "object_can", "laser_pc: extract", "camera_pc: extract",
-                           "gateway: forward_laser", "FlexRay A", "FlexRay B", "fusion: track", "fusion: image", "feature: serve"})
+  for (const char* lane : {"laser", "camera", "laser_can", "camera_can", "object_can", "laser_pc: extract",
+                           "camera_pc: extract", "gateway: forward_laser", "FlexRay A", "FlexRay B",
+                           "fusion: track", "fusion: image", "feature: serve"})
     EXPECT_EQ(count(svg, std::string(">") + lane + "</text>"), 1u) << lane;
   EXPECT_NE(svg.find("true time [ms]"), std::string::npos);
 }
@@ -30,7 +31,9 @@ TEST(TimingDiagram, HasALaneForEverythingThatTakesPart) {
 TEST(TimingDiagram, LanesFollowTheWayOfAMeasurement) {
   const std::string svg = diagram(200, 350);
   std::size_t before = 0;
-  for (const char* lane : {">laser</text>", ">laser_device: emulate<", ">laser_can<", ">laser_pc: extract<", ">object_can<", ">gateway: forward_laser<", ">FlexRay A<", ">FlexRay B<", ">fusion: track<", ">feature: serve<"}) {
+  for (const char* lane :
+       {">laser</text>", ">laser_device: emulate<", ">laser_can<", ">laser_pc: extract<", ">object_can<",
+        ">gateway: forward_laser<", ">FlexRay A<", ">FlexRay B<", ">fusion: track<", ">feature: serve<"}) {
     const std::size_t at = svg.find(lane);
     ASSERT_NE(at, std::string::npos) << lane;
     EXPECT_GT(at, before) << lane;
@@ -40,12 +43,14 @@ TEST(TimingDiagram, LanesFollowTheWayOfAMeasurement) {
 
 TEST(TimingDiagram, NumbersTheCyclesOfTheWindow) {
   const std::string svg = diagram(200, 350);
-  for (int cycle = 40; cycle < 70; ++cycle) EXPECT_EQ(count(svg, fmt::format("fill=\"#444444\">{}</text>", cycle)), 1u) << cycle;
+  for (int cycle = 40; cycle < 70; ++cycle)
+    EXPECT_EQ(count(svg, fmt::format("fill=\"#444444\">{}</text>", cycle)), 1u) << cycle;
   EXPECT_EQ(count(svg, ">70</text>"), 0u);
 }
 
 TEST(TimingDiagram, NoLabelsOverlapInAnyWindow) {
-  for (const auto& [from, to] : {std::pair{200, 350}, std::pair{0, 150}, std::pair{100, 110}, std::pair{0, 1500}, std::pair{640, 1000}}) {
+  for (const auto& [from, to] : {std::pair{200, 350}, std::pair{0, 150}, std::pair{100, 110},
+                                 std::pair{0, 1500}, std::pair{640, 1000}}) {
     SCOPED_TRACE(fmt::format("{} to {} ms", from, to));
     const std::string svg = diagram(from, to);
     expect_no_overlaps(svg);
@@ -64,7 +69,8 @@ TEST(TimingDiagram, MarksDeadlinesNullFramesStatusFramesAndLateWays) {
   EXPECT_GT(count_class(svg, "null"), 0u);
   EXPECT_GT(count_class(svg, "status"), 0u);
   EXPECT_GT(count_class(svg, "arrow late"), 0u);
-  for (const char* entry : {"task, deadline missed", "null frame", "status frame", "out of sequence", "way of the real-time image"})
+  for (const char* entry : {"task, deadline missed", "null frame", "status frame", "out of sequence",
+                            "way of the real-time image"})
     EXPECT_EQ(count(svg, std::string(">") + entry + "</text>"), 1u) << entry;
 }
 
@@ -78,7 +84,8 @@ TEST(TimingDiagram, AnEmptyWindowSaysSo) {
 TEST(TimingDiagram, NamesAndTasksMayBeMissing) {
   TimingDiagram d({}, {}, at_us(0), at_us(100'000));
   d.on(records::Measured{SyntheticRun{}.stamp(5000, 0), {SensorId{1}, 0}, {}});
-  d.on(records::ListFused{SyntheticRun{}.stamp(9000, 1), 1, {SensorId{1}, 0}, {5'000'000}, Disposition::kFused});
+  d.on(records::ListFused{
+      SyntheticRun{}.stamp(9000, 1), 1, {SensorId{1}, 0}, {5'000'000}, Disposition::kFused});
   const std::string svg = d.svg();
   EXPECT_NE(svg.find(">sensor 1</text>"), std::string::npos);
   EXPECT_EQ(count_class(svg, "arrow"), 1u);
@@ -88,7 +95,8 @@ TEST(TimingDiagram, NamesAndTasksMayBeMissing) {
 // Ways, checked stop by stop.
 class Ways : public ::testing::Test {
  protected:
-  static TimingData::Fused fused(std::int64_t us, std::uint32_t sequence, std::int64_t measured_us, Disposition what, std::uint8_t sensor = 0) {
+  static TimingData::Fused fused(std::int64_t us, std::uint32_t sequence, std::int64_t measured_us,
+                                 Disposition what, std::uint8_t sensor = 0) {
     return {at_us(us), NodeId{5}, 1, {SensorId{sensor}, sequence}, {measured_us * 1000}, what};
   }
   std::vector<Way> ways() const { return measurement_ways(data_, synthetic_names(), transfers_of(data_)); }
@@ -100,17 +108,25 @@ TEST_F(Ways, LeadFromTheSensorThroughEveryHop) {
   data_.measurements = {{at_us(0), {SensorId{0}, 7}}};
   data_.can_frames = {{0, at_us(1000), at_us(2000), PduId{0}, 7}, {0, at_us(2500), at_us(3000), PduId{0}, 7}};
   data_.hops = {{at_us(4000), NodeId{2}, records::Hop::kRead, PduId{0}, 7}};
-  data_.runs = {{at_us(3000), at_us(4000), at_us(9000), NodeId{2}, 0, true}, {at_us(13000), at_us(13000), at_us(14000), NodeId{5}, 0, true}};
+  data_.runs = {{at_us(3000), at_us(4000), at_us(9000), NodeId{2}, 0, true},
+                {at_us(13000), at_us(13000), at_us(14000), NodeId{5}, 0, true}};
   for (std::uint8_t channel : {0, 1})
-    data_.slot_frames.push_back({at_us(10000), at_us(11000), {}, NodeId{4}, 2, 3, channel, false, PduId{2}, 7, 0});
+    data_.slot_frames.push_back(
+        {at_us(10000), at_us(11000), {}, NodeId{4}, 2, 3, channel, false, PduId{2}, 7, 0});
   data_.steps = {{at_us(13000), NodeId{5}, 1}};
   data_.fused = {fused(13000, 7, 0, Disposition::kFused)};
   const auto all = ways();
   ASSERT_EQ(all.size(), 1u);
   ASSERT_EQ(all[0].legs.size(), 4u);
   using Kind = LaneKey::Kind;
-  const std::vector<Stop> from{{{Kind::kSensor, 0, 0}, at_us(0)}, {{Kind::kCan, 0, 0}, at_us(3000)}, {{Kind::kTask, 2, 0}, at_us(9000)}, {{Kind::kChannel, 0, 0}, at_us(11000)}};
-  const std::vector<Stop> to{{{Kind::kCan, 0, 0}, at_us(1000)}, {{Kind::kTask, 2, 0}, at_us(4000)}, {{Kind::kChannel, 0, 0}, at_us(10000)}, {{Kind::kTask, 5, 0}, at_us(13000)}};
+  const std::vector<Stop> from{{{Kind::kSensor, 0, 0}, at_us(0)},
+                               {{Kind::kCan, 0, 0}, at_us(3000)},
+                               {{Kind::kTask, 2, 0}, at_us(9000)},
+                               {{Kind::kChannel, 0, 0}, at_us(11000)}};
+  const std::vector<Stop> to{{{Kind::kCan, 0, 0}, at_us(1000)},
+                             {{Kind::kTask, 2, 0}, at_us(4000)},
+                             {{Kind::kChannel, 0, 0}, at_us(10000)},
+                             {{Kind::kTask, 5, 0}, at_us(13000)}};
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_EQ(all[0].legs[i].from.lane, from[i].lane) << i;
     EXPECT_EQ(all[0].legs[i].from.at, from[i].at) << i;
@@ -150,7 +166,17 @@ TEST_F(Ways, ARepeatedStateMessageTravelsTheFirstTime) {
   data_.measurements = {{at_us(0), {SensorId{0}, 0}}};
   for (std::int64_t cycle = 2; cycle < 8; ++cycle) {
     const std::uint8_t fragment = cycle % 2 == 0 ? 0 : 1;
-    data_.slot_frames.push_back({at_us(cycle * 5000), at_us(cycle * 5000 + 70), {}, NodeId{4}, cycle, 3, 0, false, PduId{2}, 0, fragment});
+    data_.slot_frames.push_back({at_us(cycle * 5000),
+                                 at_us(cycle * 5000 + 70),
+                                 {},
+                                 NodeId{4},
+                                 cycle,
+                                 3,
+                                 0,
+                                 false,
+                                 PduId{2},
+                                 0,
+                                 fragment});
   }
   const auto transfers = transfers_of(data_);
   ASSERT_EQ(transfers.size(), 1u);
@@ -160,7 +186,8 @@ TEST_F(Ways, ARepeatedStateMessageTravelsTheFirstTime) {
 
 TEST_F(Ways, HoweverManyStepsHoldAListItWaitsOnce) {
   data_.measurements = {{at_us(0), {SensorId{0}, 0}}};
-  data_.fused = {fused(13000, 0, 0, Disposition::kHeld), fused(23000, 0, 0, Disposition::kHeld), fused(33000, 0, 0, Disposition::kFused)};
+  data_.fused = {fused(13000, 0, 0, Disposition::kHeld), fused(23000, 0, 0, Disposition::kHeld),
+                 fused(33000, 0, 0, Disposition::kFused)};
   const auto all = ways();
   ASSERT_EQ(all[0].legs.size(), 2u);
   EXPECT_EQ(all[0].legs[1].from.at, at_us(13000));
@@ -179,7 +206,8 @@ TEST_F(Ways, ADroppedOrOverwrittenListEndsThere) {
 TEST_F(Ways, AWrappedCounterIsNotMistakenForAnOldList) {
   // Sequence 3 and, 256 measurements later, 259 (3 on an eight-bit wire).
   data_.measurements = {{at_us(0), {SensorId{0}, 3}}, {at_us(20'480'000), {SensorId{0}, 259}}};
-  data_.fused = {fused(13000, 3, 0, Disposition::kFused), fused(20'493'000, 3, 20'480'000, Disposition::kFused)};
+  data_.fused = {fused(13000, 3, 0, Disposition::kFused),
+                 fused(20'493'000, 3, 20'480'000, Disposition::kFused)};
   const auto all = ways();
   ASSERT_EQ(all[0].legs.size(), 1u);
   ASSERT_EQ(all[1].legs.size(), 1u);
@@ -189,8 +217,10 @@ TEST_F(Ways, AWrappedCounterIsNotMistakenForAnOldList) {
 
 TEST_F(Ways, AnImageGoesOverItsSlotsToTheFeatureService) {
   data_.images = {{at_us(1000), NodeId{5}, 4, {}}};
-  data_.runs = {{at_us(1000), at_us(1000), at_us(1500), NodeId{5}, 1, true}, {at_us(30000), at_us(30000), at_us(30300), NodeId{6}, 0, true}};
-  data_.slot_frames = {{at_us(5000), at_us(5100), {}, NodeId{5}, 1, 12, 0, false, PduId{4}, 4, 0}, {at_us(5100), at_us(5200), {}, NodeId{5}, 1, 13, 0, false, PduId{4}, 4, 1}};
+  data_.runs = {{at_us(1000), at_us(1000), at_us(1500), NodeId{5}, 1, true},
+                {at_us(30000), at_us(30000), at_us(30300), NodeId{6}, 0, true}};
+  data_.slot_frames = {{at_us(5000), at_us(5100), {}, NodeId{5}, 1, 12, 0, false, PduId{4}, 4, 0},
+                       {at_us(5100), at_us(5200), {}, NodeId{5}, 1, 13, 0, false, PduId{4}, 4, 1}};
   data_.uses = {{at_us(30000), NodeId{6}, 4, true}};
   const auto all = image_ways(data_, synthetic_names(), transfers_of(data_));
   ASSERT_EQ(all.size(), 1u);

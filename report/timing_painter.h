@@ -1,0 +1,24 @@
+// Draws what a timing diagram has collected (report/timing_diagram.h says what it shows).
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "report/axes.h"
+#include "report/names.h"
+#include "report/timing_data.h"
+#include "report/timing_ways.h"
+
+namespace ttf::report {
+
+inline constexpr std::string_view kDeadlineMissed = kYellow, kTaskFill = "#c9d7e6";
+
+std::string paint_timing(const Names& names, const TimingData& data, Duration cycle, TrueTime from,
+                         TrueTime to);
+
+// What the picture explains: only what occurs in the window.
+std::vector<LegendEntry> timing_legend(const TimingData& data, const Names& names,
+                                       const std::vector<Way>& ways, bool images, TrueTime from, TrueTime to);
+
+}  // namespace ttf::report
