@@ -119,7 +119,7 @@ void boxed_number(Svg& svg, Point centre, const std::string& text, double size) 
 std::vector<const PositionPlots::Instant*> by_importance(const Selection& s) {
   std::vector<const PositionPlots::Instant*> order;
   for (const auto& i : s.instants) order.push_back(&i);
-  std::ranges::stable_partition(order, [](const auto* i) { return i->laser; });
+  std::stable_partition(order.begin(), order.end(), [](const auto* i) { return i->laser; });
   return order;
 }
 
