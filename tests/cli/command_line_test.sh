@@ -1,0 +1,100 @@
+#!/usr/bin/env bash
+# The program as a user meets it: results, exit codes, and one clear sentence for each kind of bad input.
+#   command_line_test.sh PROGRAM SOURCE_DIR
+set -u
+program=$1
+source=$2
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+failures=0
+
+fail() {
+  echo "FAILED: $*"
+  failures=$((failures + 1))
+}
+
+# expect CODE PATTERN ARGS...: exit code, and a pattern in what is printed on either stream.
+expect() {
+  local code=$1 pattern=$2 output actual
+  shift 2
+  output=$("$program" "$@" 2>&1)
+  actual=$?
+  [[ $actual -eq $code ]] || fail "$* exits with $actual, not $code: $output"
+  grep -Eq -- "$pattern" <<<"$output" || fail "$* does not say '$pattern': $output"
+}
+
+# mutate FROM SED TO: a shipped file with one mistake.
+mutate() {
+  sed "$2" "$source/$1" >"$3"
+  cmp -s "$source/$1" "$3" && fail "mutation '$2' of $1 changes nothing"
+}
+
+mkdir "$work/schedules" "$work/scenarios"
+cp "$source"/schedules/*.yaml "$work/schedules"
+cp "$source"/scenarios/*.yaml "$work/scenarios"
+
+expect 0 "Example: ttfusion run" run --help
+expect 2 "required" run
+expect 2 "--strategy" run "$source/scenarios/paper_scenario1.yaml" --strategy best
+expect 2 "nothing.yaml: cannot be read" run "$work/nothing.yaml"
+
+drive=$work/scenarios/broken.yaml
+mutate scenarios/paper_scenario1.yaml 's/^seed: 1/seed: one/' "$drive"
+expect 2 'broken.yaml:3: seed = one: must be a whole number' run "$drive"
+mutate scenarios/paper_scenario1.yaml 's/^seed: 1/sede: 1/' "$drive"
+expect 2 'broken.yaml:3: sede: is not a known key' run "$drive"
+mutate scenarios/paper_scenario1.yaml 's/reference: true/reference: true\n      x: 3/' "$drive"
+expect 2 'is given twice' run "$drive"
+head -c 300 "$source/scenarios/paper_scenario1.yaml" >"$drive"
+expect 2 'broken.yaml' run "$drive"
+mutate scenarios/paper_scenario1.yaml 's/paper_synchronised.yaml/absent.yaml/' "$drive"
+expect 2 'absent.yaml: cannot be read' run "$drive" --strategy tt --out "$work/none"
+
+cluster=$work/schedules/broken.yaml
+expect 0 'consistent' schedule check "$source/schedules/paper_synchronised.yaml"
+mutate schedules/paper_synchronised.yaml 's/gdNIT: 386/gdNIT: 900/' "$cluster"
+expect 2 'broken.yaml:[0-9]+: flexray.gdNIT = 900: .*2..805' schedule check "$cluster"
+mutate schedules/paper_synchronised.yaml 's/gdNIT: 386/gdNIT: 380/' "$cluster"
+expect 2 'gdNIT|gMacroPerCycle' schedule check "$cluster"
+mutate schedules/paper_synchronised.yaml 's/step: laser_preprocessing/step: lazer_preprocessing/' "$cluster"
+expect 2 'lazer_preprocessing' schedule check "$cluster"
+expect 0 'laser_objects' schedule show "$source/schedules/paper_synchronised.yaml"
+expect 0 '' schedule show "$source/schedules/paper_synchronised.yaml" -o "$work/schedule.svg"
+[[ -s $work/schedule.svg ]] || fail "schedule show -o writes no picture"
+expect 2 'png' schedule show "$source/schedules/paper_synchronised.yaml" -o "$work/schedule.bmp"
+
+# A run, twice: the same bytes; another seed: other bytes.
+expect 0 'position RMSE' run "$source/scenarios/paper_scenario2.yaml" --out "$work/a" --seed 3
+expect 0 '"content_hash"' run "$source/scenarios/paper_scenario2.yaml" --out "$work/b" --seed 3 --json --no-pictures
+expect 0 '' run "$source/scenarios/paper_scenario2.yaml" --out "$work/c" --seed 4 --no-pictures
+for strategy in buff adva tt; do
+  cmp -s "$work/a/$strategy.mcap" "$work/b/$strategy.mcap" || fail "$strategy: same seed, other log"
+  cmp -s "$work/a/$strategy.mcap" "$work/c/$strategy.mcap" && fail "$strategy: other seed, same log"
+done
+for file in index.html summary.json tt_timing.svg tt_timing.png tt_timing.pdf adva_plane.svg buff_over_time.pdf comparison.png; do
+  [[ -s $work/a/$file ]] || fail "run leaves no $file"
+done
+"$program" run "$source/scenarios/paper_scenario1.yaml" --strategy tt --no-log --json --out "$work/j" 2>/dev/null |
+  python3 -c 'import json,sys; s=json.load(sys.stdin)["strategies"][0]; assert s["rmse_truth"]["position_m"] < 0.5, s; assert s["precision_us"] > 0' ||
+  fail "--json is not the documented JSON"
+
+# Diagrams from logs, whole and cut off.
+expect 0 '' diagram "$work/a/tt.mcap" --from 1.5 --to 1.6 -o "$work/timing.pdf"
+expect 0 '' diagram "$work/a/tt.mcap" "$work/a/adva.mcap" --kind plane -o "$work/plane.svg"
+head -c 200000 "$work/a/tt.mcap" >"$work/cut.mcap"
+expect 0 'warning: .*cut.mcap' diagram "$work/cut.mcap" -o "$work/cut.svg"
+expect 2 'scenario|MCAP|mcap' diagram "$source/README.md" -o "$work/none.svg"
+
+# Recorded input, and a broken line in it.
+recording=$source/../shared/data/laser_radar/measurements.txt
+if [[ -r $recording ]]; then
+  expect 0 'position RMSE' run "$source/scenarios/laser_radar_recorded.yaml" --input "$recording" --out "$work/r" --no-pictures
+  sed '7s/[0-9]/x/' "$recording" >"$work/broken.txt"
+  expect 2 'broken.txt:7' run "$source/scenarios/laser_radar_recorded.yaml" --input "$work/broken.txt" --out "$work/r"
+else
+  echo "recorded input: skipped, the recording is not beside this repository"
+fi
+expect 2 '--input' run "$source/scenarios/laser_radar_recorded.yaml" --out "$work/r"
+
+[[ $failures -eq 0 ]] && echo "command line: all as documented"
+exit $((failures > 0))
