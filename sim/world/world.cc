@@ -114,6 +114,9 @@ WorldConfig load_world(YamlMap& yaml) {
            segment.number_or("yaw_rate", 0.0, {-5.0, 5.0}, "rad/s")});
       segment.finish();
     }
+    const bool second = object.reference && std::any_of(config.objects.begin(), config.objects.end(),
+                                                        [](const ObjectConfig& other) { return other.reference; });
+    if (second) map.fail("reference", "at most one object carries the reference's antenna");
     map.finish();
     config.objects.push_back(std::move(object));
   }

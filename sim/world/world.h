@@ -51,7 +51,8 @@ class World {
  public:
   World(const WorldConfig& config, std::uint64_t seed, std::uint32_t replication);
 
-  // All objects at `since_start` (time zero is the start of the drive; before it: extrapolated from the start).
+  // All objects at `since_start` (time zero is the start of the drive; before it: as at the start; after its end:
+  // the last step's motion goes on).
   void states_at(TrueTime since_start, std::vector<ObjectState>& out) const;
   ObjectState state_of(ObjectId object, TrueTime since_start) const;
   std::size_t size() const { return trajectories_.size(); }

@@ -1,0 +1,202 @@
+#include "sim/world/laser.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "sim/world/shape.h"
+
+namespace ttf::world {
+namespace {
+
+ObjectState box(std::uint16_t id, double x, double y, double heading, double length, double width) {
+  ObjectState state;
+  state.id = ObjectId{id};
+  state.x = x;
+  state.y = y;
+  state.heading = heading;
+  state.length = length;
+  state.width = width;
+  return state;
+}
+
+LaserConfig exact() {
+  LaserConfig config;
+  config.range_sigma_m = config.miss_at_100m = 0.0;
+  config.layers = 1;
+  return config;
+}
+
+struct Scan {
+  std::vector<HitPoint> hits;
+  std::vector<ObjectId> truth;
+};
+Scan scan(const LaserConfig& config, const std::vector<ObjectState>& objects, std::uint32_t sequence = 0,
+          std::uint32_t replication = 0, std::uint16_t sensor = 0) {
+  Scan s;
+  measure_laser(config, objects, 1, replication, sensor, sequence, s.hits, s.truth);
+  return s;
+}
+
+// Independent oracle: the ray against each of the four edges, by Cramer's rule.
+double ray_against_edges(const ObjectState& object, double azimuth) {
+  double nearest = std::numeric_limits<double>::infinity();
+  const double dx = std::cos(azimuth), dy = std::sin(azimuth);
+  const double c = std::cos(object.heading), s = std::sin(object.heading);
+  const double l = object.length / 2, w = object.width / 2;
+  const double u[] = {l, -l, -l, l}, v[] = {w, w, -w, -w};
+  for (int k = 0; k < 4; ++k) {
+    const int n = (k + 1) % 4;
+    const double ax = object.x + c * u[k] - s * v[k], ay = object.y + s * u[k] + c * v[k];
+    const double ex = object.x + c * u[n] - s * v[n] - ax, ey = object.y + s * u[n] + c * v[n] - ay;
+    const double determinant = dy * ex - dx * ey;
+    if (std::abs(determinant) < 1e-12) continue;
+    const double range = (ay * ex - ax * ey) / determinant, along = (dx * ay - dy * ax) / determinant;
+    if (range > 0 && along >= 0 && along <= 1) nearest = std::min(nearest, range);
+  }
+  return nearest;
+}
+
+TEST(Laser, ACarStraightAheadIsSeenAsItsRear) {
+  const auto [hits, truth] = scan(exact(), {box(0, 20.0, 0.0, 0.0, 4.0, 2.0)});
+  ASSERT_FALSE(hits.empty());
+  for (const HitPoint& hit : hits) {
+    EXPECT_NEAR(hit.range * std::cos(hit.azimuth), 18.0, 1e-9);
+    EXPECT_LE(std::abs(hit.range * std::sin(hit.azimuth)), 1.0 + 1e-9);
+  }
+  // Every beam within +-atan(1 / 18) and no other.
+  EXPECT_EQ(hits.size(), 2U * static_cast<std::size_t>(std::atan(1.0 / 18.0) / exact().azimuth_step_rad) + 1U);
+}
+
+TEST(Laser, RaysMeetOutlinesWhereTheirEdgesAre) {
+  const LaserConfig config = exact();
+  for (int aspect = 0; aspect < 36; ++aspect)
+    for (const double y : {-12.0, 0.0, 7.0}) {
+      const ObjectState object = box(0, 25.0, y, 0.175 * aspect, 4.4, 1.8);
+      const auto [hits, truth] = scan(config, {object});
+      std::size_t expected = 0;
+      const auto half = static_cast<int>(config.half_field_rad / config.azimuth_step_rad);
+      for (int beam = -half; beam <= half; ++beam)
+        expected += std::isfinite(ray_against_edges(object, beam * config.azimuth_step_rad));
+      EXPECT_EQ(hits.size(), expected);
+      for (const HitPoint& hit : hits) EXPECT_NEAR(hit.range, ray_against_edges(object, hit.azimuth), 1e-9);
+    }
+}
+
+TEST(Laser, NearObjectsHideFarOnes) {
+  // Behind: fully hidden. Beside: its left half shows.
+  const auto [hits, truth] = scan(exact(), {box(0, 40.0, 0.0, 0.0, 4.0, 1.8), box(1, 12.0, 0.0, 0.0, 4.0, 2.0),
+                                            box(2, 40.0, 4.0, 0.0, 4.0, 1.8)});
+  EXPECT_EQ(std::count(truth.begin(), truth.end(), ObjectId{0}), 0);
+  EXPECT_GT(std::count(truth.begin(), truth.end(), ObjectId{1}), 10);
+  EXPECT_GT(std::count(truth.begin(), truth.end(), ObjectId{2}), 0);
+  const double edge = std::atan2(1.0, 10.0);
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    if (truth[i] == ObjectId{2}) {
+      EXPECT_GT(hits[i].azimuth, std::atan2(1.0, 14.0)) << "seen through";
+    } else {
+      EXPECT_LE(std::abs(hits[i].azimuth), edge + 1e-9);
+    }
+  }
+}
+
+TEST(Laser, HalfHiddenObjectsShowTheOtherHalf) {
+  // The near one's left edge is seen under atan(1/10) = 0.0997 rad; the far one spans y = 2.1..3.9 at 28 m: 0.075..0.138.
+  const auto [hits, truth] = scan(exact(), {box(0, 12.0, 0.0, 0.0, 4.0, 2.0), box(1, 30.0, 3.0, 0.0, 4.0, 1.8)});
+  double low = 1.0, high = -1.0;
+  for (std::size_t i = 0; i < hits.size(); ++i)
+    if (truth[i] == ObjectId{1}) {
+      low = std::min(low, hits[i].azimuth);
+      high = std::max(high, hits[i].azimuth);
+    }
+  EXPECT_GT(low, std::atan(0.1));
+  EXPECT_LT(low, std::atan(0.1) + exact().azimuth_step_rad);
+  EXPECT_NEAR(high, std::atan2(3.9, 28.0), exact().azimuth_step_rad);
+}
+
+TEST(Laser, NothingBehindOrOutsideTheFieldOrBeyondTheRange) {
+  EXPECT_TRUE(scan(exact(), {box(0, -20.0, 0.0, 0.0, 4.0, 2.0)}).hits.empty());
+  EXPECT_TRUE(scan(exact(), {box(0, 5.0, 30.0, 0.0, 4.0, 2.0)}).hits.empty());
+  EXPECT_TRUE(scan(exact(), {box(0, 130.0, 0.0, 0.0, 4.0, 2.0)}).hits.empty());
+}
+
+TEST(Laser, RangeNoiseHasItsMeanAndSigma) {
+  LaserConfig config;
+  config.miss_at_100m = 0.0;
+  const std::vector<ObjectState> car = {box(0, 30.0, 0.0, 0.0, 4.0, 2.0)};
+  double sum = 0, squared = 0;
+  int n = 0;
+  for (std::uint32_t sequence = 0; sequence < 100; ++sequence)
+    for (const HitPoint& hit : scan(config, car, sequence).hits) {
+      const double error = hit.range - 28.0 / std::cos(hit.azimuth);
+      sum += error;
+      squared += error * error;
+      ++n;
+    }
+  ASSERT_GT(n, 4000);
+  EXPECT_NEAR(sum / n, 0.0, 4.0 * config.range_sigma_m / std::sqrt(n));
+  EXPECT_NEAR(squared / n / (config.range_sigma_m * config.range_sigma_m), 1.0, 4.0 * std::sqrt(2.0 / n));
+}
+
+TEST(Laser, LossesGrowWithTheRangeSquared) {
+  const LaserConfig config;
+  for (const double range : {25.0, 50.0, 100.0}) {
+    // A wide wall, so that hits are many; only beams near the axis, where the range is the distance.
+    const std::vector<ObjectState> wall = {box(0, range + 0.5, 0.0, 0.0, 1.0, 0.2 * range)};
+    const std::size_t all = scan(exact(), wall).hits.size() * 4;
+    std::size_t seen = 0;
+    for (std::uint32_t sequence = 0; sequence < 60; ++sequence) seen += scan(config, wall, sequence).hits.size();
+    const double expected = config.miss_at_100m * range * range / 1e4;
+    const double n = 60.0 * static_cast<double>(all);
+    // The wall's ends are 0.5 % further than its middle: 1 % more loss.
+    EXPECT_NEAR(1.0 - static_cast<double>(seen) / n, expected, 4.0 * std::sqrt(expected / n) + 0.01 * expected) << range;
+  }
+}
+
+TEST(Laser, BiasesAreConstant) {
+  LaserConfig config = exact();
+  const std::vector<ObjectState> car = {box(0, 30.0, 0.0, 0.3, 4.0, 2.0)};
+  const Scan plain = scan(config, car);
+  config.range_bias_m = 0.25;
+  config.azimuth_bias_rad = -0.01;
+  const Scan biased = scan(config, car, 5);
+  ASSERT_EQ(plain.hits.size(), biased.hits.size());
+  for (std::size_t i = 0; i < plain.hits.size(); ++i) {
+    EXPECT_NEAR(biased.hits[i].range - plain.hits[i].range, 0.25, 1e-12);
+    EXPECT_NEAR(biased.hits[i].azimuth - plain.hits[i].azimuth, -0.01, 1e-12);
+  }
+}
+
+TEST(Laser, AListIsNeverLongerThanItsMessage) {
+  const LaserConfig config;
+  const Scan s = scan(config, {box(0, 12.0, 0.0, 0.0, 4.0, 40.0)});
+  EXPECT_EQ(s.hits.size(), 1300U);
+  EXPECT_EQ(s.truth.size(), 1300U);
+  for (std::size_t i = 1; i < s.hits.size(); ++i) {
+    EXPECT_LE(s.hits[i - 1].azimuth, s.hits[i].azimuth);
+    if (s.hits[i - 1].azimuth == s.hits[i].azimuth) {
+      EXPECT_LT(s.hits[i - 1].layer, s.hits[i].layer);
+    }
+  }
+}
+
+TEST(Laser, DrawsBelongToSensorSequenceAndReplication) {
+  const LaserConfig config;
+  const std::vector<ObjectState> car = {box(0, 30.0, 0.0, 0.3, 4.0, 2.0)};
+  const auto ranges = [&](std::uint32_t sequence, std::uint32_t replication, std::uint16_t sensor) {
+    std::vector<double> r;
+    for (const HitPoint& hit : scan(config, car, sequence, replication, sensor).hits) r.push_back(hit.range);
+    return r;
+  };
+  const auto seventh = ranges(7, 0, 0);
+  EXPECT_NE(ranges(8, 0, 0), seventh);
+  EXPECT_NE(ranges(7, 1, 0), seventh);
+  EXPECT_NE(ranges(7, 0, 1), seventh);
+  EXPECT_EQ(ranges(7, 0, 0), seventh) << "not a function of the measurement's number alone";
+}
+
+}  // namespace
+}  // namespace ttf::world
