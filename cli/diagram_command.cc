@@ -1,11 +1,15 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdio>
 #include <memory>
 
 #include "cli/commands.h"
 #include "core/errors.h"
+#include "nodes/laser/laser_preprocessor.h"
 #include "recording/log_reader.h"
+#include "recording/recorded_input.h"
+#include "report/boxes_picture.h"
 #include "report/position_plot.h"
 #include "report/render.h"
 #include "report/timing_diagram.h"
@@ -18,6 +22,7 @@ struct Options {
   double from_s = -1.0, to_s = -1.0;
   std::string kind = "timing";
   std::string out;
+  int frame = 0;
 };
 
 TrueTime at_seconds(double s) { return {static_cast<std::int64_t>(s * 1e9 + 0.5)}; }
@@ -45,8 +50,35 @@ recording::LogInfo read(const std::string& path, records::Sink& sink) {
   return info;
 }
 
+// A recorded laser scan and the vehicles that preprocessing sees in it.
+std::string boxes(const Options& options) {
+  if (options.logs.size() != 1) throw InputError({"command line", 0, "--kind", "boxes", "takes one recording"});
+  const auto scans = recording::read_lidar_scans(options.logs[0]);
+  if (options.frame >= static_cast<int>(scans.size()))
+    throw InputError({"command line", 0, "--frame", fmt::format("{}", options.frame),
+                      fmt::format("must be 0..{}: the recording has {} scans", scans.size() - 1, scans.size())});
+  const recording::RecordedScan& scan = scans[static_cast<std::size_t>(options.frame)];
+  std::vector<nodes::ScanPoint> points;
+  std::vector<report::Point> drawn;
+  for (const recording::RecordedReturn& hit : scan.returns) {
+    points.push_back({0, hit.azimuth_rad, hit.range_m});
+    drawn.push_back({hit.range_m * std::cos(hit.azimuth_rad), hit.range_m * std::sin(hit.azimuth_rad)});
+  }
+  std::vector<nodes::LaserObject> objects;
+  nodes::LaserPreprocessor(nodes::LaserPreprocessingConfig{}).process(points, objects);
+  std::vector<report::Box> rectangles;
+  for (const nodes::LaserObject& object : objects)
+    rectangles.push_back({object.x, object.y, object.heading, object.length, object.width, ""});
+  return report::boxes_svg(drawn, rectangles,
+                           fmt::format("Scan {}: {} returns, {} boxes", scan.frame, points.size(), objects.size()));
+}
+
 int run(const Options& options) {
   report::check_picture_path(options.out);
+  if (options.kind == "boxes") {
+    report::write_picture(boxes(options), options.out);
+    return 0;
+  }
   if (options.to_s >= 0.0 && options.to_s <= std::max(0.0, options.from_s))
     throw InputError({"command line", 0, "--to", fmt::format("{}", options.to_s), "must be after --from"});
   Extent extent;
@@ -96,11 +128,13 @@ void add_diagram(CLI::App& app, Action& action) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("diagram", "Timing diagram and position plots from logs");
   command->footer("Example: ttfusion diagram out/drive/tt.mcap --from 1.5 --to 1.65 -o timing.svg");
-  command->add_option("logs", options->logs, "Logs; several are drawn side by side")->required();
+  command->add_option("logs", options->logs, "Logs; several are drawn side by side (with --kind boxes: a recording of laser scans)")->required();
   command->add_option("--from", options->from_s, "Start of the window, true time in seconds")->check(CLI::NonNegativeNumber);
   command->add_option("--to", options->to_s, "End of the window, true time in seconds")->check(CLI::NonNegativeNumber);
-  command->add_option("--kind", options->kind, "timing, position (x and y over time) or plane (y over x)")
-      ->check(CLI::IsMember({"timing", "position", "plane"}))->capture_default_str();
+  command->add_option("--kind", options->kind, "timing, position (x and y over time), plane (y over x), or boxes (of a recorded laser scan)")
+      ->check(CLI::IsMember({"timing", "position", "plane", "boxes"}))->capture_default_str();
+  command->add_option("--frame", options->frame, "Which scan of a recording, with --kind boxes")
+      ->check(CLI::NonNegativeNumber);
   command->add_option("-o,--out", options->out, "Picture to write: .svg, .png or .pdf")->required();
   command->callback([options, &action] { action = [options] { return run(*options); }; });
 }
