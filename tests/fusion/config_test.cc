@@ -1,0 +1,65 @@
+// The tracker's configuration is read strictly.
+#include <gtest/gtest.h>
+
+#include "core/errors.h"
+#include "fusion/tracker_config.h"
+
+namespace ttf::fusion {
+namespace {
+
+TrackerConfig load(const std::string& text, std::vector<std::string>* sentences = nullptr) {
+  Findings findings;
+  YamlMap root = StrictYaml::parse(text, "t.yaml").root(findings);
+  const TrackerConfig config = load_tracker(root);
+  root.finish();
+  if (sentences)
+    for (const Finding& finding : findings.list()) sentences->push_back(finding.sentence());
+  else
+    EXPECT_TRUE(findings.empty());
+  return config;
+}
+
+TEST(TrackerConfig, EverythingHasADefault) {
+  const TrackerConfig config = load("{}"), defaults;
+  EXPECT_EQ(config.process_noise, defaults.process_noise);
+  EXPECT_EQ(config.max_objects, 25);
+  EXPECT_EQ(config.confirm_hits, 3);
+  EXPECT_EQ(config.confirm_window, 5);
+  EXPECT_EQ(config.history_scans, 64u);
+}
+
+TEST(TrackerConfig, ReadsEveryKey) {
+  const TrackerConfig c = load(
+      "motion: constant_acceleration\nprocess_noise: 2.5\ninitial_velocity_sigma: 11\n"
+      "initial_acceleration_sigma: 3\ngate_probability: 0.99\nconfirm_hits: 2\nconfirm_window: 4\n"
+      "delete_misses: 6\ndelete_position_sigma: 7\nmax_objects: 12\nhistory_scans: 16\nheading_noise: 0.5\n"
+      "extent_noise: 0.25\n");
+  EXPECT_EQ(c.motion, MotionModel::kConstantAcceleration);
+  EXPECT_EQ(c.process_noise, 2.5);
+  EXPECT_EQ(c.initial_velocity_sigma, 11.0);
+  EXPECT_EQ(c.initial_acceleration_sigma, 3.0);
+  EXPECT_EQ(c.gate_probability, 0.99);
+  EXPECT_EQ(c.confirm_hits, 2);
+  EXPECT_EQ(c.confirm_window, 4);
+  EXPECT_EQ(c.delete_misses, 6);
+  EXPECT_EQ(c.delete_position_sigma, 7.0);
+  EXPECT_EQ(c.max_objects, 12);
+  EXPECT_EQ(c.history_scans, 16u);
+  EXPECT_EQ(c.heading_noise, 0.5);
+  EXPECT_EQ(c.extent_noise, 0.25);
+}
+
+TEST(TrackerConfig, AllMistakesAtOnce) {
+  std::vector<std::string> sentences;
+  load("motion: sideways\nprocess_noise: -1\ngate_probability: 1.0\nconfirm_window: 3\nconfirm_hits: 4\nspeed: 1\n",
+       &sentences);
+  ASSERT_EQ(sentences.size(), 5u);
+  EXPECT_NE(sentences[0].find("t.yaml:1: motion = sideways"), std::string::npos) << sentences[0];
+  EXPECT_NE(sentences[1].find("t.yaml:2: process_noise = -1"), std::string::npos) << sentences[1];
+  EXPECT_NE(sentences[2].find("t.yaml:3: gate_probability"), std::string::npos) << sentences[2];
+  EXPECT_NE(sentences[3].find("t.yaml:5: confirm_hits = 4"), std::string::npos) << sentences[3];
+  EXPECT_NE(sentences[4].find("t.yaml:6: speed"), std::string::npos) << sentences[4];
+}
+
+}  // namespace
+}  // namespace ttf::fusion

@@ -1,0 +1,128 @@
+#include "tests/fusion/scenes.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+namespace ttf::fusion {
+
+Observation position(double x, double y, double sigma) {
+  Observation z;
+  z.z << x, y, 0.0;
+  z.r.topLeftCorner<2, 2>() = sigma * sigma * Eigen::Matrix2d::Identity();
+  return z;
+}
+
+Observation radar(double range, double bearing, double rate, double sigma_range, double sigma_bearing,
+                  double sigma_rate) {
+  Observation z;
+  z.kind = ObservationKind::kRangeBearingRate;
+  z.z << range, bearing, rate;
+  z.r = Eigen::Vector3d(sigma_range * sigma_range, sigma_bearing * sigma_bearing, sigma_rate * sigma_rate)
+            .asDiagonal();
+  return z;
+}
+
+Covariance transition(MotionModel motion, double dt) {
+  Covariance f = Covariance::Identity();
+  for (int axis = 0; axis < 2; ++axis) {
+    f(axis, axis + 2) = dt;
+    if (motion == MotionModel::kConstantAcceleration) {
+      f(axis, axis + 4) = dt * dt / 2.0;
+      f(axis + 2, axis + 4) = dt;
+    }
+  }
+  return f;
+}
+
+Covariance driving_noise(MotionModel motion, double q, double dt) {
+  // Three nodes: exact to degree 5, and the highest power here is 4.
+  const double nodes[] = {-std::sqrt(0.6), 0.0, std::sqrt(0.6)}, weights[] = {5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
+  const int driven = motion == MotionModel::kConstantAcceleration ? 4 : 2;
+  Covariance sum = Covariance::Zero();
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Matrix<double, 6, 2> g =
+        transition(motion, 0.5 * dt * (1.0 + nodes[i])).middleCols<2>(driven);
+    sum += 0.5 * dt * weights[i] * q * g * g.transpose();
+  }
+  return sum;
+}
+
+State draw(const State& mean, const Covariance& covariance, RandomStream& stream) {
+  State unit;
+  for (int i = 0; i < 6; ++i) unit(i) = stream.normal();
+  const Eigen::LDLT<Covariance> ldlt(covariance);
+  const State scaled = ldlt.vectorD().cwiseMax(0.0).cwiseSqrt().cwiseProduct(unit);
+  const State coloured = ldlt.transpositionsP().transpose() * (ldlt.matrixL() * scaled).eval();
+  return mean + coloured;
+}
+
+namespace {
+
+template <class Matrix>
+bool same(const Matrix& a, const Matrix& b) {
+  return std::memcmp(a.data(), b.data(), sizeof(double) * static_cast<std::size_t>(a.size())) == 0;
+}
+bool same(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
+bool same(const Scalar& a, const Scalar& b) {
+  return same(a.value, b.value) && same(a.variance, b.variance) && a.known == b.known;
+}
+
+}  // namespace
+
+bool same_bits(const TrackSet& a, const TrackSet& b) {
+  return a.time == b.time && a.next_id == b.next_id && a.started == b.started &&
+         std::equal(a.tracks.begin(), a.tracks.end(), b.tracks.begin(), b.tracks.end(),
+                    [](const Track& s, const Track& t) {
+                      return s.id == t.id && same(s.estimate.x, t.estimate.x) && same(s.estimate.p, t.estimate.p) &&
+                             same(s.heading, t.heading) && same(s.length, t.length) && same(s.width, t.width) &&
+                             s.hits == t.hits && s.scans == t.scans && s.misses == t.misses &&
+                             s.confirmed == t.confirmed;
+                    });
+}
+
+bool same_bits(const std::vector<TrackView>& a, const std::vector<TrackView>& b) {
+  return std::equal(
+      a.begin(), a.end(), b.begin(), b.end(), [](const TrackView& s, const TrackView& t) {
+        return s.id == t.id && s.valid_at == t.valid_at && same(s.state, t.state) &&
+               same(s.covariance, t.covariance) && same(s.heading, t.heading) &&
+               same(s.sigma_heading, t.sigma_heading) && same(s.speed, t.speed) &&
+               same(s.sigma_speed, t.sigma_speed) && same(s.acceleration, t.acceleration) &&
+               same(s.sigma_acceleration, t.sigma_acceleration) && same(s.length, t.length) &&
+               same(s.sigma_length, t.sigma_length) && same(s.width, t.width) && same(s.sigma_width, t.sigma_width) &&
+               s.confirmed == t.confirmed;
+      });
+}
+
+State Lanes::truth(int object, GlobalTime at) const {
+  const double t = (at - GlobalTime{}).seconds();
+  State x = State::Zero();
+  x(2) = 3.0 + 0.5 * (object / 5);
+  x(3) = 0.1 * (object % 5 - 2);
+  x(0) = 10.0 + 12.0 * (object / 5) + x(2) * t;
+  x(1) = 6.0 * (object % 5 - 2) + x(3) * t;
+  return x;
+}
+
+std::vector<Observation> Lanes::see(GlobalTime at, std::uint32_t index) const {
+  RandomStream stream({.seed = seed, .purpose = Purpose::kTest, .entity = 77, .index = index});
+  std::vector<Observation> seen;
+  for (int object = 0; object < objects; ++object) {
+    const State x = truth(object, at);
+    Observation z = position(x(0) + sigma * stream.normal(), x(1) + sigma * stream.normal(), sigma);
+    z.has_heading = z.has_length = z.has_width = true;
+    z.heading = std::atan2(x(3), x(2)) + 0.05 * stream.normal();
+    z.length = 4.5 + 0.1 * stream.normal();
+    z.width = 1.8 + 0.1 * stream.normal();
+    z.sigma_heading = 0.05;
+    z.sigma_length = z.sigma_width = 0.1;
+    if (stream.uniform() >= miss_probability) seen.push_back(z);
+  }
+  for (std::size_t i = seen.size(); i > 1; --i)
+    std::swap(seen[i - 1], seen[static_cast<std::size_t>(stream.integer(0, static_cast<std::int64_t>(i) - 1))]);
+  return seen;
+}
+
+}  // namespace ttf::fusion
