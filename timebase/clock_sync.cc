@@ -52,6 +52,7 @@ Correction rate_correction(const SyncMeasurements& measured, int previous, int d
       if (even.a && odd.a) sum += *odd.a - *even.a, ++channels;
       if (even.b && odd.b) sum += *odd.b - *even.b, ++channels;
       if (channels > 0) values[count++] = sum / channels;
+      break;   // one frame id, one entry
     }
   }
   const auto midpoint = fault_tolerant_midpoint({values.data(), count});

@@ -7,6 +7,7 @@ namespace ttf::timebase {
 namespace {
 
 std::int64_t ceil_div(std::int64_t a, std::int64_t b) { return (a + b - 1) / b; }
+Int128 floor_div(Int128 a, Int128 b) { return a < 0 ? -((b - 1 - a) / b) : a / b; }
 
 }  // namespace
 
@@ -43,7 +44,7 @@ GlobalTime CycleClock::global_time(Microticks t) const {
   // somebody ask, beyond the cycle's end.
   Int128 elapsed_ps = 0;
   if (into <= before) {
-    elapsed_ps = static_cast<Int128>(into) * geometry_.macro_per_cycle * geometry_.macrotick_ps / length;
+    elapsed_ps = floor_div(static_cast<Int128>(into) * geometry_.macro_per_cycle * geometry_.macrotick_ps, length);
     const Int128 at_correction = static_cast<Int128>(correction_start) * geometry_.macrotick_ps;
     if (elapsed_ps > at_correction) elapsed_ps = at_correction;   // `before` is rounded up
   } else {
@@ -54,8 +55,7 @@ GlobalTime CycleClock::global_time(Microticks t) const {
   }
   const Int128 cycle_ps = static_cast<Int128>(geometry_.macro_per_cycle) * geometry_.macrotick_ps;
   // Rounded down, also for instants just before cycle 0.
-  const Int128 ps = cycle_ps * cycle_ + elapsed_ps;
-  return {static_cast<std::int64_t>(ps < 0 ? (ps - 999) / 1000 : ps / 1000)};
+  return {static_cast<std::int64_t>(floor_div(cycle_ps * cycle_ + elapsed_ps, 1000))};
 }
 
 Microticks CycleClock::when(GlobalTime time) const {

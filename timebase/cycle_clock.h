@@ -32,8 +32,8 @@ class CycleClock {
   int rate_correction() const { return rate_; }
   int offset_correction() const { return offset_; }
 
-  // Global time at microtick t of this cycle, [cycle_start, cycle_end), or before cycle 0 (then below zero): whole macroticks plus the share of the current
-  // one, in nanoseconds, rounded down.
+  // Global time at microtick t of this cycle, [cycle_start, cycle_end), or before cycle 0 (then below zero): whole
+  // macroticks plus the share of the current one, in nanoseconds, rounded down.
   GlobalTime global_time(Microticks t) const;
   // First microtick of this cycle at which global_time is at or after `time`; the cycle's end where it is later.
   Microticks when(GlobalTime time) const;

@@ -21,6 +21,7 @@ Oscillator::Oscillator(std::int64_t nominal_period_ps, std::int64_t drift_ppb, s
   const Int128 numerator = static_cast<Int128>(nominal_period_ps) * kAttosecondsPerPicosecond * kBillion;
   const Int128 denominator = kBillion + drift_ppb;
   period_as_ = static_cast<std::int64_t>((numerator + denominator / 2) / denominator);
+  TTF_CHECK(period_as_ > kAttosecondsPerNanosecond, "period {} as: two ticks in one nanosecond", period_as_);
 }
 
 Microticks Oscillator::ticks_at(TrueTime t) const {
