@@ -45,7 +45,7 @@ FusionHost::FusionHost(const schedules::Cluster& cluster, fusion::StrategyKind k
 
 FusionStep::FusionStep(const schedules::Cluster& cluster, const schedules::Task& task,
                        std::shared_ptr<FusionHost> host)
-    : cluster_(cluster), host_(std::move(host)) {
+    : host_(std::move(host)) {
   std::size_t most = 0;
   for (const schedules::PortBinding& binding : task.reads) {
     codecs_.emplace_back(cluster, binding.pdu);

@@ -36,7 +36,6 @@ class FusionStep final : public Step {
   void record(const StepContext& context, const Input& input, GlobalTime measured) const;
   void record_result(const StepContext& context) const;
 
-  const schedules::Cluster& cluster_;
   std::shared_ptr<FusionHost> host_;
   std::vector<ObservationCodec> codecs_;         // per port
   std::vector<fusion::Observation> observations_;
