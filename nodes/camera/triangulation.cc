@@ -14,6 +14,7 @@ CameraCalibration load_camera_calibration(YamlMap& yaml) {
   c.width_sigma_px = yaml.number_or("width_sigma", c.width_sigma_px, {0.01, 100.0}, "px");
   c.half_length_m = yaml.number_or("half_length", c.half_length_m, {0.0, 10.0}, "m");
   c.half_length_sigma_m = yaml.number_or("half_length_sigma", c.half_length_sigma_m, {0.001, 5.0}, "m");
+  c.nominal_width_m = yaml.number_or("nominal_width", c.nominal_width_m, {0.5, 5.0}, "m");
   return c;
 }
 
@@ -23,19 +24,32 @@ CameraObject triangulate(const CameraCalibration& k, double bearing, double disp
   const double depth = k.focal_px * k.baseline_m / d;
   const double t = std::tan(bearing), c = std::cos(bearing), s = std::sin(bearing);
   CameraObject object;
-  object.x = depth + k.half_length_m * c;
-  object.y = depth * t + k.half_length_m * s;
-  // Columns of the Jacobian: disparity, bearing, half length.
-  const double dx_dd = -depth / d, dy_dd = -depth * t / d;
-  const double dx_db = -k.half_length_m * s, dy_db = depth / (c * c) + k.half_length_m * c;
-  const double vd = k.disparity_sigma_px * k.disparity_sigma_px, vb = k.bearing_sigma_rad * k.bearing_sigma_rad;
-  const double vh = k.half_length_sigma_m * k.half_length_sigma_m;
-  object.sxx = dx_dd * dx_dd * vd + dx_db * dx_db * vb + c * c * vh;
-  object.syy = dy_dd * dy_dd * vd + dy_db * dy_db * vb + s * s * vh;
-  object.sxy = dx_dd * dy_dd * vd + dx_db * dy_db * vb + c * s * vh;
   object.width = width_px * depth / k.focal_px;
   const double dw_dd = -object.width / d, dw_dp = depth / k.focal_px;
-  object.sigma_width = std::sqrt(dw_dd * dw_dd * vd + dw_dp * dw_dp * k.width_sigma_px * k.width_sigma_px);
+
+  // From the outline to the centre: h = half length * nominal width / W, within what a rectangle can show.
+  const double length = 2.0 * k.half_length_m, breadth = k.nominal_width_m;
+  const double widest = std::max(length, breadth), shown = std::clamp(object.width, breadth, widest);
+  const bool turned = shown == object.width;
+  const double h = k.half_length_m * breadth / shown;
+  const double dh_dw = turned ? -h / shown : 0.0;
+  object.x = depth + h * c;
+  object.y = depth * t + h * s;
+
+  const double vd = k.disparity_sigma_px * k.disparity_sigma_px, vb = k.bearing_sigma_rad * k.bearing_sigma_rad;
+  const double vp = k.width_sigma_px * k.width_sigma_px, vh = k.half_length_sigma_m * k.half_length_sigma_m;
+  // Columns of the Jacobian: disparity, bearing, width in the image; along the line of sight: half length.
+  const double dx_dd = -depth / d + dh_dw * dw_dd * c, dy_dd = -depth * t / d + dh_dw * dw_dd * s;
+  const double dx_db = -h * s, dy_db = depth / (c * c) + h * c;
+  const double dx_dp = dh_dw * dw_dp * c, dy_dp = dh_dw * dw_dp * s;
+  // Perspective across the line of sight; none for a silhouette as narrow as a rear.
+  const double u = 0.5 * shown, vv = std::max(0.0, 0.25 * (length * length + breadth * breadth) - u * u);
+  const double narrow = breadth / shown, range = depth / c;
+  const double across = u * u * vv / (range * range) * (1.0 - narrow * narrow);
+  object.sxx = dx_dd * dx_dd * vd + dx_db * dx_db * vb + dx_dp * dx_dp * vp + c * c * vh + s * s * across;
+  object.syy = dy_dd * dy_dd * vd + dy_db * dy_db * vb + dy_dp * dy_dp * vp + s * s * vh + c * c * across;
+  object.sxy = dx_dd * dy_dd * vd + dx_db * dy_db * vb + dx_dp * dy_dp * vp + c * s * (vh - across);
+  object.sigma_width = std::sqrt(dw_dd * dw_dd * vd + dw_dp * dw_dp * vp);
   return object;
 }
 

@@ -1,10 +1,15 @@
 // From a stereo camera's detection to an object's position.
 //
 // Depth z = f b / d along the optical axis (x), x = z, y = z tan(bearing) (rectified pinhole pair). What the pair sees is the
-// middle of the outline turned to it; the object's centre lies further along the line of sight, by half its length seen from
-// front or rear, less when it is turned: a nominal distance with its spread. The
-// covariance is the first-order one of disparity, bearing and that half length; depth noise so grows with the square
-// of the range.
+// silhouette's middle at the mean depth of the outline turned to it; the centre lies further along the line of sight. For a
+// rectangle L by B seen under a silhouette of width W the mean chord is L B / W, so the centre is half of that behind
+// (exact in the far field): L / 2 for a car seen from behind (W = B), B / 2 for one seen from the side (W = L). W is
+// measured, L and B are nominal.
+//
+// The covariance is the first-order one of disparity, bearing, width and that distance; depth noise so grows with the square
+// of the range. Across the line of sight there is the perspective of a turned car besides: its outermost corners are
+// opposite ones, (u, v) and (-u, -v) from the centre with u = W / 2 and u^2 + v^2 = (L^2 + B^2) / 4, which moves the
+// silhouette's middle by u v / range to a side that is not known.
 #pragma once
 
 #include "core/strict_yaml.h"
@@ -17,7 +22,8 @@ struct CameraCalibration {
   double disparity_sigma_px = 0.3;
   double bearing_sigma_rad = 0.003;
   double width_sigma_px = 2.0;
-  double half_length_m = 2.1, half_length_sigma_m = 0.4;   // a passenger car's: 2.2 from behind, 1.6 turned by 40 degrees
+  double half_length_m = 2.2, half_length_sigma_m = 0.2;   // a passenger car's, and its fleet's spread
+  double nominal_width_m = 1.8;
 };
 CameraCalibration load_camera_calibration(YamlMap& yaml);
 

@@ -12,7 +12,9 @@ LaserPreprocessingConfig load_laser_preprocessing(YamlMap& yaml) {
   c.segmentation.range_noise_m = c.rectangle.range_noise_m = noise;
   c.segmentation.azimuth_step_rad = c.rectangle.azimuth_step_rad = step;
   c.segmentation.smallest_gap_m = yaml.number_or("smallest_gap", c.segmentation.smallest_gap_m, {0.05, 5.0}, "m");
-  c.segmentation.incidence_rad = yaml.number_or("incidence", c.segmentation.incidence_rad, {0.05, 1.0}, "rad");
+  c.segmentation.incidence_rad = yaml.number_or("incidence", c.segmentation.incidence_rad, {0.02, 1.0}, "rad");
+  c.segmentation.largest_gap_m =
+      yaml.number_or("largest_gap", c.segmentation.largest_gap_m, {c.segmentation.smallest_gap_m, 10.0}, "m");
   c.rectangle.nominal_length_m = yaml.number_or("nominal_length", c.rectangle.nominal_length_m, {1.0, 20.0}, "m");
   c.rectangle.length_sigma_m = yaml.number_or("length_sigma", c.rectangle.length_sigma_m, {0.01, 5.0}, "m");
   c.rectangle.nominal_width_m = yaml.number_or("nominal_width", c.rectangle.nominal_width_m, {0.5, 5.0}, "m");
@@ -33,6 +35,8 @@ void LaserPreprocessor::process(std::span<const ScanPoint> scan, std::vector<Las
   for (const Segment& segment : segments_) {
     if (segment.count < static_cast<std::size_t>(config_.fewest_points)) continue;
     const std::span<const PlanePoint> points(points_.data() + segment.first, segment.count);
+    // All layers of a single beam are a post, or a side seen too flatly: no extent to speak of.
+    if (points.back().azimuth - points.front().azimuth < 0.5 * config_.segmentation.azimuth_step_rad) continue;
     double low_x = points[0].x, high_x = low_x, low_y = points[0].y, high_y = low_y;
     for (const PlanePoint& point : points) {
       low_x = std::min(low_x, point.x);

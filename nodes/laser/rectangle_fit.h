@@ -2,7 +2,8 @@
 //
 // The orientation is searched for (Zhang, Xu, Dong, Dolan: "Efficient L-shape fitting for vehicle detection using laser
 // scanners", IEEE Intelligent Vehicles Symposium 2017, closeness criterion, algorithm 4): each candidate scores how near
-// the returns lie to the two faces turned to the sensor. A face is visible where the sensor stands outside its slab.
+// the returns lie to the two faces turned to the sensor. A face is visible where the sensor stands outside its slab. The best
+// one is refined by least squares over both faces.
 // Then:
 //   extents longer than a vehicle is wide are its length; a single short face is its rear or front, so the length is unknown
 //   the centre lies half the size behind each visible face; where the size is unknown the nominal one stands in, with its
@@ -35,7 +36,7 @@ struct LaserObject {
   int points = 0;
 };
 
-// At least one point. The covariance is always positive definite.
+// At least one point, in order of azimuth. The covariance is always positive definite.
 LaserObject fit_rectangle(const RectangleConfig& config, std::span<const PlanePoint> points);
 
 }  // namespace ttf::nodes

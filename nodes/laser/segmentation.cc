@@ -4,6 +4,12 @@
 #include <cmath>
 
 namespace ttf::nodes {
+namespace {
+
+// Neighbours are at most three beams apart (two missed between them); half a beam more for rounded azimuths.
+constexpr double kMissedBeams = 3.5;
+
+}  // namespace
 
 void segment_scan(const SegmentationConfig& config, std::span<const ScanPoint> scan, std::vector<PlanePoint>& points,
                   std::vector<Segment>& segments) {
@@ -19,15 +25,16 @@ void segment_scan(const SegmentationConfig& config, std::span<const ScanPoint> s
     bool same = !segments.empty();
     if (same) {
       const PlanePoint& previous = points[i - 1];
-      // A missing beam or two must not cut an object: the step counts as at least the scanner's.
       const double step = std::max(config.azimuth_step_rad, points[i].azimuth - previous.azimuth);
-      const double nearer = std::min(previous.range, points[i].range);
-      const double limit = step < config.incidence_rad
-                               ? nearer * std::sin(step) / std::sin(config.incidence_rad - step) +
-                                     3.0 * config.range_noise_m
-                               : 0.0;
-      const double gap = std::hypot(points[i].x - previous.x, points[i].y - previous.y);
-      same = gap <= std::max(limit, config.smallest_gap_m) && step < config.incidence_rad;
+      double limit = config.smallest_gap_m;
+      if (step < kMissedBeams * config.azimuth_step_rad) {
+        const double nearer = std::min(previous.range, points[i].range);
+        const double surface = step < config.incidence_rad
+                                   ? nearer * std::sin(step) / std::sin(config.incidence_rad - step)
+                                   : config.largest_gap_m;
+        limit = std::clamp(surface + 3.0 * config.range_noise_m, config.smallest_gap_m, config.largest_gap_m);
+      }
+      same = std::hypot(points[i].x - previous.x, points[i].y - previous.y) <= limit;
     }
     if (same)
       ++segments.back().count;

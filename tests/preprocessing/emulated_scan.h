@@ -1,0 +1,34 @@
+// Scans of cars at chosen poses, from the emulated laser, in the form preprocessing takes.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "nodes/laser/scan_point.h"
+#include "sim/world/laser.h"
+
+namespace ttf::nodes {
+
+inline world::ObjectState car_at(double x, double y, double heading, double length = 4.4, double width = 1.8,
+                                 std::uint16_t id = 0) {
+  world::ObjectState state;
+  state.id = ObjectId{id};
+  state.x = x;
+  state.y = y;
+  state.heading = heading;
+  state.length = length;
+  state.width = width;
+  return state;
+}
+
+inline std::vector<ScanPoint> emulated_scan(const world::LaserConfig& config,
+                                            const std::vector<world::ObjectState>& objects, std::uint32_t sequence) {
+  std::vector<world::HitPoint> hits;
+  std::vector<ObjectId> truth;
+  world::measure_laser(config, objects, 1, 0, 0, sequence, hits, truth);
+  std::vector<ScanPoint> scan;
+  for (const world::HitPoint& hit : hits) scan.push_back({hit.layer, hit.azimuth, hit.range});
+  return scan;
+}
+
+}  // namespace ttf::nodes

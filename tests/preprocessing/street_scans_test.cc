@@ -1,0 +1,71 @@
+// A real scanner in a real street (shared data, read only; not part of the repository): no ground truth, so what is asked
+// for is that the boxes are plausible as vehicles and hold still from scan to scan.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "nodes/laser/laser_preprocessor.h"
+
+namespace ttf::nodes {
+namespace {
+
+std::vector<std::vector<ScanPoint>> street_scans() {
+  std::vector<std::vector<ScanPoint>> scans;
+  std::ifstream file(std::string(TTF_SOURCE_DIR) + "/../shared/data/lidar_scans/scans.csv");
+  std::string line;
+  while (std::getline(file, line)) {
+    unsigned frame = 0;
+    double azimuth = 0, range = 0, intensity = 0;
+    if (line.empty() || line[0] == '#') continue;
+    if (std::sscanf(line.c_str(), "%u,%lf,%lf,%lf", &frame, &azimuth, &range, &intensity) != 4) continue;
+    if (frame >= scans.size()) scans.resize(frame + 1);
+    scans[frame].push_back({0, azimuth, range});
+  }
+  return scans;
+}
+
+TEST(StreetScans, YieldPlausibleVehicles) {
+  const auto scans = street_scans();
+  if (scans.empty()) GTEST_SKIP() << "the recording shared/data/lidar_scans is not beside this repository";
+  ASSERT_EQ(scans.size(), 22U);
+  LaserPreprocessor preprocessor({});
+  std::vector<LaserObject> objects, last;
+  std::size_t steady = 0, compared = 0;
+  for (const auto& scan : scans) {
+    preprocessor.process(scan, objects);
+    std::size_t vehicles = 0;
+    for (const LaserObject& o : objects) {
+      EXPECT_TRUE(std::isfinite(o.x) && std::isfinite(o.y) && std::isfinite(o.heading));
+      EXPECT_GT(o.sxx * o.syy - o.sxy * o.sxy, 0.0);
+      EXPECT_GE(o.points, 3);
+      EXPECT_LE(o.length, LaserPreprocessingConfig{}.longest_extent_m + 0.5);
+      EXPECT_GT(o.length, 0.5);
+      EXPECT_GT(o.width, 0.3);
+      if (o.has_width) {
+        EXPECT_LT(o.width, 2.7);
+      }
+      const bool vehicle = o.has_length && o.length > 3.0 && o.length < 6.5;
+      vehicles += vehicle;
+      if (vehicle && !last.empty() && std::hypot(o.x, o.y) < 30.0) {
+        // 10 Hz and a slow street: what is there is within a metre of where it was.
+        ++compared;
+        steady += std::any_of(last.begin(), last.end(),
+                              [&](const LaserObject& p) { return std::hypot(p.x - o.x, p.y - o.y) < 1.5; });
+      }
+    }
+    EXPECT_GE(objects.size(), 5U);
+    EXPECT_LE(objects.size(), 60U);
+    EXPECT_GE(vehicles, 1U);
+    last = objects;
+  }
+  ASSERT_GT(compared, 20U);
+  EXPECT_GT(static_cast<double>(steady), 0.8 * static_cast<double>(compared));
+}
+
+}  // namespace
+}  // namespace ttf::nodes
