@@ -22,7 +22,8 @@ inline world::ObjectState car_at(double x, double y, double heading, double leng
 }
 
 inline std::vector<ScanPoint> emulated_scan(const world::LaserConfig& config,
-                                            const std::vector<world::ObjectState>& objects, std::uint32_t sequence) {
+                                            const std::vector<world::ObjectState>& objects,
+                                            std::uint32_t sequence) {
   std::vector<world::HitPoint> hits;
   std::vector<ObjectId> truth;
   world::measure_laser(config, objects, 1, 0, 0, sequence, hits, truth);

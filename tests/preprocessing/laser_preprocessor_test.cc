@@ -52,7 +52,8 @@ TEST(LaserPreprocessor, WallsAndSpecksAreNoObjects) {
 TEST(LaserPreprocessor, SameScanSameBits) {
   LaserPreprocessor used({}), fresh({});
   std::vector<LaserObject> first, second;
-  for (std::uint32_t sequence = 0; sequence < 5; ++sequence) used.process(emulated_scan({}, fan(), sequence), first);
+  for (std::uint32_t sequence = 0; sequence < 5; ++sequence)
+    used.process(emulated_scan({}, fan(), sequence), first);
   fresh.process(emulated_scan({}, fan(), 4), second);
   ASSERT_EQ(first.size(), second.size());
   for (std::size_t i = 0; i < first.size(); ++i) {
@@ -65,7 +66,8 @@ TEST(LaserPreprocessor, SameScanSameBits) {
 TEST(LaserPreprocessor, DoesNotAllocateAfterTheFirstScans) {
   LaserPreprocessor preprocessor({});
   std::vector<std::vector<ScanPoint>> scans;
-  for (std::uint32_t sequence = 0; sequence < 20; ++sequence) scans.push_back(emulated_scan({}, fan(), sequence));
+  for (std::uint32_t sequence = 0; sequence < 20; ++sequence)
+    scans.push_back(emulated_scan({}, fan(), sequence));
   std::vector<LaserObject> objects;
   objects.reserve(25);
   preprocessor.process(scans[0], objects);

@@ -15,7 +15,8 @@ namespace ttf::nodes {
 namespace {
 
 // Through segmentation: a car is one object, whatever its aspect.
-LaserObject fitted(const world::ObjectState& car, std::uint32_t sequence, const world::LaserConfig& laser = {}) {
+LaserObject fitted(const world::ObjectState& car, std::uint32_t sequence,
+                   const world::LaserConfig& laser = {}) {
   LaserPreprocessor preprocessor({});
   std::vector<LaserObject> objects;
   preprocessor.process(emulated_scan(laser, {car}, sequence), objects);
@@ -102,9 +103,10 @@ TEST(RectangleFit, TurningTheSceneTurnsTheAnswer) {
   EXPECT_NEAR(b.y, s * a.x + c * a.y, 0.05);
 }
 
-// Many cars of the fleet the nominal size stands for, all aspects, near and far: the error of the centre, weighed by the
-// stated covariance (NEES), is of mean 2 where it is honest. A band, since the errors are neither Gaussian nor
-// independent of the aspect: on average a little on the safe side, and no aspect overconfident.
+// Many cars of the fleet the nominal size stands for, all aspects, near and far: the error of the centre,
+// weighed by the stated covariance (NEES), is of mean 2 where it is honest. A band, since the errors are
+// neither Gaussian nor independent of the aspect: on average a little on the safe side, and no aspect
+// overconfident.
 TEST(RectangleFit, TheCentresCovarianceIsHonestFromEveryAspect) {
   constexpr int kAspects = 24, kCars = 60;
   RandomStream fleet({17, 0, Purpose::kTest, 0, 0});
@@ -124,7 +126,7 @@ TEST(RectangleFit, TheCentresCovarianceIsHonestFromEveryAspect) {
       expect_positive_definite(o);
       const double nees = squared_distance(o, o.x - car.x, o.y - car.y);
       sum += nees;
-      outside += nees > 9.21;   // 99 % of a Gaussian's
+      outside += nees > 9.21;  // 99 % of a Gaussian's
       if (o.has_length) {
         ++sizes;
         wrong_size += std::abs(o.length - length) > 3.0 * o.sigma_length;

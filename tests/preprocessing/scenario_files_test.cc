@@ -34,7 +34,8 @@ TEST(ScenarioFiles, EveryShippedOneLoadsAndItsClustersAreThere) {
     EXPECT_EQ(scenario.world.duration, scenario.duration);
     for (const std::string& cluster : scenario.cluster_files)
       EXPECT_TRUE(std::filesystem::exists(cluster)) << cluster;
-    EXPECT_EQ(scenario.cluster_files[0], scenario.cluster_files[1]) << "BUFF and ADVA share their configuration";
+    EXPECT_EQ(scenario.cluster_files[0], scenario.cluster_files[1])
+        << "BUFF and ADVA share their configuration";
     EXPECT_NE(scenario.cluster_files[0], scenario.cluster_files[2]);
   }
 }

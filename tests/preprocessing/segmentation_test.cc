@@ -41,7 +41,8 @@ TEST(Segmentation, CarsBesideEachOtherAreTwo) {
   for (const double range : {12.0, 30.0, 60.0}) {
     // Turned to the sensor, so that only their rears show, 2.2 m apart.
     const double turn = std::atan2(2.0, range);
-    const auto scan = emulated_scan({}, {car_at(range, -2.0, -turn), car_at(range, 2.0, turn, 4.4, 1.8, 1)}, 0);
+    const auto scan =
+        emulated_scan({}, {car_at(range, -2.0, -turn), car_at(range, 2.0, turn, 4.4, 1.8, 1)}, 0);
     EXPECT_EQ(cut(scan).segments.size(), 2U) << range;
   }
 }
@@ -53,7 +54,8 @@ TEST(Segmentation, ACarInFrontOfAnotherIsCutFromIt) {
 }
 
 TEST(Segmentation, AFlatlySeenWallHoldsTogether) {
-  // A wall along x, 5 m to the left: at 20 m it is seen under 14 degrees, and neighbours are up to 0.4 m apart.
+  // A wall along x, 5 m to the left: at 20 m it is seen under 14 degrees, and neighbours are up to 0.4 m
+  // apart.
   std::vector<ScanPoint> scan;
   for (int k = 0; k < 200; ++k) {
     const double azimuth = std::atan2(5.0, 20.0) + 0.00436 * k;

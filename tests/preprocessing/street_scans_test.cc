@@ -1,5 +1,5 @@
-// A real scanner in a real street (shared data, read only; not part of the repository): no ground truth, so what is asked
-// for is that the boxes are plausible as vehicles and hold still from scan to scan.
+// A real scanner in a real street (shared data, read only; not part of the repository): no ground truth, so
+// what is asked for is that the boxes are plausible as vehicles and hold still from scan to scan.
 #include <gtest/gtest.h>
 
 #include <algorithm>

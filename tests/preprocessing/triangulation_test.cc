@@ -16,7 +16,8 @@ TEST(Triangulation, UndoesTheProjection) {
   CameraCalibration k;
   for (const double depth : {8.0, 25.0, 60.0})
     for (const double bearing : {-0.4, 0.0, 0.2}) {
-      const CameraObject o = triangulate(k, bearing, k.focal_px * k.baseline_m / depth, k.focal_px * 1.8 / depth);
+      const CameraObject o =
+          triangulate(k, bearing, k.focal_px * k.baseline_m / depth, k.focal_px * 1.8 / depth);
       // The point seen, then half a length on along the line of sight.
       EXPECT_NEAR(o.x - k.half_length_m * std::cos(bearing), depth, 1e-9);
       EXPECT_NEAR(o.y - k.half_length_m * std::sin(bearing), depth * std::tan(bearing), 1e-9);
@@ -37,7 +38,8 @@ TEST(Triangulation, AWideSilhouetteIsATurnedCar) {
   EXPECT_NEAR(behind(9.0), 0.9, 1e-9);
 }
 
-// J diag(variances) J' with J from central differences, and the perspective of a turned car across the line of sight.
+// J diag(variances) J' with J from central differences, and the perspective of a turned car across the line
+// of sight.
 TEST(Triangulation, CovarianceIsThatOfTheNumericJacobian) {
   const CameraCalibration k;
   for (const double depth : {8.0, 25.0, 60.0})
@@ -96,7 +98,8 @@ TEST(Triangulation, AVanishingDisparityIsFarAndUncertainButFinite) {
   }
 }
 
-// Against the sensor model: the error of a car's centre, weighed by the stated covariance, has mean 2 where it is honest.
+// Against the sensor model: the error of a car's centre, weighed by the stated covariance, has mean 2 where
+// it is honest.
 TEST(Triangulation, CovarianceIsHonestForTheEmulatedCamera) {
   world::CameraConfig camera;
   camera.miss_probability = camera.clutter_per_frame = 0.0;

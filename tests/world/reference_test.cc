@@ -13,7 +13,8 @@ namespace {
 
 // A parked car, the second of two, far enough off for the alignment to show.
 WorldConfig parked() {
-  WorldConfig config = world_from("objects: [{name: other, x: 10, y: 0}, {name: car, x: 80, y: 60, reference: true}]");
+  WorldConfig config =
+      world_from("objects: [{name: other, x: 10, y: 0}, {name: car, x: 80, y: 60, reference: true}]");
   config.duration = Duration::milliseconds(1000);
   return config;
 }
@@ -72,7 +73,8 @@ TEST(Reference, PositionNoiseHasItsSigmaPerAxis) {
   const WorldConfig config = parked();
   const World world(config, 1, 0);
   const Reference reference(c, config, 1, 0);
-  const double cosine = std::cos(reference.alignment_error_rad()), sine = std::sin(reference.alignment_error_rad());
+  const double cosine = std::cos(reference.alignment_error_rad()),
+               sine = std::sin(reference.alignment_error_rad());
   constexpr int kFixes = 2000;
   double xx = 0, yy = 0, xy = 0;
   for (std::uint32_t k = 0; k < kFixes; ++k) {
@@ -101,7 +103,8 @@ TEST(Reference, ExcursionsLastSeveralFixesAndAreAsOftenAsStated) {
     const Fix fix = reference.fix(k, world);
     const double x = fix.x - 80.0, y = fix.y - 60.0, size = std::hypot(x, y);
     if (size < 1e-9) {
-      EXPECT_TRUE(run == 0 || run >= c.excursion_fixes) << "an excursion ended after " << run << " fixes at " << k;
+      EXPECT_TRUE(run == 0 || run >= c.excursion_fixes)
+          << "an excursion ended after " << run << " fixes at " << k;
       run = 0;
     } else {
       EXPECT_NEAR(size, c.excursion_m, 1e-9);
@@ -112,7 +115,8 @@ TEST(Reference, ExcursionsLastSeveralFixesAndAreAsOftenAsStated) {
     last_x = x;
     last_y = y;
   }
-  // A fix is away unless none of the last n began an excursion; runs of n make the count spread sqrt(n) wider.
+  // A fix is away unless none of the last n began an excursion; runs of n make the count spread sqrt(n)
+  // wider.
   const double expected = 1.0 - std::pow(1.0 - c.excursion_probability, c.excursion_fixes);
   EXPECT_NEAR(away / double{kFixes}, expected,
               4.0 * std::sqrt(c.excursion_fixes * expected * (1.0 - expected) / kFixes));

@@ -83,8 +83,9 @@ TEST(Motion, ABrakingCarStopsAndStays) {
 }
 
 TEST(Trajectory, SegmentsAreDrivenInTurnThenStraightOn) {
-  WorldConfig config = world_from("objects: [{name: a, x: 0, y: 0, speed: 10, segments: ["
-                                  "{duration: 1 s, acceleration: 2}, {duration: 2 s, yaw_rate: 0.25}]}]");
+  WorldConfig config = world_from(
+      "objects: [{name: a, x: 0, y: 0, speed: 10, segments: ["
+      "{duration: 1 s, acceleration: 2}, {duration: 2 s, yaw_rate: 0.25}]}]");
   config.duration = Duration::milliseconds(5000);
   const World drive(config, 1, 0);
   const ObjectState straight = drive.state_of(ObjectId{0}, at_ms(1000));
@@ -149,8 +150,9 @@ TEST(Trajectory, SeedReplicationAndObjectEachDrawTheirOwn) {
 
 // White acceleration noise of sigma s in steps of T: after n steps the speed's variance is n s^2 T^2.
 TEST(Trajectory, ProcessNoiseHasItsVariance) {
-  WorldConfig config = world_from("{acceleration_noise: 2.0, yaw_rate_noise: 0.05,"
-                                  " objects: [{name: a, x: 0, y: 0, speed: 50}]}");
+  WorldConfig config = world_from(
+      "{acceleration_noise: 2.0, yaw_rate_noise: 0.05,"
+      " objects: [{name: a, x: 0, y: 0, speed: 50}]}");
   config.duration = Duration::milliseconds(3000);
   constexpr int kRuns = 400;
   double speed = 0, speed_squared = 0, heading = 0, heading_squared = 0;
@@ -172,10 +174,11 @@ TEST(Trajectory, ProcessNoiseHasItsVariance) {
 
 TEST(WorldFile, EveryMistakeIsFoundAtOnce) {
   try {
-    world_from("acceleration_noise: -1\n"
-               "objects:\n"
-               "  - {name: a, x: 1000, y: 0, colour: red}\n"
-               "  - {x: 1, y: fast, segments: [{acceleration: 1}]}\n");
+    world_from(
+        "acceleration_noise: -1\n"
+        "objects:\n"
+        "  - {name: a, x: 1000, y: 0, colour: red}\n"
+        "  - {x: 1, y: fast, segments: [{acceleration: 1}]}\n");
     FAIL() << "accepted";
   } catch (const InputError& error) {
     std::vector<std::string> keys;
@@ -197,8 +200,10 @@ TEST(WorldFile, EveryMistakeIsFoundAtOnce) {
 
 TEST(WorldFile, OneCarAtMostCarriesTheReference) {
   EXPECT_NO_THROW(world_from("objects: [{name: a, x: 9, y: 0, reference: true}, {name: b, x: 20, y: 0}]"));
-  EXPECT_THROW(world_from("objects: [{name: a, x: 9, y: 0, reference: true}, {name: b, x: 20, y: 0, reference: true}]"),
-               InputError);
+  EXPECT_THROW(
+      world_from(
+          "objects: [{name: a, x: 9, y: 0, reference: true}, {name: b, x: 20, y: 0, reference: true}]"),
+      InputError);
 }
 
 }  // namespace
