@@ -18,21 +18,29 @@ class TimelineStrategy : public Strategy {
     for (std::size_t i = 0; i < kMaxPending; ++i) free_.push_back(kMaxPending - 1 - i);
     waiting_.reserve(kMaxPending);
     report_.reserve(4 * kMaxPending);
-    duplicates_.reserve(kMaxPending);
-    views_.reserve(256);
+    between_.reserve(2 * kMaxPending);
+    views_.reserve(static_cast<std::size_t>(config.max_objects));
     newest_.reserve(sensors_.size());
     newest_received_.resize(sensors_.size());
     any_received_.resize(sensors_.size());
+    for (const SensorTiming& s : sensors_)
+      TTF_CHECK(!s.scheduled || s.period.ns > 0, "sensor {}: period of {} ns", index_of(s.sensor), s.period.ns);
   }
 
   void accept(const Scan& scan) final {
     const bool waiting = std::any_of(waiting_.begin(), waiting_.end(),
                                      [&](std::size_t w) { return pending_[w].id == scan.id; });
     if (waiting || timeline_.contains(scan.id)) {
-      if (duplicates_.size() < duplicates_.capacity()) duplicates_.push_back({scan.id, scan.measured, Disposition::kDuplicate});
+      note(between_, {scan.id, scan.measured, Disposition::kDuplicate});
       return;
     }
-    TTF_CHECK(!free_.empty(), "{} scans wait", waiting_.size());
+    if (free_.empty()) {
+      // More waits than there is room for: the oldest waits no longer, what it overtakes is repaired as late.
+      const std::size_t oldest = waiting_.front();
+      waiting_.erase(waiting_.begin());
+      take(pending_[oldest], between_);
+      free_.push_back(oldest);
+    }
     const std::size_t slot = free_.back();
     free_.pop_back();
     pending_[slot].assign(scan);
@@ -48,21 +56,22 @@ class TimelineStrategy : public Strategy {
   }
 
   void fuse(GlobalTime now) final {
-    report_.assign(duplicates_.begin(), duplicates_.end());
-    duplicates_.clear();
+    report_.assign(between_.begin(), between_.end());
+    between_.clear();
     std::size_t kept = 0;
     bool blocked = false;
     for (std::size_t i = 0; i < waiting_.size(); ++i) {
       const std::size_t slot = waiting_[i];
       const StoredScan& scan = pending_[slot];
-      // In chronological order: what must wait holds back all that is younger.
-      blocked = blocked || !may_fuse(scan, now);
+      // In chronological order: what must wait holds back all that is younger. A stamp from the future is wrong,
+      // and would make everything after it late.
+      blocked = blocked || scan.measured > now || !may_fuse(scan, now);
       if (blocked) {
-        report_.push_back({scan.id, scan.measured, Disposition::kHeld});
+        note(report_, {scan.id, scan.measured, Disposition::kHeld});
         waiting_[kept++] = slot;
         continue;
       }
-      take(scan);
+      take(scan, report_);
       free_.push_back(slot);
     }
     waiting_.resize(kept);
@@ -96,14 +105,18 @@ class TimelineStrategy : public Strategy {
   }
 
  private:
-  void take(const StoredScan& scan) {
+  static void note(std::vector<FusedScan>& report, const FusedScan& what) {
+    if (report.size() < report.capacity()) report.push_back(what);
+  }
+
+  void take(const StoredScan& scan, std::vector<FusedScan>& report) {
     Disposition disposition = Disposition::kFused;
     switch (timeline_.insert(scan.view())) {
       case Timeline::Insertion::kInOrder: break;
       case Timeline::Insertion::kLate: disposition = Disposition::kFusedLate; break;
       case Timeline::Insertion::kTooOld: disposition = Disposition::kDroppedTooOld; break;
     }
-    report_.push_back({scan.id, scan.measured, disposition});
+    note(report, {scan.id, scan.measured, disposition});
     if (disposition == Disposition::kDroppedTooOld) return;
     const auto known = std::find_if(newest_.begin(), newest_.end(),
                                     [&](const MeasurementId& id) { return id.sensor == scan.id.sensor; });
@@ -125,7 +138,7 @@ class TimelineStrategy : public Strategy {
   Timeline timeline_;
   std::vector<StoredScan> pending_;          // storage
   std::vector<std::size_t> free_, waiting_;  // waiting: chronological
-  std::vector<FusedScan> report_, duplicates_;
+  std::vector<FusedScan> report_, between_;  // between_: what happened since the last fusion instant
   std::vector<TrackView> views_;
   std::vector<MeasurementId> newest_;
   std::vector<GlobalTime> newest_received_;
@@ -157,17 +170,33 @@ class TimeTriggered final : public TimelineStrategy {
 
  private:
   bool may_fuse(const StoredScan& scan, GlobalTime now) const override {
+    const GlobalTime mine = scheduled_instant(scan);
     for (std::size_t s = 0; s < sensor_count(); ++s) {
       const SensorTiming& other = sensor(s);
-      if (other.sensor == scan.id.sensor || !other.scheduled || scan.measured < other.first) continue;
-      // The other sensor's newest instant that is not after this measurement. Time stamps are clock readings: an instant
-      // is matched within a quarter of the period.
-      const Duration tolerance{other.period.ns / 4};
-      const std::int64_t cycles = (scan.measured - other.first).ns / other.period.ns;
-      const GlobalTime instant = other.first + other.period * cycles;
-      if (!arrived_since(s, instant - tolerance) && now < instant + other.worst_delay) return false;
+      if (other.sensor == scan.id.sensor || !other.scheduled || mine < other.first) continue;
+      // The other sensor's newest instant that is not after this measurement's.
+      const GlobalTime instant = other.first + other.period * ((mine - other.first).ns / other.period.ns);
+      if (!arrived_since(s, instant - tolerance(other)) && now < instant + other.worst_delay) return false;
     }
     return true;
+  }
+
+  // Time stamps are clock readings: an instant of the schedule is recognised within a quarter of the period.
+  static Duration tolerance(const SensorTiming& timing) { return {timing.period.ns / 4}; }
+
+  // Instants are compared on the schedule, not by their stamps: two sensors that measure at the same instant wait
+  // for each other whichever stamp happens to be smaller. A measurement that fits no instant stands for itself.
+  GlobalTime scheduled_instant(const StoredScan& scan) const {
+    for (std::size_t s = 0; s < sensor_count(); ++s) {
+      const SensorTiming& own = sensor(s);
+      if (own.sensor != scan.id.sensor || !own.scheduled) continue;
+      const std::int64_t since = (scan.measured - own.first).ns + own.period.ns / 2;
+      const std::int64_t cycle = since >= 0 ? since / own.period.ns : -((own.period.ns - 1 - since) / own.period.ns);
+      const GlobalTime instant = own.first + own.period * cycle;
+      const Duration off = scan.measured - instant;
+      if (off <= tolerance(own) && -off <= tolerance(own)) return instant;
+    }
+    return scan.measured;
   }
 };
 

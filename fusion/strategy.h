@@ -9,7 +9,8 @@
 //       older measurements of other sensors that have not arrived and are not yet due; one that misses its due instant is
 //       not waited for.
 // Whatever a strategy fused too early (a broken promise) is repaired as in ADVA and reported as late. Scans older than the
-// history are dropped and reported. Order among scans: (measured, sensor, sequence).
+// history are dropped and reported; one with a stamp from the future waits until its time. Order among scans: (measured,
+// sensor, sequence).
 //
 // After construction nothing allocates.
 #pragma once
@@ -45,7 +46,7 @@ struct FusedScan {
   Disposition disposition = Disposition::kFused;
 };
 
-// Most scans that can wait, and most observations in one.
+// Most scans that can wait (of one more, the oldest is fused at once), and most observations in one.
 inline constexpr std::size_t kMaxPending = 32;
 inline constexpr std::size_t kMaxObservations = 64;
 

@@ -183,7 +183,7 @@ TrackView view_of(const Track& track, GlobalTime time, GlobalTime at, const Trac
   predict(estimate, config.motion, config.process_noise, dt);
   TrackView view;
   view.id = track.id;
-  view.valid_at = at;
+  view.valid_at = std::max(at, time);
   view.state = estimate.x;
   view.covariance = estimate.p;
   view.confirmed = track.confirmed;

@@ -36,10 +36,11 @@ double value_of(const std::vector<std::vector<double>>& gain, std::span<const in
 }
 
 TEST(Assignment, IsAsGoodAsTryingAllWays) {
-  Assignment assignment(7, 7);   // one object for all: nothing may be left over from the problem before
+  Assignment assignment(7, 7);  // one object for all: nothing may be left over from the problem before
   for (std::uint32_t index = 0; index < 3000; ++index) {
     RandomStream stream({.seed = 5, .purpose = Purpose::kTest, .index = index});
-    const auto rows = static_cast<std::size_t>(stream.integer(0, 6)), columns = static_cast<std::size_t>(stream.integer(0, 7));
+    const auto rows = static_cast<std::size_t>(stream.integer(0, 6)),
+               columns = static_cast<std::size_t>(stream.integer(0, 7));
     const double density = stream.uniform();
     const bool ties = stream.uniform() < 0.3;
     std::vector<std::vector<double>> gain(rows, std::vector<double>(columns, 0.0));
@@ -51,7 +52,8 @@ TEST(Assignment, IsAsGoodAsTryingAllWays) {
         candidates.push_back({static_cast<int>(r), static_cast<int>(c), gain[r][c]});
       }
     for (std::size_t i = candidates.size(); i > 1; --i)
-      std::swap(candidates[i - 1], candidates[static_cast<std::size_t>(stream.integer(0, static_cast<std::int64_t>(i) - 1))]);
+      std::swap(candidates[i - 1],
+                candidates[static_cast<std::size_t>(stream.integer(0, static_cast<std::int64_t>(i) - 1))]);
     assignment.solve(candidates, rows, columns);
     ASSERT_EQ(assignment.column_of().size(), rows);
     ASSERT_NEAR(value_of(gain, assignment.column_of()), brute_force(gain, 0, 0), 1e-9) << "problem " << index;

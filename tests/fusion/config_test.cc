@@ -51,8 +51,10 @@ TEST(TrackerConfig, ReadsEveryKey) {
 
 TEST(TrackerConfig, AllMistakesAtOnce) {
   std::vector<std::string> sentences;
-  load("motion: sideways\nprocess_noise: -1\ngate_probability: 1.0\nconfirm_window: 3\nconfirm_hits: 4\nspeed: 1\n",
-       &sentences);
+  load(
+      "motion: sideways\nprocess_noise: -1\ngate_probability: 1.0\nconfirm_window: 3\nconfirm_hits: "
+      "4\nspeed: 1\n",
+      &sentences);
   ASSERT_EQ(sentences.size(), 5u);
   EXPECT_NE(sentences[0].find("t.yaml:1: motion = sideways"), std::string::npos) << sentences[0];
   EXPECT_NE(sentences[1].find("t.yaml:2: process_noise = -1"), std::string::npos) << sentences[1];

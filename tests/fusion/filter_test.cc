@@ -45,9 +45,9 @@ TEST(Predict, TwoStepsAreOne) {
   }
 }
 
-// Steady state of the continuous Riccati equation A P + P A' + G q G' - P H' H P / rho = 0 in closed form, for two and
-// three integrators in a row. With measurements every dt of variance rho / dt, the discrete filter's mean of prior and
-// posterior comes to it as dt goes to 0.
+// Steady state of the continuous Riccati equation A P + P A' + G q G' - P H' H P / rho = 0 in closed form,
+// for two and three integrators in a row. With measurements every dt of variance rho / dt, the discrete
+// filter's mean of prior and posterior comes to it as dt goes to 0.
 TEST(Kalman, ReachesTheSteadyStateOfTheRiccatiEquation) {
   constexpr double q = 3.0, rho = 0.02, dt = 1e-3;
   for (const MotionModel motion : kModels) {
@@ -80,8 +80,9 @@ TEST(Kalman, ReachesTheSteadyStateOfTheRiccatiEquation) {
   }
 }
 
-// All states x_0 .. x_n of a run are the least-squares solution of one linear system: the prior of x_0, the transitions
-// weighed with Q^-1 and the measurements with R^-1. The last state and its covariance are what the filter must have.
+// All states x_0 .. x_n of a run are the least-squares solution of one linear system: the prior of x_0, the
+// transitions weighed with Q^-1 and the measurements with R^-1. The last state and its covariance are what
+// the filter must have.
 TEST(Kalman, EqualsBatchLeastSquares) {
   for (const MotionModel motion : kModels) {
     const int per_axis = motion == MotionModel::kConstantVelocity ? 2 : 3, n = 2 * per_axis, steps = 9;
@@ -105,9 +106,10 @@ TEST(Kalman, EqualsBatchLeastSquares) {
       information.block(k * n, k * n, n, n) += weight;
       Observation z = position(stream.normal(), stream.normal(), 0.4);
       z.r(0, 1) = z.r(1, 0) = 0.05;
-      const Eigen::Matrix2d r_inverse = z.r.topLeftCorner<2, 2>().inverse();
+      const Eigen::MatrixXd r_inverse = Eigen::MatrixXd(z.r.topLeftCorner<2, 2>()).inverse();
+      const Eigen::VectorXd measured = z.z.head<2>();
       information.block(k * n, k * n, 2, 2) += r_inverse;
-      right.segment(k * n, 2) += r_inverse * z.z.head<2>();
+      right.segment(k * n, 2) += r_inverse * measured;
       predict(estimate, motion, 2.0, dt);
       update(estimate, z, innovate(estimate, z));
     }
@@ -123,12 +125,14 @@ TEST(Kalman, CovarianceStaysSymmetricAndPositive) {
   RandomStream stream({.seed = 4});
   Estimate estimate = initial_estimate(position(5.0, 5.0, 100.0), TrackerConfig{});
   for (int i = 0; i < 2000; ++i) {
-    predict(estimate, MotionModel::kConstantVelocity, 3.0, i % 7 == 0 ? 0.0 : std::pow(10.0, stream.uniform(-5.0, 0.5)));
+    predict(estimate, MotionModel::kConstantVelocity, 3.0,
+            i % 7 == 0 ? 0.0 : std::pow(10.0, stream.uniform(-5.0, 0.5)));
     const Observation z = i % 2 ? position(5.0 + 1e-4 * stream.normal(), 5.0, 1e-4)
                                 : radar(7.07, kPi / 4.0, 0.0, 1e-3, 1e-4, 1e-3);
     update(estimate, z, innovate(estimate, z));
     ASSERT_EQ(estimate.p, estimate.p.transpose().eval());
-    ASSERT_GT(estimate.p.topLeftCorner<4, 4>().selfadjointView<Eigen::Lower>().eigenvalues().minCoeff(), 0.0) << i;
+    const Eigen::Matrix4d p = estimate.p.topLeftCorner<4, 4>();
+    ASSERT_GT(p.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff(), 0.0) << i;
   }
 }
 
@@ -145,11 +149,12 @@ TEST(Radar, JacobianIsTheDerivative) {
       State up = x, down = x;
       up(i) += step;
       down(i) -= step;
-      const Eigen::Vector3d slope =
-          (expected(ObservationKind::kRangeBearingRate, up) - expected(ObservationKind::kRangeBearingRate, down)) /
-          (2.0 * step);
+      const Eigen::Vector3d slope = (expected(ObservationKind::kRangeBearingRate, up) -
+                                     expected(ObservationKind::kRangeBearingRate, down)) /
+                                    (2.0 * step);
       for (int row = 0; row < 3; ++row)
-        ASSERT_NEAR(h(row, i), slope(row), 1e-6 * (1.0 + std::abs(slope(row)))) << "d " << row << " / d " << i;
+        ASSERT_NEAR(h(row, i), slope(row), 1e-6 * (1.0 + std::abs(slope(row))))
+            << "d " << row << " / d " << i;
     }
   }
 }
@@ -189,11 +194,13 @@ TEST(InitialEstimate, RadarKnowsTheVelocityAlongItsBeam) {
   const Eigen::Vector2d along(std::cos(bearing), std::sin(bearing)), across(-along(1), along(0));
   EXPECT_LT((estimate.x.head<2>() - 20.0 * along).norm(), 1e-12);
   EXPECT_LT((estimate.x.segment<2>(2) + 4.0 * along).norm(), 1e-12);
-  const Eigen::Matrix2d position_p = estimate.p.topLeftCorner<2, 2>(), velocity_p = estimate.p.block<2, 2>(2, 2);
+  const Eigen::Matrix2d position_p = estimate.p.topLeftCorner<2, 2>(),
+                        velocity_p = estimate.p.block<2, 2>(2, 2);
   EXPECT_NEAR(along.dot(position_p * along), 0.3 * 0.3, 1e-12);
   EXPECT_NEAR(across.dot(position_p * across), 20.0 * 20.0 * 0.03 * 0.03, 1e-12);
   EXPECT_NEAR(along.dot(velocity_p * along), 0.2 * 0.2, 1e-12);
-  EXPECT_NEAR(across.dot(velocity_p * across), config.initial_velocity_sigma * config.initial_velocity_sigma, 1e-9);
+  EXPECT_NEAR(across.dot(velocity_p * across), config.initial_velocity_sigma * config.initial_velocity_sigma,
+              1e-9);
   EXPECT_EQ(estimate.p(4, 4), 0.0) << "constant velocity: acceleration is zero and certain";
   // The measurement itself is the best explanation of the new state.
   EXPECT_LT(innovate(estimate, radar(20.0, bearing, -4.0, 0.3, 0.03, 0.2)).nu.norm(), 1e-12);

@@ -1,6 +1,6 @@
-// Bar-Shalom, "Update with out-of-sequence measurements in tracking: exact solution", IEEE TAES 38(3), 2002, table I:
-// scalar random walk, Q = R = 1, P(k-1|k-1) = 1, a late measurement half-way. Algorithms A, B and C are written out here,
-// as the yardstick for what rewinding gives exactly.
+// Bar-Shalom, "Update with out-of-sequence measurements in tracking: exact solution", IEEE TAES 38(3), 2002,
+// table I: scalar random walk, Q = R = 1, P(k-1|k-1) = 1, a late measurement half-way. Algorithms A, B and C
+// are written out here, as the yardstick for what rewinding gives exactly.
 #include <gtest/gtest.h>
 
 namespace ttf {
@@ -29,8 +29,12 @@ Result algorithm(char which) {
 }
 
 TEST(BarShalom2002, TableOne) {
-  const struct { char which; Result expected; } kTable[] = {
-      {'A', {0.750, 0.286, 0.524, 0.524}}, {'B', {0.833, 0.273, 0.530, 0.530}}, {'C', {0.667, 0.400, 0.400, 0.560}}};
+  const struct {
+    char which;
+    Result expected;
+  } kTable[] = {{'A', {0.750, 0.286, 0.524, 0.524}},
+                {'B', {0.833, 0.273, 0.530, 0.530}},
+                {'C', {0.667, 0.400, 0.400, 0.560}}};
   for (const auto& row : kTable) {
     const Result result = algorithm(row.which);
     EXPECT_NEAR(result.p_tau, row.expected.p_tau, 5e-4) << row.which;

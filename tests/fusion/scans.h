@@ -35,9 +35,11 @@ inline bool same_bits(const fusion::TrackSet& a, const fusion::TrackSet& b) {
     const fusion::Track &l = a.tracks[t], &r = b.tracks[t];
     if (l.id != r.id || l.confirmed != r.confirmed || l.hits != r.hits || l.misses != r.misses) return false;
     for (Eigen::Index i = 0; i < 6; ++i)
-      if (std::bit_cast<std::uint64_t>(l.estimate.x(i)) != std::bit_cast<std::uint64_t>(r.estimate.x(i))) return false;
+      if (std::bit_cast<std::uint64_t>(l.estimate.x(i)) != std::bit_cast<std::uint64_t>(r.estimate.x(i)))
+        return false;
     for (Eigen::Index i = 0; i < 36; ++i)
-      if (std::bit_cast<std::uint64_t>(l.estimate.p.data()[i]) != std::bit_cast<std::uint64_t>(r.estimate.p.data()[i]))
+      if (std::bit_cast<std::uint64_t>(l.estimate.p.data()[i]) !=
+          std::bit_cast<std::uint64_t>(r.estimate.p.data()[i]))
         return false;
   }
   return true;

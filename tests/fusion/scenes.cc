@@ -39,7 +39,8 @@ Covariance transition(MotionModel motion, double dt) {
 
 Covariance driving_noise(MotionModel motion, double q, double dt) {
   // Three nodes: exact to degree 5, and the highest power here is 4.
-  const double nodes[] = {-std::sqrt(0.6), 0.0, std::sqrt(0.6)}, weights[] = {5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
+  const double nodes[] = {-std::sqrt(0.6), 0.0, std::sqrt(0.6)},
+               weights[] = {5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
   const int driven = motion == MotionModel::kConstantAcceleration ? 4 : 2;
   Covariance sum = Covariance::Zero();
   for (int i = 0; i < 3; ++i) {
@@ -76,24 +77,23 @@ bool same_bits(const TrackSet& a, const TrackSet& b) {
   return a.time == b.time && a.next_id == b.next_id && a.started == b.started &&
          std::equal(a.tracks.begin(), a.tracks.end(), b.tracks.begin(), b.tracks.end(),
                     [](const Track& s, const Track& t) {
-                      return s.id == t.id && same(s.estimate.x, t.estimate.x) && same(s.estimate.p, t.estimate.p) &&
-                             same(s.heading, t.heading) && same(s.length, t.length) && same(s.width, t.width) &&
-                             s.hits == t.hits && s.scans == t.scans && s.misses == t.misses &&
-                             s.confirmed == t.confirmed;
+                      return s.id == t.id && same(s.estimate.x, t.estimate.x) &&
+                             same(s.estimate.p, t.estimate.p) && same(s.heading, t.heading) &&
+                             same(s.length, t.length) && same(s.width, t.width) && s.hits == t.hits &&
+                             s.scans == t.scans && s.misses == t.misses && s.confirmed == t.confirmed;
                     });
 }
 
 bool same_bits(const std::vector<TrackView>& a, const std::vector<TrackView>& b) {
-  return std::equal(
-      a.begin(), a.end(), b.begin(), b.end(), [](const TrackView& s, const TrackView& t) {
-        return s.id == t.id && s.valid_at == t.valid_at && same(s.state, t.state) &&
-               same(s.covariance, t.covariance) && same(s.heading, t.heading) &&
-               same(s.sigma_heading, t.sigma_heading) && same(s.speed, t.speed) &&
-               same(s.sigma_speed, t.sigma_speed) && same(s.acceleration, t.acceleration) &&
-               same(s.sigma_acceleration, t.sigma_acceleration) && same(s.length, t.length) &&
-               same(s.sigma_length, t.sigma_length) && same(s.width, t.width) && same(s.sigma_width, t.sigma_width) &&
-               s.confirmed == t.confirmed;
-      });
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const TrackView& s, const TrackView& t) {
+    return s.id == t.id && s.valid_at == t.valid_at && same(s.state, t.state) &&
+           same(s.covariance, t.covariance) && same(s.heading, t.heading) &&
+           same(s.sigma_heading, t.sigma_heading) && same(s.speed, t.speed) &&
+           same(s.sigma_speed, t.sigma_speed) && same(s.acceleration, t.acceleration) &&
+           same(s.sigma_acceleration, t.sigma_acceleration) && same(s.length, t.length) &&
+           same(s.sigma_length, t.sigma_length) && same(s.width, t.width) &&
+           same(s.sigma_width, t.sigma_width) && s.confirmed == t.confirmed;
+  });
 }
 
 State Lanes::truth(int object, GlobalTime at) const {
@@ -121,7 +121,8 @@ std::vector<Observation> Lanes::see(GlobalTime at, std::uint32_t index) const {
     if (stream.uniform() >= miss_probability) seen.push_back(z);
   }
   for (std::size_t i = seen.size(); i > 1; --i)
-    std::swap(seen[i - 1], seen[static_cast<std::size_t>(stream.integer(0, static_cast<std::int64_t>(i) - 1))]);
+    std::swap(seen[i - 1],
+              seen[static_cast<std::size_t>(stream.integer(0, static_cast<std::int64_t>(i) - 1))]);
   return seen;
 }
 

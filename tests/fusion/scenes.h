@@ -31,7 +31,8 @@ inline OwnedScan scan(std::uint8_t sensor, std::uint32_t sequence, GlobalTime me
 }
 
 // F(dt) over the whole state, and the covariance of the driving noise over dt, by numerical integration of
-// F(t) G q G' F(t)' with Gauss-Legendre nodes (exact for these polynomials): independent of the filter's formulas.
+// F(t) G q G' F(t)' with Gauss-Legendre nodes (exact for these polynomials): independent of the filter's
+// formulas.
 Covariance transition(MotionModel motion, double dt);
 Covariance driving_noise(MotionModel motion, double q, double dt);
 
@@ -42,8 +43,8 @@ State draw(const State& mean, const Covariance& covariance, RandomStream& stream
 bool same_bits(const TrackSet& a, const TrackSet& b);
 bool same_bits(const std::vector<TrackView>& a, const std::vector<TrackView>& b);
 
-// Objects on a grid of lanes that drive at their own constant velocity, seen with noise and in shuffled order by one
-// of two sensors in turn. A pure function of its arguments.
+// Objects on a grid of lanes that drive at their own constant velocity, seen with noise and in shuffled order
+// by one of two sensors in turn. A pure function of its arguments.
 struct Lanes {
   int objects = 25;
   double sigma = 0.2;

@@ -1,182 +1,421 @@
+// When each strategy fuses what. Timelines: x measured, > arrives at the fusion node; fusion every 10 ms.
 #include "fusion/strategy.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <bit>
+#include <algorithm>
+#include <map>
 
-#include "core/random.h"
-#include "tests/fusion/scans.h"
+#include "fusion/timeline.h"
+#include "tests/fusion/scenes.h"
 #include "tests/support/allocation_counter.h"
 
 namespace ttf::fusion {
 namespace {
 
-using testing::ElementsAre;
-using testing_support::at_ms;
-using testing_support::position;
-using testing_support::scan;
+constexpr auto milliseconds = [](std::int64_t n) { return Duration::milliseconds(n); };
 
-constexpr SensorId kLaser{0}, kCamera{1};
-
-std::vector<SensorTiming> free_sensors() {
-  return {{kLaser, Duration::milliseconds(60), false, {}, Duration::milliseconds(80)},
-          {kCamera, Duration::milliseconds(30), false, {}, Duration::milliseconds(40)}};
+SensorTiming free_running(std::uint8_t sensor, std::int64_t worst_ms) {
+  return {static_cast<SensorId>(sensor), milliseconds(worst_ms), false, {}, {}};
 }
-std::vector<SensorTiming> scheduled_sensors() {
-  return {{kLaser, Duration::milliseconds(60), true, at_ms(0), Duration::milliseconds(80)},
-          {kCamera, Duration::milliseconds(30), true, at_ms(0), Duration::milliseconds(40)}};
+SensorTiming scheduled(std::uint8_t sensor, std::int64_t worst_ms, std::int64_t first_ms,
+                       std::int64_t period_ms) {
+  return {static_cast<SensorId>(sensor), milliseconds(worst_ms), true, at_ms(first_ms),
+          milliseconds(period_ms)};
 }
 
-struct Fixture {
-  std::unique_ptr<Strategy> strategy;
-  Fixture(StrategyKind kind, const std::vector<SensorTiming>& sensors) : strategy(make_strategy(kind, {}, sensors)) {}
-  void arrives(SensorId sensor, std::uint32_t sequence, std::int64_t measured_ms) {
-    const StoredScan s = scan(static_cast<std::uint8_t>(sensor), sequence, measured_ms, {position(20, 0)});
-    strategy->accept(s.view());
-  }
-  // What a fusion instant did, as "laser 0 fused" and the like.
-  std::vector<std::string> fuse(std::int64_t now_ms) {
-    strategy->fuse(at_ms(now_ms));
-    std::vector<std::string> result;
-    for (const FusedScan& f : strategy->last_fused()) {
-      const char* const words[] = {"", "fused", "late", "held", "too old", "duplicate"};
-      result.push_back((f.id.sensor == kLaser ? "laser " : "camera ") + std::to_string(f.id.sequence) + " " +
-                       words[static_cast<int>(f.disposition)]);
-    }
-    return result;
-  }
+struct Arrival {
+  std::int64_t ms = 0;
+  OwnedScan scan;
 };
-
-//   laser   x(0)--------------------> arrives 50
-//   camera        x(20)-----> arrives 40
-//   fusion                      45        55
-// BUFF: at 45 a laser scan older than 20 may still come (until 80); at 55 it has come: both, in order. The laser scan
-// itself need not wait for the camera: a camera scan that is not older has arrived.
-TEST(Buff, HoldsUntilTheOtherSensorsOlderScanHasArrived) {
-  Fixture f(StrategyKind::kBuff, free_sensors());
-  f.arrives(kCamera, 0, 20);
-  EXPECT_THAT(f.fuse(45), ElementsAre("camera 0 held"));
-  f.arrives(kLaser, 0, 0);
-  // The laser's newest is of 0, so one of 1..20 may still come until 20 + 60.
-  EXPECT_THAT(f.fuse(55), ElementsAre("laser 0 fused", "camera 0 held"));
-  f.arrives(kLaser, 1, 30);
-  EXPECT_THAT(f.fuse(58), ElementsAre("camera 0 fused", "laser 1 held"));
+struct Fused {
+  std::int64_t ms = 0;
+  MeasurementId id;
+  Disposition disposition = Disposition::kFused;
+  bool operator==(const Fused&) const = default;
+};
+std::ostream& operator<<(std::ostream& out, const Fused& f) {
+  return out << "{" << f.ms << " ms: " << index_of(f.id.sensor) << "/" << f.id.sequence << " "
+             << static_cast<int>(f.disposition) << "}";
+}
+Fused fused(std::int64_t ms, std::uint8_t sensor, std::uint32_t sequence,
+            Disposition d = Disposition::kFused) {
+  return {ms, {static_cast<SensorId>(sensor), sequence}, d};
 }
 
-TEST(Buff, ReleasesWhenNothingOlderCanArriveAnyMore) {
-  Fixture f(StrategyKind::kBuff, free_sensors());
-  f.arrives(kCamera, 0, 20);
-  EXPECT_THAT(f.fuse(79), ElementsAre("camera 0 held"));
-  EXPECT_THAT(f.fuse(80), ElementsAre("camera 0 fused"));
-}
-
-TEST(Buff, FusesInChronologicalOrder) {
-  Fixture f(StrategyKind::kBuff, free_sensors());
-  f.arrives(kCamera, 0, 20);
-  f.arrives(kCamera, 1, 60);
-  f.arrives(kLaser, 0, 40);
-  EXPECT_THAT(f.fuse(200), ElementsAre("camera 0 fused", "laser 0 fused", "camera 1 fused"));
-}
-
-//   laser   x(0)---------------------> arrives 50
-//   camera        x(20)----> arrives 40
-// ADVA takes the camera's at once and goes back for the laser's: the tracks then are those of the right order.
-TEST(Adva, TakesLateScansInExactly) {
-  Fixture late(StrategyKind::kAdva, free_sensors()), ordered(StrategyKind::kAdva, free_sensors());
-  late.arrives(kCamera, 0, 20);
-  EXPECT_THAT(late.fuse(45), ElementsAre("camera 0 fused"));
-  late.arrives(kLaser, 0, 0);
-  EXPECT_THAT(late.fuse(55), ElementsAre("laser 0 late"));
-  ordered.arrives(kLaser, 0, 0);
-  ordered.arrives(kCamera, 0, 20);
-  EXPECT_THAT(ordered.fuse(55), ElementsAre("laser 0 fused", "camera 0 fused"));
-  for (const std::uint32_t k : {1u, 2u, 3u}) {
-    late.arrives(kCamera, k, 20 + 40 * k);
-    ordered.arrives(kCamera, k, 20 + 40 * k);
+// Fusion every 10 ms until `until`; what was reported, waiting ones left out.
+std::vector<Fused> run(Strategy& strategy, std::vector<Arrival> arrivals, std::int64_t until) {
+  std::stable_sort(arrivals.begin(), arrivals.end(),
+                   [](const Arrival& a, const Arrival& b) { return a.ms < b.ms; });
+  std::vector<Fused> out;
+  std::size_t next = 0;
+  for (std::int64_t now = 0; now <= until; now += 10) {
+    for (; next < arrivals.size() && arrivals[next].ms <= now; ++next)
+      strategy.accept(arrivals[next].scan.view());
+    strategy.fuse(at_ms(now));
+    for (const FusedScan& f : strategy.last_fused())
+      if (f.disposition != Disposition::kHeld) out.push_back({now, f.id, f.disposition});
   }
-  late.fuse(200);
-  ordered.fuse(200);
-  ASSERT_EQ(late.strategy->tracks().size(), 1u);
-  ASSERT_EQ(ordered.strategy->tracks().size(), 1u);
-  EXPECT_EQ(late.strategy->tracks()[0].state, ordered.strategy->tracks()[0].state);
-  EXPECT_EQ(late.strategy->tracks()[0].covariance, ordered.strategy->tracks()[0].covariance);
+  return out;
 }
 
-//   schedule: laser 0, 80, ...  camera 0, 40, 80, ...
-//   The camera's scan of 40 arrives at 60, when the laser's of 0 (due at 60) has arrived: fused at once, no waiting for 80.
-TEST(TimeTriggered, WaitsOnlyForWhatIsScheduledAndNotYetDue) {
-  Fixture f(StrategyKind::kTt, scheduled_sensors());
-  f.arrives(kCamera, 0, 0);
-  EXPECT_THAT(f.fuse(30), ElementsAre("camera 0 held")) << "the laser's scan of 0 is due at 60";
-  f.arrives(kLaser, 0, 0);
-  f.arrives(kCamera, 1, 40);
-  EXPECT_THAT(f.fuse(60), ElementsAre("laser 0 fused", "camera 0 fused", "camera 1 fused"));
+std::size_t held(const Strategy& strategy) {
+  return static_cast<std::size_t>(
+      std::count_if(strategy.last_fused().begin(), strategy.last_fused().end(),
+                    [](const FusedScan& f) { return f.disposition == Disposition::kHeld; }));
 }
 
+// sensor 0 (worst delay 60)  x0 ---------------------> 55                                     nothing more
+// comes sensor 1 (worst delay 30)     x10 ---> 30      x50 -> 65 fusion                        10  20  30  40
+// 50  60  70  80  90  100  110
+//   1/0 (10 ms) is there at 30, but sensor 0 could still deliver something older: until 10 + 60 = 70.
+//   0/0 ( 0 ms) is there at 55; sensor 1 has delivered something younger: fused at 60, at once.
+//   1/1 (50 ms): sensor 0 could still deliver until 50 + 60 = 110.
+TEST(Buff, WaitsUntilTheOrderIsCertain) {
+  const std::vector<SensorTiming> sensors{free_running(0, 60), free_running(1, 30)};
+  const auto strategy = make_strategy(StrategyKind::kBuff, {}, sensors);
+  const std::vector<Arrival> arrivals{
+      {55, scan(0, 0, at_ms(0))}, {30, scan(1, 0, at_ms(10))}, {65, scan(1, 1, at_ms(50))}};
+  EXPECT_EQ(run(*strategy, arrivals, 150), (std::vector{fused(60, 0, 0), fused(70, 1, 0), fused(110, 1, 1)}));
+}
+
+// sensor 0 (worst delay 60)      x10 -----------------> 45
+// sensor 1 (worst delay 30)      x10 ---> 25
+//   A scan of the same instant from the other sensor settles the order: the smaller sensor first.
+TEST(Buff, OfOneInstantTheSmallerSensorIsFirst) {
+  const std::vector<SensorTiming> sensors{free_running(0, 60), free_running(1, 30)};
+  const auto strategy = make_strategy(StrategyKind::kBuff, {}, sensors);
+  EXPECT_EQ(run(*strategy, {{45, scan(0, 0, at_ms(10))}, {25, scan(1, 0, at_ms(10))}}, 150),
+            (std::vector{fused(50, 0, 0), fused(50, 1, 0)}));
+}
+
+TEST(Buff, SaysWhatItHolds) {
+  const std::vector<SensorTiming> sensors{free_running(0, 60), free_running(1, 30)};
+  const auto strategy = make_strategy(StrategyKind::kBuff, {}, sensors);
+  strategy->accept(scan(1, 0, at_ms(10)).view());
+  strategy->fuse(at_ms(30));
+  ASSERT_EQ(strategy->last_fused().size(), 1u);
+  EXPECT_EQ(strategy->last_fused()[0].disposition, Disposition::kHeld);
+  EXPECT_EQ(strategy->last_fused()[0].measured, at_ms(10));
+  EXPECT_TRUE(strategy->newest().empty());
+}
+
+// sensor 0 breaks its promise of 60 ms: 0/0 comes after 85.
+TEST(Buff, RepairsABrokenPromise) {
+  const std::vector<SensorTiming> sensors{free_running(0, 60), free_running(1, 30)};
+  const auto strategy = make_strategy(StrategyKind::kBuff, {}, sensors);
+  EXPECT_EQ(run(*strategy, {{85, scan(0, 0, at_ms(0))}, {30, scan(1, 0, at_ms(10))}}, 150),
+            (std::vector{fused(70, 1, 0), fused(90, 0, 0, Disposition::kFusedLate)}));
+}
+
+// Any drive that keeps its promises: released in chronological order, never late, and no later than the last
+// promise.
+TEST(Buff, IsInOrderAndNeverWaitsLongerThanTheWorstDelay) {
+  const std::vector<SensorTiming> sensors{free_running(0, 120), free_running(1, 45), free_running(2, 80)};
+  const std::int64_t period[] = {80, 42, 55};
+  for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+    RandomStream stream({.seed = seed});
+    std::vector<Arrival> arrivals;
+    std::map<MeasurementId, std::pair<std::int64_t, std::int64_t>> measured_arrived;
+    for (std::uint8_t s = 0; s < 3; ++s) {
+      std::int64_t before_this = 0;
+      for (std::uint32_t k = 0; k < 20; ++k) {
+        const std::int64_t t = 7 * s + period[s] * k;
+        before_this = std::max(before_this, t + stream.integer(5, sensors[s].worst_delay.ns / 1'000'000));
+        arrivals.push_back({before_this, scan(s, k, at_ms(t))});
+        measured_arrived[arrivals.back().scan.id] = {t, before_this};
+      }
+    }
+    const auto strategy = make_strategy(StrategyKind::kBuff, {}, sensors);
+    const std::vector<Fused> result = run(*strategy, arrivals, 2500);
+    ASSERT_EQ(result.size(), arrivals.size());
+    std::pair<std::int64_t, MeasurementId> last{-1, {}};
+    for (const Fused& f : result) {
+      ASSERT_EQ(f.disposition, Disposition::kFused);
+      const auto [t, arrived] = measured_arrived[f.id];
+      ASSERT_LT(last, (std::pair{t, f.id}));
+      last = {t, f.id};
+      ASSERT_LT(f.ms, std::max(arrived, t + 120) + 10);
+    }
+  }
+}
+
+// The same drive as the first: everything at the fusion instant after its arrival, the older one as late.
+TEST(Adva, FusesOnArrival) {
+  const std::vector<SensorTiming> sensors{free_running(0, 60), free_running(1, 30)};
+  const auto strategy = make_strategy(StrategyKind::kAdva, {}, sensors);
+  const std::vector<Arrival> arrivals{
+      {55, scan(0, 0, at_ms(0))}, {30, scan(1, 0, at_ms(10))}, {65, scan(1, 1, at_ms(50))}};
+  EXPECT_EQ(run(*strategy, arrivals, 150),
+            (std::vector{fused(30, 1, 0), fused(60, 0, 0, Disposition::kFusedLate), fused(70, 1, 1)}));
+}
+
+TEST(Adva, WhatArrivesTogetherIsFusedInOrder) {
+  const auto strategy =
+      make_strategy(StrategyKind::kAdva, {}, std::vector{free_running(0, 60), free_running(1, 30)});
+  EXPECT_EQ(run(*strategy, {{25, scan(1, 0, at_ms(10))}, {25, scan(0, 0, at_ms(0))}}, 50),
+            (std::vector{fused(30, 0, 0), fused(30, 1, 0)}));
+}
+
+TEST(Adva, OlderThanTheHistoryIsDropped) {
+  TrackerConfig config;
+  config.history_scans = 2;
+  const auto strategy = make_strategy(StrategyKind::kAdva, config, std::vector{free_running(0, 60)});
+  std::vector<Arrival> arrivals;
+  for (std::uint32_t k = 1; k <= 4; ++k) arrivals.push_back({10 * k, scan(0, k, at_ms(10 * k))});
+  arrivals.push_back({60, scan(0, 0, at_ms(0))});
+  EXPECT_EQ(run(*strategy, arrivals, 60).back(), fused(60, 0, 0, Disposition::kDroppedTooOld));
+  ASSERT_EQ(strategy->newest().size(), 1u);
+  EXPECT_EQ(strategy->newest()[0].sequence, 4u);
+}
+
+// laser  (80 ms from 0, worst delay 60)    x0 --------------> 50                x80
+// camera (40 ms from 20, worst delay 35)        x20 ---> 45      x60 ---> 85
+//   camera 0 (20 ms) waits for the laser's 0 ms, which is due at 60 and comes at 50: both then. BUFF would
+//   wait for what the schedule says cannot come, until 20 + 60 = 80. camera 1 (60 ms) waits for nobody: the
+//   laser's next instant is younger.
+const std::vector<SensorTiming> kSchedule{scheduled(0, 60, 0, 80), scheduled(1, 35, 20, 40)};
+
+TEST(TimeTriggered, WaitsOnlyForWhatIsOnTheSchedule) {
+  const std::vector<Arrival> arrivals{
+      {50, scan(0, 0, at_ms(0))}, {45, scan(1, 0, at_ms(20))}, {85, scan(1, 1, at_ms(60))}};
+  const auto tt = make_strategy(StrategyKind::kTt, {}, kSchedule);
+  EXPECT_EQ(run(*tt, arrivals, 200), (std::vector{fused(50, 0, 0), fused(50, 1, 0), fused(90, 1, 1)}));
+  const auto buff = make_strategy(StrategyKind::kBuff, {}, kSchedule);
+  EXPECT_EQ(run(*buff, arrivals, 200), (std::vector{fused(50, 0, 0), fused(80, 1, 0), fused(120, 1, 1)}));
+}
+
+// laser    x0 (lost)          due 60
+// camera        x20 ---> 45
 TEST(TimeTriggered, DoesNotWaitForAMissingScanBeyondItsDueInstant) {
-  Fixture f(StrategyKind::kTt, scheduled_sensors());
-  f.arrives(kCamera, 0, 0);
-  EXPECT_THAT(f.fuse(59), ElementsAre("camera 0 held"));
-  EXPECT_THAT(f.fuse(60), ElementsAre("camera 0 fused"));
+  const auto strategy = make_strategy(StrategyKind::kTt, {}, kSchedule);
+  EXPECT_EQ(run(*strategy, {{45, scan(1, 0, at_ms(20))}}, 200), (std::vector{fused(60, 1, 0)}));
 }
 
-TEST(AllStrategies, FuseEachScanOnce) {
-  for (const auto kind : {StrategyKind::kBuff, StrategyKind::kAdva, StrategyKind::kTt}) {
-    Fixture f(kind, free_sensors());
-    f.arrives(kCamera, 0, 20);
-    f.arrives(kCamera, 0, 20);
-    EXPECT_THAT(f.fuse(200), ElementsAre("camera 0 duplicate", "camera 0 fused"));
-    f.arrives(kCamera, 0, 20);
-    EXPECT_THAT(f.fuse(210), ElementsAre("camera 0 duplicate"));
+// laser    x0 ------------------------------> 75 (due 60)
+// camera        x20 ---> 45
+TEST(TimeTriggered, RepairsABrokenPromise) {
+  const Lanes lanes{.objects = 3};
+  const OwnedScan laser = scan(0, 0, at_ms(0), lanes.see(at_ms(0), 0)),
+                  camera = scan(1, 0, at_ms(20), lanes.see(at_ms(20), 1));
+  const auto strategy = make_strategy(StrategyKind::kTt, {}, kSchedule),
+             in_order = make_strategy(StrategyKind::kTt, {}, kSchedule);
+  EXPECT_EQ(run(*strategy, {{75, laser}, {45, camera}}, 100),
+            (std::vector{fused(60, 1, 0), fused(80, 0, 0, Disposition::kFusedLate)}));
+  run(*in_order, {{45, laser}, {45, camera}}, 100);
+  EXPECT_EQ(strategy->tentative_count(), 3);
+  EXPECT_EQ(strategy->newest_measured(), at_ms(20));
+  // Confirm both with the same further scans: the images must be the same to the last bit.
+  std::vector<TrackView> image[2];
+  int i = 0;
+  for (Strategy* s : {strategy.get(), in_order.get()}) {
+    for (std::uint32_t k = 1; k <= 3; ++k)
+      s->accept(scan(1, k, at_ms(20 + 40 * k), lanes.see(at_ms(20 + 40 * k), k)).view());
+    s->fuse(at_ms(500));
+    s->image(at_ms(500), image[i++]);
+  }
+  EXPECT_EQ(image[0].size(), 3u);
+  EXPECT_TRUE(same_bits(image[0], image[1]));
+}
+
+// Stamps are clock readings. Both measure at 40 ms; the camera stamps 39.997 and arrives first, the
+// laser 39.995.
+//   By its stamp alone the camera would have no scheduled predecessor, and the laser would come late.
+TEST(TimeTriggered, SensorsOfOneInstantWaitForEachOtherWhateverTheStamps) {
+  const std::vector<SensorTiming> together{scheduled(0, 60, 0, 40), scheduled(1, 35, 0, 40)};
+  const GlobalTime laser_stamp{39'995'000}, camera_stamp{39'997'000};
+  const auto strategy = make_strategy(StrategyKind::kTt, {}, together);
+  EXPECT_EQ(run(*strategy,
+                {{25, scan(0, 0, at_ms(0))},
+                 {25, scan(1, 0, at_ms(0))},
+                 {60, scan(1, 1, camera_stamp)},
+                 {90, scan(0, 1, laser_stamp)}},
+                200),
+            (std::vector{fused(30, 0, 0), fused(30, 1, 0), fused(90, 0, 1), fused(90, 1, 1)}));
+  // The laser's is lost: not beyond 40 + 60.
+  const auto without = make_strategy(StrategyKind::kTt, {}, together);
+  EXPECT_EQ(run(*without, {{60, scan(1, 1, camera_stamp)}}, 200), (std::vector{fused(100, 1, 1)}));
+}
+
+// An instant of the schedule is recognised though the stamp is a little early or late.
+TEST(TimeTriggered, RecognisesInstantsByStampsThatAreALittleOff) {
+  for (const std::int64_t off_ns : {-300'000, 0, 300'000}) {
+    const auto strategy = make_strategy(StrategyKind::kTt, {}, kSchedule);
+    EXPECT_EQ(
+        run(*strategy, {{30, scan(0, 0, at_ms(0) + Duration{off_ns})}, {45, scan(1, 0, at_ms(20))}}, 200),
+        (std::vector{fused(30, 0, 0), fused(50, 1, 0)}));
   }
 }
 
-TEST(AllStrategies, AnImageIsAPredictionThatTouchesNothing) {
-  for (const auto kind : {StrategyKind::kBuff, StrategyKind::kAdva, StrategyKind::kTt}) {
-    Fixture f(kind, free_sensors());
-    for (std::uint32_t k = 0; k < 8; ++k) {
-      const StoredScan s = scan(1, k, 40 * k, {position(20 + 0.4 * k, 0)});
-      f.strategy->accept(s.view());
-      f.fuse(40 * k + 200);
-    }
-    std::vector<TrackView> first, far, again;
-    f.strategy->image(at_ms(400), first);
-    f.strategy->image(at_ms(900), far);
-    f.strategy->image(at_ms(400), again);
-    ASSERT_EQ(first.size(), 1u);
-    EXPECT_EQ(first[0].state, again[0].state);
-    EXPECT_EQ(first[0].covariance, again[0].covariance);
-    EXPECT_NEAR(far[0].state(0) - first[0].state(0), 0.5 * first[0].state(2), 1e-9);
-    EXPECT_GT(far[0].covariance(0, 0), first[0].covariance(0, 0));
-    EXPECT_EQ(f.strategy->newest_measured(), at_ms(280));
-    EXPECT_THAT(f.strategy->newest(), ElementsAre(MeasurementId{kCamera, 7}));
-  }
+// Before a sensor's first instant there is nothing to wait for.
+TEST(TimeTriggered, TheScheduleHasABeginning) {
+  const auto strategy =
+      make_strategy(StrategyKind::kTt, {}, std::vector{scheduled(0, 60, 100, 80), scheduled(1, 35, 20, 40)});
+  EXPECT_EQ(run(*strategy, {{45, scan(1, 0, at_ms(20))}}, 200), (std::vector{fused(50, 1, 0)}));
 }
 
-TEST(AllStrategies, AllocateNothingAfterConstruction) {
-  for (const auto kind : {StrategyKind::kBuff, StrategyKind::kAdva, StrategyKind::kTt}) {
-    Fixture f(kind, free_sensors());
-    RandomStream random({9, 0, Purpose::kTest, 0, 0});
-    // Scans are made before counting; every third one is late by two.
-    std::vector<StoredScan> scans;
-    for (std::uint32_t k = 0; k < 300; ++k) {
-      std::vector<Observation> list;
-      for (int i = 0; i < 25; ++i)
-        list.push_back(position(15 + 6 * (i / 5) + 0.2 * random.normal(), 6 * (i % 5 - 2) + 0.2 * random.normal()));
-      scans.push_back(scan(static_cast<std::uint8_t>(k % 2), k / 2, 40 * k - (k % 3 == 0 ? 90 : 0), std::move(list)));
-    }
-    std::vector<TrackView> image;
-    image.reserve(256);
-    const std::int64_t before = support::allocations();
-    for (std::uint32_t k = 0; k < 300; ++k) {
-      f.strategy->accept(scans[k].view());
-      f.strategy->fuse(at_ms(40 * k + 70));
-      f.strategy->image(at_ms(40 * k + 80), image);
-    }
-    EXPECT_EQ(support::allocations() - before, 0);
-    EXPECT_EQ(image.size(), 25u);
+class EveryStrategy : public testing::TestWithParam<StrategyKind> {};
+std::string name_of(const testing::TestParamInfo<StrategyKind>& kind) {
+  switch (kind.param) {
+    case StrategyKind::kBuff:
+      return "Buff";
+    case StrategyKind::kAdva:
+      return "Adva";
+    case StrategyKind::kTt:
+      return "Tt";
   }
+  return "";
+}
+INSTANTIATE_TEST_SUITE_P(All, EveryStrategy,
+                         testing::Values(StrategyKind::kBuff, StrategyKind::kAdva, StrategyKind::kTt),
+                         name_of);
+
+// Two sensors on a schedule, with delays up to their worst, so that many arrive out of order.
+std::vector<Arrival> drive(std::uint64_t seed, std::uint32_t laser_scans) {
+  RandomStream stream({.seed = seed});
+  const Lanes laser{.miss_probability = 0.05, .seed = seed},
+      camera{.sigma = 0.4, .miss_probability = 0.1, .seed = seed + 1000};
+  std::vector<Arrival> arrivals;
+  for (std::uint32_t k = 0; k < laser_scans; ++k)
+    arrivals.push_back(
+        {80 * k + stream.integer(30, 60), scan(0, k, at_ms(80 * k), laser.see(at_ms(80 * k), k))});
+  for (std::uint32_t k = 0; k < 2 * laser_scans; ++k)
+    arrivals.push_back({20 + 40 * k + stream.integer(5, 35),
+                        scan(1, k, at_ms(20 + 40 * k), camera.see(at_ms(20 + 40 * k), k))});
+  return arrivals;
+}
+
+TEST_P(EveryStrategy, EndsWithTheBitsOfInOrderProcessing) {
+  const std::vector<Arrival> arrivals = drive(1, 40);
+  const auto strategy = make_strategy(GetParam(), {}, kSchedule);
+  const std::vector<Fused> result = run(*strategy, arrivals, 3500);
+  EXPECT_EQ(result.size(), arrivals.size());
+  const auto late = std::count_if(result.begin(), result.end(),
+                                  [](const Fused& f) { return f.disposition == Disposition::kFusedLate; });
+  if (GetParam() == StrategyKind::kAdva)
+    EXPECT_GT(late, 5);
+  else
+    EXPECT_EQ(late, 0) << "all promises were kept";
+
+  std::vector<OwnedScan> in_order;
+  for (const Arrival& a : arrivals) in_order.push_back(a.scan);
+  std::sort(in_order.begin(), in_order.end(), [](const OwnedScan& a, const OwnedScan& b) {
+    return before(a.id, a.measured, b.id, b.measured);
+  });
+  Timeline timeline(TrackerConfig{}, kMaxObservations);
+  for (const OwnedScan& s : in_order) timeline.insert(s.view());
+  std::vector<TrackView> expected, image;
+  for (const Track& track : timeline.current().tracks)
+    if (track.confirmed)
+      expected.push_back(view_of(track, timeline.current().time, at_ms(3300), TrackerConfig{}));
+  strategy->image(at_ms(3300), image);
+  EXPECT_EQ(image.size(), 25u);
+  EXPECT_TRUE(same_bits(image, expected));
+  EXPECT_EQ(strategy->confirmed_count(), 25);
+  EXPECT_EQ(strategy->newest_measured(), in_order.back().measured);
+  ASSERT_EQ(strategy->newest().size(), 2u);
+  for (const MeasurementId& id : strategy->newest())
+    EXPECT_EQ(id.sequence, id.sensor == SensorId{0} ? 39u : 79u);
+}
+
+TEST_P(EveryStrategy, AnImageLeavesNoTrace) {
+  const auto looked_at = make_strategy(GetParam(), {}, kSchedule),
+             undisturbed = make_strategy(GetParam(), {}, kSchedule);
+  std::vector<Arrival> arrivals = drive(2, 10);
+  std::stable_sort(arrivals.begin(), arrivals.end(),
+                   [](const Arrival& a, const Arrival& b) { return a.ms < b.ms; });
+  std::size_t next = 0;
+  std::vector<TrackView> image, again, others;
+  for (std::int64_t now = 0; now <= 900; now += 10) {
+    for (; next < arrivals.size() && arrivals[next].ms <= now; ++next) {
+      looked_at->accept(arrivals[next].scan.view());
+      undisturbed->accept(arrivals[next].scan.view());
+    }
+    looked_at->fuse(at_ms(now));
+    undisturbed->fuse(at_ms(now));
+    looked_at->image(at_ms(now + 40), image);
+    looked_at->image(at_ms(now + 5000), others);
+    looked_at->image(at_ms(0), others);
+    looked_at->image(at_ms(now + 40), again);
+    ASSERT_TRUE(same_bits(image, again));
+    ASSERT_TRUE(same_bits({looked_at->tracks().begin(), looked_at->tracks().end()},
+                          {undisturbed->tracks().begin(), undisturbed->tracks().end()}));
+  }
+  EXPECT_EQ(image.size(), 25u);
+  undisturbed->image(at_ms(940), others);
+  EXPECT_TRUE(same_bits(image, others));
+}
+
+TEST_P(EveryStrategy, ADuplicateIsReportedAndChangesNothing) {
+  const auto once = make_strategy(GetParam(), {}, kSchedule),
+             twice = make_strategy(GetParam(), {}, kSchedule);
+  std::vector<Arrival> arrivals = drive(3, 6), repeated = arrivals;
+  for (const Arrival& a : arrivals) {
+    repeated.push_back(a);                     // at once, while it may still wait
+    repeated.push_back({a.ms + 100, a.scan});  // when it is long fused
+  }
+  const std::size_t count = run(*once, arrivals, 1000).size();
+  const std::vector<Fused> result = run(*twice, repeated, 1000);
+  EXPECT_EQ(result.size(), 3 * count);
+  EXPECT_EQ(static_cast<std::size_t>(
+                std::count_if(result.begin(), result.end(),
+                              [](const Fused& f) { return f.disposition == Disposition::kDuplicate; })),
+            2 * count);
+  std::vector<TrackView> a, b;
+  once->image(at_ms(1000), a);
+  twice->image(at_ms(1000), b);
+  EXPECT_FALSE(a.empty());
+  EXPECT_TRUE(same_bits(a, b));
+}
+
+TEST_P(EveryStrategy, AStampFromTheFutureWaitsForItsTime) {
+  const auto strategy = make_strategy(GetParam(), {}, kSchedule);
+  strategy->accept(scan(0, 0, at_ms(0), {position(10.0, 0.0, 0.1)}).view());
+  strategy->accept(scan(0, 1, at_ms(30'000), {position(10.0, 0.0, 0.1)}).view());
+  strategy->fuse(at_ms(100));
+  EXPECT_EQ(held(*strategy), 1u);
+  EXPECT_EQ(strategy->newest_measured(), at_ms(0));
+  EXPECT_EQ(strategy->tentative_count(), 1);
+}
+
+TEST_P(EveryStrategy, MoreThanCanWaitIsFusedOldestFirst) {
+  // Sensor 1 is silent and would be waited for until 20 s are over.
+  const std::vector<SensorTiming> sensors{free_running(0, 20), scheduled(1, 20'000, 0, 40)};
+  const auto strategy = make_strategy(GetParam(), {}, sensors);
+  const auto many = static_cast<std::uint32_t>(kMaxPending + 8);
+  for (std::uint32_t k = 0; k < many; ++k) strategy->accept(scan(0, k, at_ms(k)).view());
+  strategy->fuse(at_ms(100));
+  EXPECT_EQ(strategy->last_fused().size(), many) << "each is accounted for";
+  EXPECT_EQ(held(*strategy), GetParam() == StrategyKind::kAdva ? 0u : kMaxPending);
+  for (std::size_t i = 0; i < many; ++i) EXPECT_EQ(strategy->last_fused()[i].id.sequence, i);
+  strategy->fuse(at_ms(30'000));
+  EXPECT_EQ(held(*strategy), 0u);
+  EXPECT_EQ(strategy->newest()[0].sequence, many - 1);
+}
+
+TEST_P(EveryStrategy, AllocatesNothingAfterConstruction) {
+  std::vector<Arrival> arrivals = drive(4, 60);
+  for (std::size_t i = 0; i < 20; ++i)
+    arrivals.push_back({arrivals[i].ms + 50, arrivals[i].scan});  // duplicates too
+  std::stable_sort(arrivals.begin(), arrivals.end(),
+                   [](const Arrival& a, const Arrival& b) { return a.ms < b.ms; });
+  std::vector<TrackView> image;
+  image.reserve(25);
+  const auto strategy = make_strategy(GetParam(), {}, kSchedule);
+  std::size_t next = 0;
+  const std::int64_t before_all = support::allocations();
+  for (std::int64_t now = 0; now <= 5000; now += 10) {
+    for (; next < arrivals.size() && arrivals[next].ms <= now; ++next)
+      strategy->accept(arrivals[next].scan.view());
+    strategy->fuse(at_ms(now));
+    if (now % 40 == 0) strategy->image(at_ms(now + 40), image);
+  }
+  EXPECT_EQ(support::allocations() - before_all, 0);
+  EXPECT_EQ(image.size(), 25u);
+  // The counter counts.
+  const std::int64_t before_one = support::allocations();
+  image.reserve(1000);
+  EXPECT_EQ(support::allocations() - before_one, 1);
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ std::vector<StoredScan> six_scans() {
     return std::vector{position(20 + 5 * t + 0.2 * random.normal(), 0.2 * random.normal()),
                        position(30 - 4 * t + 0.2 * random.normal(), 6 + 0.2 * random.normal())};
   };
-  return {scan(0, 0, 0, objects(0)),       scan(1, 0, 40, objects(0.04)),  scan(0, 1, 80, objects(0.08)),
+  return {scan(0, 0, 0, objects(0)),     scan(1, 0, 40, objects(0.04)),  scan(0, 1, 80, objects(0.08)),
           scan(1, 1, 80, objects(0.08)), scan(1, 2, 120, objects(0.12)), scan(0, 2, 160, objects(0.16))};
 }
 
@@ -51,8 +51,9 @@ TEST(Timeline, ShuffledLongRunsToo) {
   std::vector<StoredScan> scans;
   for (std::uint32_t k = 0; k < 40; ++k) {
     const double t = 0.05 * k;
-    std::vector<Observation> list{position(20 + 6 * t + 0.3 * random.normal(), -3 + 3 * t + 0.3 * random.normal(), 0.3),
-                                  position(32 - 6 * t + 0.3 * random.normal(), 3 - 3 * t + 0.3 * random.normal(), 0.3)};
+    std::vector<Observation> list{
+        position(20 + 6 * t + 0.3 * random.normal(), -3 + 3 * t + 0.3 * random.normal(), 0.3),
+        position(32 - 6 * t + 0.3 * random.normal(), 3 - 3 * t + 0.3 * random.normal(), 0.3)};
     if (random.uniform() < 0.4) list.push_back(position(random.uniform(10, 40), random.uniform(-8, 8)));
     scans.push_back(scan(static_cast<std::uint8_t>(k % 3), k / 3, 50 * k, std::move(list)));
   }

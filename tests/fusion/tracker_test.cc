@@ -31,9 +31,9 @@ struct Bench {
   }
 };
 
-// Every pattern of hits and misses of ten scans, against the rule in words: a track is born by a hit without a track;
-// it is confirmed as soon as 3 of its last 5 scans are hits; tentative, it ends as soon as 3 of 5 cannot be reached any
-// more; confirmed, it ends with the 4th miss in a row.
+// Every pattern of hits and misses of ten scans, against the rule in words: a track is born by a hit without
+// a track; it is confirmed as soon as 3 of its last 5 scans are hits; tentative, it ends as soon as 3 of 5
+// cannot be reached any more; confirmed, it ends with the 4th miss in a row.
 TEST(Tracker, EveryPatternOfHitsFollowsTheRule) {
   TrackerConfig config;
   config.confirm_hits = 3;
@@ -43,7 +43,7 @@ TEST(Tracker, EveryPatternOfHitsFollowsTheRule) {
   config.initial_velocity_sigma = 0.1;
   for (unsigned pattern = 0; pattern < 1u << 10; ++pattern) {
     Bench bench(config);
-    std::optional<std::string> history;   // of the living track
+    std::optional<std::string> history;  // of the living track
     bool is_confirmed = false;
     unsigned births = 0;
     for (int k = 0; k < 10; ++k) {
@@ -60,8 +60,9 @@ TEST(Tracker, EveryPatternOfHitsFollowsTheRule) {
         const auto hits = std::count(recent.begin(), recent.end(), 'h');
         is_confirmed = is_confirmed || hits >= 3;
         const auto still_to_come = static_cast<std::ptrdiff_t>(5 - recent.size());
-        const bool ends = is_confirmed ? history->size() >= 4 && history->substr(history->size() - 4) == "----"
-                                       : hits + still_to_come < 3;
+        const bool ends = is_confirmed
+                              ? history->size() >= 4 && history->substr(history->size() - 4) == "----"
+                              : hits + still_to_come < 3;
         if (ends) history.reset();
       }
       ASSERT_EQ(bench.set.tracks.size(), history ? 1u : 0u) << "pattern " << pattern << " scan " << k;
@@ -109,9 +110,11 @@ TEST(Tracker, Follows25ObjectsEachWithItsOwnTrack) {
     ASSERT_EQ(confirmed(bench.set), 25) << "scan " << k;
     for (int object = 0; object < 25; ++object) {
       const State truth = lanes.truth(object, t);
-      const auto nearest = std::min_element(bench.set.tracks.begin(), bench.set.tracks.end(), [&](const Track& a, const Track& b) {
-        return (a.estimate.x - truth).head<2>().squaredNorm() < (b.estimate.x - truth).head<2>().squaredNorm();
-      });
+      const auto nearest = std::min_element(bench.set.tracks.begin(), bench.set.tracks.end(),
+                                            [&](const Track& a, const Track& b) {
+                                              return (a.estimate.x - truth).head<2>().squaredNorm() <
+                                                     (b.estimate.x - truth).head<2>().squaredNorm();
+                                            });
       const double squared = (nearest->estimate.x - truth).head<2>().squaredNorm();
       ASSERT_LT(squared, 1.0);
       squares += squared;
@@ -204,12 +207,13 @@ TEST(View, AxisTellsTheHeadingOfWhatStandsAndCourseTellsItsFront) {
   EXPECT_NEAR(view_of(standing, at_ms(0), at_ms(0), TrackerConfig{}).heading, 2.0, 1e-12);
   // Driving along +x with an axis measured half a turn off: weighed on the side it drives to.
   Track driving = moving_track(10.0, 0.0, 1.0);
-  driving.heading = {M_PI - 0.2, 0.01, true};   // course variance is 0.01 too
+  driving.heading = {M_PI - 0.2, 0.01, true};  // course variance is 0.01 too
   const TrackView view = view_of(driving, at_ms(0), at_ms(0), TrackerConfig{});
   EXPECT_NEAR(view.heading, -0.1, 1e-12);
   EXPECT_NEAR(view.sigma_heading, std::sqrt(0.005), 1e-12);
   Track unknown = moving_track(0.0, 0.0, 0.5);
-  EXPECT_NEAR(view_of(unknown, at_ms(0), at_ms(0), TrackerConfig{}).sigma_heading, M_PI / std::sqrt(3.0), 1e-12);
+  EXPECT_NEAR(view_of(unknown, at_ms(0), at_ms(0), TrackerConfig{}).sigma_heading, M_PI / std::sqrt(3.0),
+              1e-12);
 }
 
 TEST(View, AccelerationIsAlongTheHeading) {
