@@ -38,9 +38,7 @@ std::optional<CanController::Arrival> CanController::receive(const CanFrame& fra
     if (frame.data.size() < bytes) break;
     IncomingList& list = *incoming_[m];
     const ArrivalEffect effect = list.arrive(frame.data.first(bytes));
-    const std::uint32_t sequence =
-        effect == ArrivalEffect::kCompleted ? list.latest()->sequence : list.collecting();
-    return Arrival{message.pdu, effect, sequence};
+    return Arrival{message.pdu, effect, list.arrived()};
   }
   ++foreign_frames_;
   return std::nullopt;

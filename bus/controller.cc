@@ -14,6 +14,11 @@ using schedules::FrameSlot;
 
 bool in_cycle(const FrameSlot& frame, std::int64_t cycle) { return cycle % frame.repetition == frame.base_cycle; }
 
+const schedules::NodeParameters& parameters(const schedules::Cluster& cluster, NodeId node) {
+  TTF_CHECK(cluster.node(node).flexray.has_value(), "{} is not on FlexRay", cluster.node(node).name);
+  return *cluster.node(node).flexray;
+}
+
 timebase::CycleGeometry geometry(const schedules::GlobalParameters& g, const schedules::NodeParameters& p) {
   return {g.gMacroPerCycle, g.gdMacrotick_ps, p.pMicroPerCycle, g.gOffsetCorrectionStart};
 }
@@ -54,7 +59,7 @@ struct FlexRayController::State {
   std::array<std::byte, wire::kMaxFrameBytes> frame{};
 
   State(const schedules::Cluster& c, NodeId n, FlexRayPort& medium, ControllerEvents& host)
-      : cluster(c), g(c.flexray), p(*c.node(n).flexray), node(n), port(medium), events(host),
+      : cluster(c), g(c.flexray), p(parameters(c, n)), node(n), port(medium), events(host),
         expected(static_cast<std::size_t>(g.gNumberOfStaticSlots)),
         sent(c.pdus.size()), received(c.pdus.size()), seen(static_cast<std::size_t>(g.gNumberOfStaticSlots)) {
     for (const FrameSlot& slot : c.frames) {
@@ -117,7 +122,7 @@ struct FlexRayController::State {
 
 FlexRayController::FlexRayController(const schedules::Cluster& cluster, NodeId node, InitialClock clock,
                                      FlexRayPort& port, ControllerEvents& events)
-    : clock_(geometry(cluster.flexray, *cluster.node(node).flexray), clock.cycle_start, clock.rate),
+    : clock_(geometry(cluster.flexray, parameters(cluster, node)), clock.cycle_start, clock.rate),
       state_(std::make_unique<State>(cluster, node, port, events)) {
   state_->next_rate = clock.rate;
   state_->start_cycle(0);
@@ -244,7 +249,8 @@ void FlexRayController::receive(const Reception& reception) {
   const FrameSlot* expected = s.expected_in(slot, cycle, reception.channel);
   if (errors == 0 &&
       (decoded.header.frame_id != slot || decoded.header.cycle != s.counter(cycle) ||
-       decoded.header.payload_words != s.g.gPayloadLengthStatic || expected == nullptr))
+       decoded.header.payload_words != s.g.gPayloadLengthStatic || expected == nullptr ||
+       (decoded.header.startup && !decoded.header.sync)))
     errors |= kContentError;
   if (seen.valid[c]) errors |= kTransmissionConflict;   // a second frame in one slot
   seen.errors[c] |= errors;
@@ -262,8 +268,7 @@ void FlexRayController::receive(const Reception& reception) {
   IncomingList& list = *s.received[index_of(expected->pdu)];
   const auto bytes = static_cast<std::size_t>(s.cluster.pdu(expected->pdu).fragment_bytes);
   const ArrivalEffect effect = list.arrive(decoded.payload.first(bytes));
-  const std::uint32_t sequence = effect == ArrivalEffect::kCompleted ? list.latest()->sequence : list.collecting();
-  s.events.list_arrived(expected->pdu, effect, sequence, reception.end);
+  s.events.list_arrived(expected->pdu, effect, list.arrived(), reception.end);
 }
 
 OutgoingList& FlexRayController::outgoing(PduId pdu) {

@@ -65,16 +65,17 @@ ArrivalEffect IncomingList::arrive(std::span<const std::byte> payload) {
   const auto count = static_cast<int>(wire::read_header_raw(*layout_, payload, count_signal_));
   if (count > layout_->max_elements || fragment >= layout_->fragments_of(count)) return ArrivalEffect::kMalformed;
   const std::uint32_t sequence = unwrap(raw);
+  arrived_sequence_ = sequence;
   if (complete_ && sequence == complete_sequence_ && (!collecting_ || collecting_sequence_ != sequence))
     return ArrivalEffect::kDuplicate;
 
   bool torn = false;
-  const int fragments = layout_->fragments_of(count);
-  if (!collecting_ || collecting_sequence_ != sequence || collecting_fragments_ != fragments) {
+  if (!collecting_ || collecting_sequence_ != sequence || collecting_count_ != count) {
     torn = collecting_;
     collecting_ = true;
     collecting_sequence_ = sequence;
-    collecting_fragments_ = fragments;
+    collecting_count_ = count;
+    collecting_fragments_ = layout_->fragments_of(count);
     collecting_present_ = 0;
     std::fill(present_.begin(), present_.end(), false);
   }
@@ -89,7 +90,7 @@ ArrivalEffect IncomingList::arrive(std::span<const std::byte> payload) {
   complete_ = true;
   read_ = false;
   complete_sequence_ = sequence;
-  complete_fragments_ = fragments;
+  complete_fragments_ = collecting_fragments_;
   collecting_ = false;
   return ArrivalEffect::kCompleted;
 }

@@ -60,6 +60,8 @@ class IncomingList {
   bool unread() const { return complete_ && !read_; }
   // The list that is being collected (for the log).
   std::uint32_t collecting() const { return collecting_sequence_; }
+  // The list that the newest well-formed fragment belongs to, whatever its effect.
+  std::uint32_t arrived() const { return arrived_sequence_; }
 
  private:
   std::uint32_t unwrap(std::uint32_t raw) const;
@@ -67,8 +69,8 @@ class IncomingList {
   std::size_t sequence_signal_, fragment_signal_, count_signal_;
   std::vector<std::byte> collecting_bytes_, complete_bytes_;
   std::vector<bool> present_;
-  std::uint32_t collecting_sequence_ = 0, complete_sequence_ = 0;
-  int collecting_fragments_ = 0, collecting_present_ = 0, complete_fragments_ = 0;
+  std::uint32_t collecting_sequence_ = 0, complete_sequence_ = 0, arrived_sequence_ = 0;
+  int collecting_count_ = 0, collecting_fragments_ = 0, collecting_present_ = 0, complete_fragments_ = 0;
   bool collecting_ = false, complete_ = false, read_ = false;
 };
 

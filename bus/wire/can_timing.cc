@@ -25,7 +25,9 @@ constexpr int kTail = 1 + 1 + 1 + 7 + 3;
 constexpr int kFdArbitration = 1 + 11 + 1 + 1 + 1 + 1 + 1;
 constexpr int kFdControl = 1 + 4;
 
-// Stuff count and CRC of an FD frame with their fixed stuff bits: one before the count, and one before every fourth bit on.
+// Stuff count and CRC of an FD frame with their fixed stuff bits: one before the count, and one after every fourth bit.
+// They stand at fixed places, so the CRC's value does not matter. The bit rate changes at the sample points within BRS
+// and CRC delimiter; both bits count in full at the nominal rate, which is the longer.
 int fd_crc_bits(int bytes) { return bytes <= 16 ? 4 + 17 + 6 : 4 + 21 + 7; }
 
 Duration duration_of(const schedules::CanBus& bus, BitCount bits) {
@@ -41,6 +43,8 @@ BitCount unstuffed(const schedules::CanBus& bus, int bytes) {
 }
 
 // Counts the stuff bits of a bit sequence: after five equal bits (stuff bits counted) the opposite one is inserted.
+// In an FD frame stuffing ends with the data: where its last bits are five equal ones, the fixed stuff bit that follows
+// anyhow is the only one (ISO 11898-1:2015, 10.5).
 class Stuffing {
  public:
   void bit(bool value, bool data_rate) {
@@ -49,7 +53,8 @@ class Stuffing {
     else
       run_ = 1;
     last_ = value;
-    if (run_ == 5) {
+    pending_ = run_ == 5;
+    if (pending_) {
       ++(data_rate ? data_ : nominal_);
       last_ = !value;
       run_ = 1;
@@ -60,9 +65,11 @@ class Stuffing {
   }
   std::int64_t nominal() const { return nominal_; }
   std::int64_t data() const { return data_; }
+  // The last bit of the sequence set off a stuff bit.
+  bool pending() const { return pending_; }
 
  private:
-  bool last_ = false;
+  bool last_ = false, pending_ = false;
   int run_ = 0;
   std::int64_t nominal_ = 0, data_ = 0;
 };
@@ -105,6 +112,7 @@ Duration can_frame_duration(const schedules::CanBus& bus, std::uint32_t identifi
     stuffing.bits(0b00101, 5, false);                 // RRS, IDE, FDF, res, BRS
     stuffing.bits(code, kFdControl, true);            // ESI (error active) and DLC
     for (const std::byte byte : data) stuffing.bits(static_cast<std::uint32_t>(byte), 8, true);
+    if (stuffing.pending()) --bits.data;
   } else {
     const std::uint32_t header = ((identifier & 0x7FFu) << 7) | code;   // SOF 0, id, RTR IDE r0 0, DLC
     Crc15 crc;

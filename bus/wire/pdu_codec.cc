@@ -1,5 +1,6 @@
 #include "bus/wire/pdu_codec.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/check.h"
@@ -46,7 +47,9 @@ std::uint32_t to_raw(const schedules::Signal& signal, double physical, int* satu
   TTF_CHECK(!std::isnan(physical), "{} is not a number", signal.name);
   const double bounded = physical < signal.low ? signal.low : physical > signal.high ? signal.high : physical;
   if (bounded != physical && saturated != nullptr) ++*saturated;
-  return static_cast<std::uint32_t>(std::llround((bounded - signal.low) / signal.resolution));
+  const long long raw = std::llround((bounded - signal.low) / signal.resolution);
+  // `high` may lie up to half a resolution above the last code: that rounds to it, never round to zero.
+  return static_cast<std::uint32_t>(std::min(raw, (1LL << signal.bits) - 1));
 }
 
 double to_physical(const schedules::Signal& signal, std::uint32_t raw) {

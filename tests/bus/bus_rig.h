@@ -1,0 +1,217 @@
+// A small cluster on a small medium, for tests of the controller and of the port: 1 ms cycles of ten static slots.
+//
+//   slots 1..4   key slots of nodes 0..3: sync status frames on A and B
+//   slots 5..8   list "list", four fragments, node 0, A and B
+//   slot 9       list "odd", one fragment, node 1, channel A, odd cycles
+//   slot 10      nobody's
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "bus/controller.h"
+#include "bus/flexray_port.h"
+#include "schedules/cluster.h"
+#include "tests/bus/layouts.h"
+#include "timebase/oscillator.h"
+
+namespace ttf::bus {
+
+inline constexpr PduId kList{0}, kOddList{1};
+inline constexpr int kMicroPerCycle = 40'000;   // of 25 ns
+
+inline schedules::Cluster small_cluster(int nodes) {
+  schedules::Cluster cluster;
+  cluster.name = "small";
+  schedules::GlobalParameters& g = cluster.flexray;
+  g.gMacroPerCycle = 1000;
+  g.gdCycle_ps = 1'000'000'000;
+  g.gNumberOfStaticSlots = 10;
+  g.gPayloadLengthStatic = 8;
+  g.gdNIT = 160;
+  g.gOffsetCorrectionStart = 900;
+  for (int n = 0; n < nodes; ++n) {
+    schedules::Node node;
+    node.name = "node" + std::to_string(n);
+    node.flexray.emplace();
+    node.flexray->pMicroPerCycle = kMicroPerCycle;
+    node.flexray->pKeySlotId = n + 1;
+    node.flexray->pKeySlotUsedForSync = node.flexray->pKeySlotUsedForStartup = true;
+    node.flexray->pOffsetCorrectionOut = 400;
+    node.flexray->pRateCorrectionOut = 121;   // 40'000 * 0.003 / 0.9985
+    cluster.nodes.push_back(node);
+    cluster.frames.push_back({n + 1, schedules::Channels::kAB, 0, 1, static_cast<NodeId>(n), kNoPdu, 0, 0});
+  }
+  cluster.pdus = {list_layout(4, 10, 3), list_layout(4, 3, 3)};
+  for (int f = 0; f < 4; ++f)
+    cluster.frames.push_back({5 + f, schedules::Channels::kAB, 0, 1, NodeId{0}, kList, f, 0});
+  if (nodes > 1) cluster.frames.push_back({9, schedules::Channels::kA, 1, 2, NodeId{1}, kOddList, 0, 0});
+  return cluster;
+}
+
+// Everything a controller says.
+struct Heard final : ControllerEvents {
+  struct Problem { std::int64_t cycle; int slot; schedules::Channel channel; int status; };
+  struct Sent { std::int64_t cycle; int slot; schedules::Channel channel; Microticks start; bool null_frame; PduId pdu;
+                std::uint32_t sequence; int fragment; bool last; std::vector<std::byte> bytes; };
+  struct Arrived { PduId pdu; ArrivalEffect effect; std::uint32_t sequence; Microticks at; };
+  struct Corrected { std::int64_t cycle; timebase::Correction offset, rate; };
+  std::vector<Problem> problems;
+  std::vector<Sent> sent;
+  std::vector<Arrived> arrived;
+  std::vector<Corrected> corrected;
+  std::vector<std::int64_t> cycles;
+
+  void cycle_started(std::int64_t cycle, Microticks) override { cycles.push_back(cycle); }
+  void slot_problem(std::int64_t cycle, int slot, schedules::Channel channel, SlotStatus status, Microticks) override {
+    problems.push_back({cycle, slot, channel, status});
+  }
+  void frame_sent(const Transmission& t, std::int64_t cycle, bool null_frame, PduId pdu, std::uint32_t sequence,
+                  int fragment, bool last) override {
+    sent.push_back({cycle, t.slot, t.channel, t.start, null_frame, pdu, sequence, fragment, last,
+                    {t.bytes.begin(), t.bytes.end()}});
+  }
+  void list_arrived(PduId pdu, ArrivalEffect effect, std::uint32_t sequence, Microticks at) override {
+    arrived.push_back({pdu, effect, sequence, at});
+  }
+  void clock_corrected(std::int64_t cycle, const timebase::Correction& offset, const timebase::Correction& rate,
+                       Microticks) override {
+    corrected.push_back({cycle, offset, rate});
+  }
+};
+
+// Two channels on which every frame arrives everywhere after one and the same delay.
+class TestMedium {
+ public:
+  struct Arrival {
+    TrueTime start, end;
+    schedules::Channel channel;
+    std::size_t sender, receiver;
+    std::vector<std::byte> bytes;
+    auto order() const { return std::tuple(end, channel, sender, receiver); }
+  };
+
+  TestMedium(const schedules::GlobalParameters& flexray, std::vector<timebase::Oscillator> oscillators, Duration delay)
+      : flexray_(flexray), oscillators_(std::move(oscillators)), delay_(delay) {
+    for (std::size_t n = 0; n < oscillators_.size(); ++n) ports_.push_back(std::make_unique<Port>(*this, n));
+  }
+  FlexRayPort& port(std::size_t node) { return *ports_[node]; }
+  const timebase::Oscillator& oscillator(std::size_t node) const { return oscillators_[node]; }
+
+  std::optional<TrueTime> next() const {
+    if (pending_.empty()) return std::nullopt;
+    return first()->end;
+  }
+  Arrival pop() {
+    const auto at = first();
+    Arrival arrival = *at;
+    pending_.erase(at);
+    return arrival;
+  }
+  Reception reception(const Arrival& arrival) const {
+    const timebase::Oscillator& clock = oscillators_[arrival.receiver];
+    return {arrival.channel, clock.ticks_at(arrival.start), clock.ticks_at(arrival.end), arrival.bytes};
+  }
+
+ private:
+  struct Port final : FlexRayPort {
+    TestMedium& medium;
+    std::size_t node;
+    Port(TestMedium& m, std::size_t n) : medium(m), node(n) {}
+    void transmit(const Transmission& transmission) override { medium.transmit(node, transmission); }
+  };
+
+  void transmit(std::size_t sender, const Transmission& t) {
+    const auto bits = flexray_.gdTSSTransmitter + 1 + 10 * static_cast<std::int64_t>(t.bytes.size()) + 2;
+    const Duration length{(bits * flexray_.gdBit_ps + 999) / 1000};
+    const TrueTime start = oscillators_[sender].time_of(t.start) + delay_;
+    for (std::size_t receiver = 0; receiver < ports_.size(); ++receiver)
+      if (receiver != sender)
+        pending_.push_back({start, start + length, t.channel, sender, receiver, {t.bytes.begin(), t.bytes.end()}});
+  }
+  std::vector<Arrival>::const_iterator first() const {
+    return std::min_element(pending_.begin(), pending_.end(),
+                            [](const Arrival& a, const Arrival& b) { return a.order() < b.order(); });
+  }
+
+  schedules::GlobalParameters flexray_;
+  std::vector<timebase::Oscillator> oscillators_;
+  Duration delay_;
+  std::vector<std::unique_ptr<Port>> ports_;
+  std::vector<Arrival> pending_;
+};
+
+// Controllers on a test medium in virtual time. All cycles 0 start within a microtick of 1 ms, rates uncorrected.
+class Rig {
+ public:
+  Rig(schedules::Cluster cluster, const std::vector<std::int64_t>& drifts_ppb, Duration delay = {})
+      : cluster_(std::move(cluster)), medium_(cluster_.flexray, oscillators(drifts_ppb), delay) {
+    for (std::size_t n = 0; n < drifts_ppb.size(); ++n) {
+      heard_.push_back(std::make_unique<Heard>());
+      const InitialClock clock{medium_.oscillator(n).ticks_at(kStart) + Microticks{1}, 0};
+      controllers_.push_back(std::make_unique<FlexRayController>(cluster_, static_cast<NodeId>(n), clock,
+                                                                 medium_.port(n), *heard_[n]));
+    }
+  }
+
+  // False drops the arrival; it may be changed on the way.
+  std::function<bool(TestMedium::Arrival&)> on_the_way;
+
+  void run_until(TrueTime end) {
+    while (true) {
+      std::size_t node = 0;
+      for (std::size_t n = 1; n < controllers_.size(); ++n)
+        if (due(n) < due(node)) node = n;
+      const auto arrival = medium_.next();
+      // Arrivals first where they coincide.
+      if (arrival && *arrival <= due(node)) {
+        if (*arrival > end) return;
+        TestMedium::Arrival frame = medium_.pop();
+        if (!on_the_way || on_the_way(frame)) controllers_[frame.receiver]->receive(medium_.reception(frame));
+      } else {
+        if (due(node) > end) return;
+        controllers_[node]->advance(medium_.oscillator(node).ticks_at(due(node)));
+      }
+    }
+  }
+  void run_cycles(std::int64_t cycles) { run_until(kStart + Duration::milliseconds(cycles)); }
+
+  GlobalTime global_time(std::size_t node, TrueTime at) const {
+    return controllers_[node]->clock().global_time(medium_.oscillator(node).ticks_at(at));
+  }
+  Duration precision(TrueTime at) const {
+    GlobalTime low = global_time(0, at), high = low;
+    for (std::size_t n = 1; n < controllers_.size(); ++n) {
+      low = std::min(low, global_time(n, at));
+      high = std::max(high, global_time(n, at));
+    }
+    return high - low;
+  }
+  FlexRayController& controller(std::size_t node) { return *controllers_[node]; }
+  Heard& heard(std::size_t node) { return *heard_[node]; }
+  const schedules::Cluster& cluster() const { return cluster_; }
+
+  static constexpr TrueTime kStart{1'000'000};
+
+ private:
+  TrueTime due(std::size_t node) const { return medium_.oscillator(node).time_of(controllers_[node]->next_event()); }
+  static std::vector<timebase::Oscillator> oscillators(const std::vector<std::int64_t>& drifts_ppb) {
+    std::vector<timebase::Oscillator> made;
+    for (std::size_t n = 0; n < drifts_ppb.size(); ++n)
+      made.emplace_back(25'000, drifts_ppb[n], static_cast<std::int64_t>(n) * 6'100 % 25'000);
+    return made;
+  }
+
+  schedules::Cluster cluster_;
+  TestMedium medium_;
+  std::vector<std::unique_ptr<Heard>> heard_;
+  std::vector<std::unique_ptr<FlexRayController>> controllers_;
+};
+
+}  // namespace ttf::bus

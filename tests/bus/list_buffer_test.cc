@@ -1,0 +1,267 @@
+#include "bus/list_buffer.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <deque>
+#include <vector>
+
+#include "core/random.h"
+#include "tests/bus/layouts.h"
+
+namespace ttf::bus {
+namespace {
+
+using enum ArrivalEffect;
+
+// What a reader sees must be exactly one written list.
+void expect_latest(const IncomingList& incoming, const MadeList& list) {
+  const auto latest = incoming.latest();
+  ASSERT_TRUE(latest.has_value());
+  EXPECT_EQ(latest->sequence, list.sequence);
+  EXPECT_EQ(latest->fragments, list.fragments);
+  EXPECT_TRUE(std::equal(latest->bytes.begin(), latest->bytes.end(), list.bytes.begin(), list.bytes.end()));
+}
+
+TEST(IncomingList, IsEmptyUntilTheFirstListIsComplete) {
+  const auto layout = list_layout();
+  IncomingList incoming(layout);
+  EXPECT_FALSE(incoming.latest());
+  EXPECT_FALSE(incoming.unread());
+  EXPECT_FALSE(incoming.mark_read());
+  MadeList list(layout, 0, 10, 100);
+  for (int f = 0; f < 3; ++f) {
+    EXPECT_EQ(incoming.arrive(list.fragment(f)), kIncomplete);
+    EXPECT_FALSE(incoming.latest());
+  }
+  EXPECT_EQ(incoming.arrive(list.fragment(3)), kCompleted);
+  expect_latest(incoming, list);
+}
+
+TEST(IncomingList, FragmentsMayComeInAnyOrder) {
+  const auto layout = list_layout();
+  int order[] = {0, 1, 2, 3};
+  std::uint32_t sequence = 0;
+  IncomingList incoming(layout);
+  do {
+    MadeList list(layout, sequence, 10, 7 * sequence);
+    ++sequence;
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(incoming.arrive(list.fragment(order[i])), kIncomplete);
+    EXPECT_EQ(incoming.arrive(list.fragment(order[3])), kCompleted);
+    expect_latest(incoming, list);
+  } while (std::next_permutation(std::begin(order), std::end(order)));
+}
+
+TEST(IncomingList, AnEmptyListIsAMessageToo) {
+  const auto layout = list_layout();
+  IncomingList incoming(layout);
+  MadeList list(layout, 3, 0, 0);
+  EXPECT_EQ(list.fragments, 1);
+  EXPECT_EQ(incoming.arrive(list.fragment(0)), kCompleted);
+  expect_latest(incoming, list);
+}
+
+TEST(IncomingList, TwoChannelsGiveOneList) {
+  const auto layout = list_layout();
+  IncomingList incoming(layout);
+  MadeList list(layout, 1, 7, 5);
+  EXPECT_EQ(incoming.arrive(list.fragment(0)), kIncomplete);
+  EXPECT_EQ(incoming.arrive(list.fragment(0)), kDuplicate);
+  EXPECT_EQ(incoming.arrive(list.fragment(1)), kIncomplete);
+  EXPECT_EQ(incoming.arrive(list.fragment(1)), kDuplicate);
+  EXPECT_EQ(incoming.arrive(list.fragment(2)), kCompleted);
+  EXPECT_EQ(incoming.arrive(list.fragment(2)), kDuplicate);
+  EXPECT_EQ(incoming.arrived(), 1u);
+  expect_latest(incoming, list);
+}
+
+// One channel loses a fragment, the other another: together they have the list.
+TEST(IncomingList, ChannelsCompleteEachOther) {
+  const auto layout = list_layout();
+  IncomingList incoming(layout);
+  MadeList list(layout, 1, 7, 5);
+  EXPECT_EQ(incoming.arrive(list.fragment(0)), kIncomplete);   // A
+  EXPECT_EQ(incoming.arrive(list.fragment(2)), kIncomplete);   // B
+  EXPECT_EQ(incoming.arrive(list.fragment(1)), kCompleted);    // A
+  expect_latest(incoming, list);
+}
+
+TEST(IncomingList, ARepeatedListIsNotCollectedAgain) {
+  const auto layout = list_layout();
+  IncomingList incoming(layout);
+  MadeList list(layout, 2, 9, 1);
+  for (int f = 0; f < 3; ++f) incoming.arrive(list.fragment(f));
+  EXPECT_TRUE(incoming.mark_read());
+  for (int repetition = 0; repetition < 5; ++repetition)
+    for (int f = 0; f < 3; ++f) EXPECT_EQ(incoming.arrive(list.fragment(f)), kDuplicate);
+  EXPECT_FALSE(incoming.unread());   // read once, it stays read
+  // And the next list does not find a half-collected repetition in its way.
+  incoming.arrive(list.fragment(0));
+  MadeList next(layout, 3, 9, 2);
+  EXPECT_EQ(incoming.arrive(next.fragment(0)), kIncomplete);
+}
+
+TEST(IncomingList, ATornListIsNeverHandedOut) {
+  const auto layout = list_layout();
+  IncomingList incoming(layout);
+  MadeList whole(layout, 1, 9, 10), torn(layout, 2, 9, 20), next(layout, 3, 9, 30);
+  for (int f = 0; f < 3; ++f) incoming.arrive(whole.fragment(f));
+  EXPECT_EQ(incoming.arrive(torn.fragment(0)), kIncomplete);
+  EXPECT_EQ(incoming.arrive(torn.fragment(1)), kIncomplete);
+  EXPECT_EQ(incoming.arrive(next.fragment(0)), kTorn);
+  EXPECT_EQ(incoming.arrived(), 3u);
+  expect_latest(incoming, whole);
+  EXPECT_EQ(incoming.arrive(next.fragment(1)), kIncomplete);
+  expect_latest(incoming, whole);
+  EXPECT_EQ(incoming.arrive(next.fragment(2)), kCompleted);
+  expect_latest(incoming, next);
+}
+
+// Same sequence number, another count: two different lists all the same.
+TEST(IncomingList, AnotherCountUnderOneNumberTears) {
+  const auto layout = list_layout();
+  IncomingList incoming(layout);
+  MadeList longer(layout, 1, 9, 10), shorter(layout, 1, 6, 20);
+  EXPECT_EQ(incoming.arrive(longer.fragment(0)), kIncomplete);
+  EXPECT_EQ(incoming.arrive(shorter.fragment(1)), kTorn);
+  EXPECT_EQ(incoming.arrive(shorter.fragment(0)), kCompleted);
+  expect_latest(incoming, shorter);
+  // Also where both take three fragments.
+  MadeList nine(layout, 2, 9, 10), eight(layout, 2, 8, 20);
+  EXPECT_EQ(incoming.arrive(nine.fragment(0)), kIncomplete);
+  EXPECT_EQ(incoming.arrive(nine.fragment(1)), kIncomplete);
+  EXPECT_EQ(incoming.arrive(eight.fragment(2)), kTorn);
+  expect_latest(incoming, shorter);
+}
+
+TEST(IncomingList, ARepeatedOlderListDoesNotTearTheNewer) {
+  const auto layout = list_layout();
+  IncomingList incoming(layout);
+  MadeList whole(layout, 1, 9, 10), next(layout, 2, 9, 20);
+  for (int f = 0; f < 3; ++f) incoming.arrive(whole.fragment(f));
+  EXPECT_EQ(incoming.arrive(next.fragment(0)), kIncomplete);
+  EXPECT_EQ(incoming.arrive(whole.fragment(2)), kDuplicate);   // the second channel's copy, late
+  EXPECT_EQ(incoming.arrived(), 1u);
+  EXPECT_EQ(incoming.collecting(), 2u);
+  EXPECT_EQ(incoming.arrive(next.fragment(1)), kIncomplete);
+  EXPECT_EQ(incoming.arrive(next.fragment(2)), kCompleted);
+}
+
+TEST(IncomingList, MalformedHeadersAreIgnored) {
+  const auto layout = list_layout();
+  IncomingList incoming(layout);
+  MadeList list(layout, 1, 9, 10);
+  EXPECT_EQ(incoming.arrive(list.fragment(0)), kIncomplete);
+  std::vector<std::byte> bad(list.fragment(1).begin(), list.fragment(1).end());
+  wire::write_header_raw(layout, bad, 2, 11);   // more elements than there may be
+  EXPECT_EQ(incoming.arrive(bad), kMalformed);
+  wire::write_header_raw(layout, bad, 2, 9);
+  wire::write_header_raw(layout, bad, 0, 3);    // a fourth fragment of nine elements
+  EXPECT_EQ(incoming.arrive(bad), kMalformed);
+  wire::write_header_raw(layout, bad, 0, 15);
+  EXPECT_EQ(incoming.arrive(bad), kMalformed);
+  EXPECT_EQ(incoming.arrive(list.fragment(1)), kIncomplete);
+  EXPECT_EQ(incoming.arrive(list.fragment(2)), kCompleted);
+  expect_latest(incoming, list);
+}
+
+TEST(IncomingList, SequenceCountsOnWhereTheFieldWraps) {
+  for (const int bits : {2, 4, 8}) {
+    const auto layout = list_layout(bits);
+    IncomingList incoming(layout);
+    for (std::uint32_t sequence = 0; sequence < 600; ++sequence) {
+      MadeList list(layout, sequence, 2, sequence);
+      EXPECT_EQ(incoming.arrive(list.fragment(0)), kCompleted);
+      expect_latest(incoming, list);
+    }
+  }
+}
+
+// Lists may be lost: the next one is the nearest that fits, and the nearest may lie a little before.
+TEST(IncomingList, SequenceIsTheNearestToTheLast) {
+  const auto layout = list_layout(4);
+  IncomingList incoming(layout);
+  std::uint32_t sequence = 0;
+  for (const std::uint32_t step : {5u, 8u, 1u, 7u, 3u, 8u, 6u}) {
+    sequence += step;
+    MadeList list(layout, sequence, 2, 0);
+    incoming.arrive(list.fragment(0));
+    EXPECT_EQ(incoming.latest()->sequence, sequence);
+  }
+  MadeList before(layout, sequence - 7, 2, 0);
+  incoming.arrive(before.fragment(0));
+  EXPECT_EQ(incoming.latest()->sequence, sequence - 7);
+}
+
+TEST(IncomingList, ReadOnce) {
+  const auto layout = list_layout();
+  IncomingList incoming(layout);
+  MadeList one(layout, 1, 1, 1), two(layout, 2, 1, 2);
+  incoming.arrive(one.fragment(0));
+  EXPECT_TRUE(incoming.unread());
+  EXPECT_TRUE(incoming.mark_read());
+  EXPECT_FALSE(incoming.mark_read());
+  EXPECT_FALSE(incoming.unread());
+  incoming.arrive(two.fragment(0));
+  EXPECT_TRUE(incoming.unread());
+  EXPECT_TRUE(incoming.mark_read());
+}
+
+// Fragments of a sender that moves on, lost and repeated at random on two channels: whatever is handed out was sent so.
+TEST(IncomingList, WhateverTheNetworkDoesAListIsWholeOrNotThere) {
+  RandomStream stream({7, 0, Purpose::kTest, 1, 0});
+  const auto layout = list_layout(8);
+  IncomingList incoming(layout);
+  std::deque<MadeList> sent;
+  int completed = 0;
+  for (std::uint32_t sequence = 0; sequence < 3000; ++sequence) {
+    sent.emplace_back(layout, sequence, static_cast<int>(stream.integer(0, 10)),
+                      static_cast<std::uint32_t>(stream.integer(0, 50'000)));
+    if (sent.size() > 3) sent.pop_front();
+    for (int arrival = 0; arrival < 12; ++arrival) {
+      // Mostly the newest list, now and then one before.
+      MadeList& from = stream.integer(0, 9) == 0 ? sent.front() : sent.back();
+      if (incoming.arrive(from.fragment(static_cast<int>(stream.integer(0, from.fragments - 1)))) == kCompleted)
+        ++completed;
+      const auto latest = incoming.latest();
+      if (!latest) continue;
+      const auto match = std::find_if(sent.begin(), sent.end(),
+                                      [&](const MadeList& list) { return list.sequence == latest->sequence; });
+      if (match == sent.end()) continue;   // an older one is still the latest
+      ASSERT_EQ(match->fragments, latest->fragments);
+      ASSERT_TRUE(std::equal(latest->bytes.begin(), latest->bytes.end(), match->bytes.begin(), match->bytes.end()));
+    }
+  }
+  EXPECT_GT(completed, 1000);
+}
+
+TEST(OutgoingList, OffersTheFragmentsOfTheNewestWrite) {
+  const auto layout = list_layout();
+  OutgoingList outgoing(layout);
+  EXPECT_TRUE(outgoing.empty());
+  EXPECT_TRUE(outgoing.fragment(0).empty());
+  MadeList longer(layout, 1, 10, 0), shorter(layout, 2, 4, 50);
+  outgoing.write(longer.view());
+  EXPECT_EQ(outgoing.fragments(), 4);
+  EXPECT_EQ(outgoing.fragment(3).size(), static_cast<std::size_t>(layout.fragment_bytes));
+  outgoing.write(shorter.view());
+  EXPECT_EQ(outgoing.sequence(), 2u);
+  for (int f = 0; f < 2; ++f) {
+    const auto expected = shorter.fragment(f);
+    const auto offered = outgoing.fragment(f);
+    EXPECT_TRUE(std::equal(offered.begin(), offered.end(), expected.begin(), expected.end()));
+  }
+  EXPECT_TRUE(outgoing.fragment(2).empty());   // nothing of the longer list is left
+  EXPECT_TRUE(outgoing.fragment(-1).empty());
+}
+
+TEST(OutgoingListDeathTest, AListThatDoesNotFitIsOurBug) {
+  const auto layout = list_layout();
+  const auto larger = list_layout(4, 20);
+  OutgoingList outgoing(layout);
+  MadeList list(larger, 1, 20, 0);
+  EXPECT_DEATH(outgoing.write(list.view()), "fragments");
+}
+
+}  // namespace
+}  // namespace ttf::bus

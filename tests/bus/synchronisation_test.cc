@@ -1,0 +1,245 @@
+// Clock synchronisation as the controllers do it: what they measure, when they correct, and that clusters converge.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "bus/wire/flexray_frame.h"
+#include "tests/bus/bus_rig.h"
+
+namespace ttf::bus {
+namespace {
+
+using schedules::Channel;
+
+// (34 + 20 * gClusterDriftDamping) * gdMaxMicrotick: the assumed precision without propagation delay.
+constexpr Duration kAssumedPrecision{(34 + 20 * 2) * 25};
+
+struct NoPort final : FlexRayPort {
+  void transmit(const Transmission&) override {}
+};
+
+// Node 3 by itself; sync frames of nodes 0..2 arrive as the test says, late by so many microticks.
+struct Listener {
+  schedules::Cluster cluster = small_cluster(4);
+  NoPort port;
+  Heard heard;
+  FlexRayController controller;
+
+  explicit Listener(schedules::Cluster made = small_cluster(4))
+      : cluster(std::move(made)), controller(cluster, NodeId{3}, {{0}, 0}, port, heard) {}
+
+  // In the running cycle, which must not be past its slot.
+  void sync_frame(int slot, int late, Channel channel) {
+    wire::FrameHeader header;
+    header.frame_id = static_cast<std::uint16_t>(slot);
+    header.cycle = static_cast<std::uint8_t>(controller.clock().cycle() % 64);
+    header.sync = header.startup = true;
+    const std::vector<std::byte> payload(16);
+    std::vector<std::byte> bytes(wire::kMaxFrameBytes);
+    bytes.resize(wire::encode_frame(header, channel, payload, bytes));
+    const Microticks start = controller.clock().start_of({84 * (slot - 1) + 7}) + Microticks{late};
+    controller.receive({channel, start, start + Microticks{1000}, bytes});
+  }
+  void both(int slot, int late) {
+    sync_frame(slot, late, Channel::kA);
+    sync_frame(slot, late, Channel::kB);
+  }
+  void next_cycle() { controller.advance(controller.clock().cycle_end()); }
+  void end_static_segment() { controller.advance(controller.clock().start_of({840})); }
+};
+
+// Own frame 0 and those late by 10, 20 and 300: one dropped at each end, (10 + 20) / 2.
+TEST(Deviations, OffsetIsTheMidpointWithTheOwnFrameAsZero) {
+  Listener node;
+  node.next_cycle();
+  node.both(1, 10);
+  node.both(2, 300);
+  node.both(3, 20);
+  const Microticks start = node.controller.clock().cycle_start();
+  const Microticks correction_phase = node.controller.clock().start_of({900});
+  node.end_static_segment();
+  ASSERT_EQ(node.heard.corrected.size(), 1u);
+  EXPECT_EQ(node.heard.corrected[0].cycle, 1);
+  EXPECT_EQ(node.heard.corrected[0].offset.value, 15);
+  // Applied in the odd cycle's end: before the correction phase nothing moves.
+  EXPECT_EQ(node.controller.clock().start_of({900}), correction_phase);
+  EXPECT_EQ(node.controller.clock().cycle_end(), start + Microticks{kMicroPerCycle + 15});
+}
+
+TEST(Deviations, TheSmallerChannelCounts) {
+  Listener node;
+  node.next_cycle();
+  node.sync_frame(1, 30, Channel::kA);
+  node.sync_frame(1, 22, Channel::kB);
+  node.end_static_segment();
+  EXPECT_EQ(node.heard.corrected[0].offset.value, 11);   // (0 + 22) / 2
+}
+
+TEST(Deviations, EvenCyclesDoNotCorrectTheOffset) {
+  Listener node;
+  node.both(1, 50);
+  node.end_static_segment();
+  EXPECT_TRUE(node.heard.corrected.empty());
+  EXPECT_EQ(node.controller.clock().offset_correction(), 0);
+  node.next_cycle();   // an odd cycle in which nothing arrives: its own frame only
+  node.end_static_segment();
+  EXPECT_EQ(node.heard.corrected[0].offset.value, 0);
+}
+
+TEST(Deviations, DelayCompensationIsTakenOffPerChannel) {
+  schedules::Cluster cluster = small_cluster(4);
+  cluster.nodes[3].flexray->pDelayCompensationA = 10;
+  cluster.nodes[3].flexray->pDelayCompensationB = 4;
+  Listener node(cluster);
+  node.next_cycle();
+  node.sync_frame(1, 30, Channel::kA);   // 20
+  node.sync_frame(2, 30, Channel::kB);   // 26
+  node.end_static_segment();
+  EXPECT_EQ(node.heard.corrected[0].offset.value, 20);   // the middle of 0, 20, 26
+}
+
+TEST(Deviations, FramesWithoutSyncIndicatorAreNotMeasured) {
+  Rig rig(small_cluster(2), {0, 0});
+  rig.on_the_way = [](TestMedium::Arrival& frame) {
+    frame.start += Duration{1000};   // all frames that are not in key slots come 40 microticks late
+    const auto decoded = wire::decode_frame(frame.channel, frame.bytes);
+    if (decoded.header.sync) frame.start = frame.start - Duration{1000};
+    return true;
+  };
+  rig.run_cycles(10);
+  for (const auto& corrected : rig.heard(1).corrected) EXPECT_LE(std::abs(corrected.offset.value), 1);
+}
+
+TEST(Rates, ComeFromOddMinusEvenAndHoldFromTheNextEvenCycle) {
+  Listener node;
+  node.both(1, 5);
+  node.both(2, 5);
+  node.both(3, 5);
+  node.next_cycle();
+  node.both(1, 45);
+  node.both(2, 45);
+  node.both(3, 45);
+  node.end_static_segment();
+  ASSERT_EQ(node.heard.corrected.size(), 1u);
+  EXPECT_EQ(node.heard.corrected[0].rate.value, 38);   // 40, damped by 2
+  EXPECT_EQ(node.controller.clock().rate_correction(), 0);   // not yet in force
+  node.next_cycle();
+  EXPECT_EQ(node.controller.clock().cycle(), 2);
+  EXPECT_EQ(node.controller.clock().rate_correction(), 38);
+  node.next_cycle();
+  EXPECT_EQ(node.controller.clock().rate_correction(), 38);   // both cycles of the pair
+  node.next_cycle();
+  // Nobody was heard in the pair; its own frame alone says no change, damping takes two.
+  EXPECT_EQ(node.controller.clock().rate_correction(), 36);
+}
+
+TEST(Rates, DeviationsOfAnEarlierPairAreForgotten) {
+  Listener node;
+  node.both(1, 5);
+  for (int cycle = 0; cycle < 3; ++cycle) node.next_cycle();
+  node.both(1, 45);   // odd cycle 3; nothing was heard in even cycle 2
+  node.end_static_segment();
+  EXPECT_EQ(node.heard.corrected.back().rate.value, 0);
+}
+
+struct Case {
+  std::vector<std::int64_t> drifts_ppb;
+};
+class Convergence : public testing::TestWithParam<Case> {};
+
+TEST_P(Convergence, FromUncorrectedRatesToTheAssumedPrecision) {
+  const auto& drifts = GetParam().drifts_ppb;
+  Rig rig(small_cluster(static_cast<int>(drifts.size())), drifts);
+  rig.run_cycles(40);
+  Duration worst{};
+  for (int quarter = 160; quarter < 1600; ++quarter) {
+    const TrueTime at = Rig::kStart + Duration::microseconds(250) * quarter;
+    rig.run_until(at);
+    worst = std::max(worst, rig.precision(at));
+  }
+  EXPECT_LT(worst, kAssumedPrecision);
+  EXPECT_GT(worst, Duration{});
+  for (std::size_t n = 0; n < drifts.size(); ++n) {
+    EXPECT_TRUE(rig.heard(n).problems.empty()) << n;
+    EXPECT_FALSE(rig.heard(n).corrected.back().offset.missing);
+    EXPECT_FALSE(rig.heard(n).corrected.back().rate.limit_reached);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Drifts, Convergence,
+                         testing::Values(Case{{1'500'000, -1'500'000}}, Case{{1'500'000, 0, -1'500'000}},
+                                         Case{{1'500'000, 1'400'000, -1'500'000}},
+                                         Case{{1'500'000, -1'500'000, 1'500'000, -1'500'000}},
+                                         Case{{1'500'000, 500'000, -500'000, -1'500'000}}, Case{{1, 0, 2, -3}}));
+
+// A delay of 100 microticks that is not compensated lengthens every double cycle by as much, 1250 ppm; one that is, does
+// not: then the cluster keeps the mean of its clocks, 0 ppm, but for what damping leaves to the offset correction.
+TEST(Convergence, ACompensatedDelayDoesNotSlowTheClusterDown) {
+  constexpr std::int64_t kCycles = 400;
+  const TrueTime end = Rig::kStart + Duration::milliseconds(kCycles);
+  for (const bool compensated : {true, false}) {
+    schedules::Cluster cluster = small_cluster(4);
+    for (auto& node : cluster.nodes)
+      node.flexray->pDelayCompensationA = node.flexray->pDelayCompensationB = compensated ? 100 : 0;
+    Rig rig(cluster, {900'000, 300'000, -300'000, -900'000}, Duration{2500});
+    rig.run_cycles(kCycles);
+    EXPECT_LT(rig.precision(end), kAssumedPrecision);
+    const double ppm = static_cast<double>(rig.global_time(1, end).ns - kCycles * 1'000'000) / (kCycles * 1.0);
+    if (compensated) {
+      EXPECT_NEAR(ppm, 0.0, 200.0);
+    } else {
+      EXPECT_NEAR(ppm, -1250.0, 200.0);
+    }
+  }
+}
+
+// One of four sync nodes sends its frames early to some and late to others: the others hold together.
+TEST(Convergence, OneTwoFacedClockOfFourDoesNotTearTheOthersApart) {
+  Rig rig(small_cluster(4), {1'000'000, -1'000'000, 200'000, -300'000});
+  rig.run_cycles(40);
+  rig.on_the_way = [](TestMedium::Arrival& frame) {
+    if (frame.sender == 3) {
+      const Duration lie = Duration::microseconds(frame.receiver == 0 ? 5 : -5);
+      frame.start += lie;
+      frame.end += lie;
+    }
+    return true;
+  };
+  Duration worst{};
+  for (int quarter = 160; quarter < 1600; ++quarter) {
+    const TrueTime at = Rig::kStart + Duration::microseconds(250) * quarter;
+    rig.run_until(at);
+    GlobalTime low = rig.global_time(0, at), high = low;
+    for (const std::size_t node : {1u, 2u}) {
+      low = std::min(low, rig.global_time(node, at));
+      high = std::max(high, rig.global_time(node, at));
+    }
+    worst = std::max(worst, high - low);
+  }
+  EXPECT_LT(worst, kAssumedPrecision);
+  for (const std::size_t node : {0u, 1u, 2u}) EXPECT_TRUE(rig.heard(node).problems.empty());
+}
+
+// Two clocks 3000 ppm apart: 3 us more per millisecond, for as long as one looks.
+TEST(WithoutSynchronisation, TheDifferenceGrowsAsDriftTimesTime) {
+  schedules::Cluster cluster = small_cluster(2);
+  cluster.synchronisation = false;
+  Rig rig(cluster, {1'500'000, -1'500'000});
+  for (std::int64_t ms = 10; ms <= 400; ms += 10) {
+    const TrueTime at = Rig::kStart + Duration::milliseconds(ms);
+    rig.run_until(at);
+    EXPECT_NEAR(static_cast<double>(rig.precision(at).ns), 3000.0 * static_cast<double>(ms), 60.0) << ms;
+  }
+  // It is measured and reported all the same, while frames still fall into their slots.
+  ASSERT_FALSE(rig.heard(0).corrected.empty());
+  EXPECT_GT(rig.heard(0).corrected[0].offset.value, 0);
+  EXPECT_LT(rig.heard(1).corrected[0].offset.value, 0);
+  EXPECT_GT(rig.heard(0).corrected[0].rate.value, 0);
+  EXPECT_EQ(rig.controller(0).clock().rate_correction(), 0);
+  // And in the end they miss each other's slots.
+  EXPECT_FALSE(rig.heard(0).problems.empty());
+}
+
+}  // namespace
+}  // namespace ttf::bus

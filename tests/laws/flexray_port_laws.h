@@ -1,0 +1,184 @@
+// The laws of bus/flexray_port.h as a suite that every medium is put through:
+//
+//   class MyBench : public laws::FlexRayBench { ... };
+//   INSTANTIATE_TYPED_TEST_SUITE_P(MyMedium, FlexRayPortLaws, MyBench);     // in namespace ttf::laws
+//
+// A bench is a medium with at least three controllers in a row, controller 1 as far from 0 as from 2, whose clocks all run
+// at the nominal rate with tick 0 at the start of the run. Nothing but the test transmits.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <tuple>
+#include <vector>
+
+#include "bus/flexray_port.h"
+#include "bus/wire/flexray_frame.h"
+
+namespace ttf::laws {
+
+using schedules::Channel;
+
+struct Reached {
+  std::size_t controller = 0;
+  Channel channel{};
+  Microticks start{};
+  Microticks end{};
+  std::vector<std::byte> bytes;
+};
+
+class FlexRayBench {
+ public:
+  virtual ~FlexRayBench() = default;
+  virtual const schedules::GlobalParameters& parameters() const = 0;
+  virtual std::int64_t microtick_ps() const = 0;
+  virtual std::size_t controllers() const = 0;
+  virtual bus::FlexRayPort& port(std::size_t controller) = 0;
+  // Delivers what is due up to and including microtick `now`; never called with less than before.
+  virtual void run_until(Microticks now) = 0;
+  // All receptions so far, in the order in which they were delivered.
+  virtual const std::vector<Reached>& reached() const = 0;
+};
+
+template <class Bench>
+class FlexRayPortLaws : public testing::Test {
+ protected:
+  // A frame that says who sent it and which it is.
+  std::vector<std::byte> frame(std::size_t sender, int number, int words, Channel channel) const {
+    std::vector<std::byte> payload(static_cast<std::size_t>(2 * words));
+    for (std::size_t i = 0; i < payload.size(); ++i) payload[i] = static_cast<std::byte>(number * 31 + static_cast<int>(i));
+    wire::FrameHeader header;
+    header.frame_id = static_cast<std::uint16_t>(number + 1);
+    header.cycle = static_cast<std::uint8_t>(sender);
+    std::vector<std::byte> bytes(wire::kMaxFrameBytes);
+    bytes.resize(wire::encode_frame(header, channel, payload, bytes));
+    return bytes;
+  }
+  void transmit(std::size_t sender, Channel channel, std::int64_t start, const std::vector<std::byte>& bytes) {
+    bench_.port(sender).transmit({channel, Microticks{start}, 1, bytes});
+  }
+  static std::size_t sender_of(const Reached& reached) {
+    return wire::decode_frame(reached.channel, reached.bytes).header.cycle;
+  }
+  std::int64_t ticks(std::int64_t ps) const { return (ps + bench_.microtick_ps() - 1) / bench_.microtick_ps(); }
+  std::int64_t length(int words) const { return ticks(wire::frame_duration_ps(bench_.parameters(), words)); }
+  std::int64_t longest_delay() const { return ticks(bench_.parameters().gdMaxPropagationDelay_ps); }
+  std::vector<Reached> at(std::size_t controller) const {
+    std::vector<Reached> mine;
+    for (const Reached& reached : bench_.reached())
+      if (reached.controller == controller) mine.push_back(reached);
+    return mine;
+  }
+
+  Bench bench_;
+  static constexpr std::int64_t kFirst = 10'000;   // microticks
+};
+
+TYPED_TEST_SUITE_P(FlexRayPortLaws);
+
+TYPED_TEST_P(FlexRayPortLaws, L1_EveryTransmissionReachesEveryOtherControllerOnceUnchanged) {
+  const std::size_t controllers = this->bench_.controllers();
+  std::map<std::pair<Channel, std::vector<std::byte>>, std::size_t> sent;
+  std::int64_t start = this->kFirst;
+  for (int number = 0; number < 60; ++number) {
+    const std::size_t sender = static_cast<std::size_t>(number) % controllers;
+    const int words = number * 2 % 128;
+    for (const Channel channel : {Channel::kA, Channel::kB}) {
+      if (number % 3 == (channel == Channel::kA ? 0 : 1)) continue;   // some on one channel only
+      const auto bytes = this->frame(sender, number, words, channel);
+      this->transmit(sender, channel, start, bytes);
+      sent[{channel, bytes}] = sender;
+    }
+    start += this->length(words) + this->longest_delay() + 100;
+    this->bench_.run_until(Microticks{start});
+  }
+  for (std::size_t controller = 0; controller < controllers; ++controller) {
+    std::map<std::pair<Channel, std::vector<std::byte>>, int> times;
+    for (const Reached& reached : this->at(controller)) ++times[{reached.channel, reached.bytes}];
+    std::size_t expected = 0;
+    for (const auto& [frame, sender] : sent) {
+      if (sender == controller) continue;
+      ++expected;
+      EXPECT_EQ((times[{frame.first, frame.second}]), 1) << "controller " << controller << " sender " << sender;
+    }
+    EXPECT_EQ(this->at(controller).size(), expected);
+  }
+}
+
+TYPED_TEST_P(FlexRayPortLaws, L2_AControllerDoesNotHearItself) {
+  for (std::size_t sender = 0; sender < this->bench_.controllers(); ++sender) {
+    const std::int64_t start = this->kFirst + static_cast<std::int64_t>(sender) * 20'000;
+    for (const Channel channel : {Channel::kA, Channel::kB})
+      this->transmit(sender, channel, start, this->frame(sender, 1, 8, channel));
+    this->bench_.run_until(Microticks{start + 20'000});
+  }
+  EXPECT_FALSE(this->bench_.reached().empty());
+  for (const Reached& reached : this->bench_.reached()) EXPECT_NE(this->sender_of(reached), reached.controller);
+}
+
+// The shorter frame ends first though it was handed over and begun later.
+TYPED_TEST_P(FlexRayPortLaws, L3_ReceptionsComeInTheOrderOfTheirEnd) {
+  this->transmit(0, Channel::kA, this->kFirst, this->frame(0, 1, 127, Channel::kA));
+  this->transmit(0, Channel::kB, this->kFirst + 400, this->frame(0, 2, 4, Channel::kB));
+  this->bench_.run_until(Microticks{this->kFirst + 100'000});
+  for (std::size_t controller = 1; controller < this->bench_.controllers(); ++controller) {
+    const auto mine = this->at(controller);
+    ASSERT_EQ(mine.size(), 2u);
+    EXPECT_EQ(mine[0].channel, Channel::kB);
+    EXPECT_LT(mine[0].end, mine[1].end);
+  }
+}
+
+// Handed over as B before A, and controller 2 before controller 0: heard as A before B, and 0 before 2.
+TYPED_TEST_P(FlexRayPortLaws, L3_TiesGoByChannelThenSender) {
+  for (const Channel channel : {Channel::kB, Channel::kA})
+    for (const std::size_t sender : {2u, 0u})
+      this->transmit(sender, channel, this->kFirst, this->frame(sender, 3, 8, channel));
+  this->bench_.run_until(Microticks{this->kFirst + 100'000});
+  const auto mine = this->at(1);
+  ASSERT_EQ(mine.size(), 4u);
+  for (std::size_t i = 1; i < mine.size(); ++i) {
+    ASSERT_EQ(mine[i].end, mine[0].end) << "the bench is not symmetric";
+    EXPECT_LT(std::tuple(mine[i - 1].channel, this->sender_of(mine[i - 1])),
+              std::tuple(mine[i].channel, this->sender_of(mine[i])));
+  }
+}
+
+TYPED_TEST_P(FlexRayPortLaws, L4_AFrameIsDeliveredAtItsEnd) {
+  for (const int words : {0, 28, 127}) {
+    const std::int64_t start = this->kFirst + words * 1'000;
+    const std::size_t before = this->bench_.reached().size();
+    this->transmit(0, Channel::kA, start, this->frame(0, words, words, Channel::kA));
+    this->bench_.run_until(Microticks{start + this->length(words) - 1});
+    EXPECT_EQ(this->bench_.reached().size(), before) << "delivered before it had left";
+    this->bench_.run_until(Microticks{start + this->length(words) + this->longest_delay() + 1});
+    EXPECT_EQ(this->bench_.reached().size(), before + this->bench_.controllers() - 1);
+    for (std::size_t i = before; i < this->bench_.reached().size(); ++i) {
+      const Reached& reached = this->bench_.reached()[i];
+      // Both instants are rounded to a microtick of the receiver.
+      EXPECT_NEAR(static_cast<double>((reached.end - reached.start).value), static_cast<double>(this->length(words)), 1.0);
+      EXPECT_GE(reached.start.value, start - 1);
+      EXPECT_LE(reached.start.value, start + this->longest_delay() + 1);
+    }
+  }
+}
+
+TYPED_TEST_P(FlexRayPortLaws, L5_TheMediumKeepsNoReferenceToTheBytes) {
+  auto bytes = this->frame(0, 4, 20, Channel::kA);
+  const auto original = bytes;
+  this->transmit(0, Channel::kA, this->kFirst, bytes);
+  std::fill(bytes.begin(), bytes.end(), std::byte{0xEE});
+  this->bench_.run_until(Microticks{this->kFirst + 100'000});
+  ASSERT_EQ(this->bench_.reached().size(), this->bench_.controllers() - 1);
+  for (const Reached& reached : this->bench_.reached()) EXPECT_EQ(reached.bytes, original);
+}
+
+REGISTER_TYPED_TEST_SUITE_P(FlexRayPortLaws, L1_EveryTransmissionReachesEveryOtherControllerOnceUnchanged,
+                            L2_AControllerDoesNotHearItself, L3_ReceptionsComeInTheOrderOfTheirEnd,
+                            L3_TiesGoByChannelThenSender, L4_AFrameIsDeliveredAtItsEnd,
+                            L5_TheMediumKeepsNoReferenceToTheBytes);
+
+}  // namespace ttf::laws
