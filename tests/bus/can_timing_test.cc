@@ -10,8 +10,8 @@
 namespace ttf::wire {
 namespace {
 
-// What is counted: start of frame to the end of the three bits of intermission. Published lengths without the intermission
-// are three bits shorter: 111 bits unstuffed for 8 bytes is 108 and the intermission, 135 in the worst case is 132 and it.
+// What is counted: start of frame to the end of the three bits of intermission. Lengths published without it are three
+// bits shorter: 111 bits unstuffed for 8 bytes are 108 and the intermission, 135 in the worst case 132 and it.
 
 schedules::CanBus classic() {
   schedules::CanBus bus;
@@ -213,15 +213,16 @@ TEST(CanTiming, OracleFramesAreStuffed) {
 // Five equal bits at the end of the data: only the fixed stuff bit follows (ISO 11898-1:2015, 10.5).
 TEST(CanTiming, NoTwoStuffBitsInARowAtTheEndOfTheData) {
   // 0xA0 ends in five zeros, 0xA1 does not; nothing else can be stuffed in the last byte.
-  const std::vector<std::byte> ends_in_five{std::byte{0xAA}, std::byte{0xA0}}, ends_in_four{std::byte{0xAA}, std::byte{0xA1}};
+  const std::vector<std::byte> ends_in_five{std::byte{0xAA}, std::byte{0xA0}};
+  const std::vector<std::byte> ends_in_four{std::byte{0xAA}, std::byte{0xA1}};
   EXPECT_EQ(can_frame_duration(fast(), 0x555, ends_in_five), can_frame_duration(fast(), 0x555, ends_in_four));
   // In a classic frame stuffing goes on into the CRC: there the same byte does cost its stuff bit.
   EXPECT_EQ(WireFrame::classic_frame(0x555, ends_in_five).at(1'000'000, 1'000'000),
             can_frame_duration(classic(), 0x555, ends_in_five));
 }
 
-// By hand, 8 bytes of 0x55 with identifier 0x555: SOF 0, id 10101010101, RRS IDE 00, FDF 1, res 0, BRS 1 without stuffing;
-// ESI 0 and DLC 1000 have one run of three, 01010101... none. 17 + 13 bits at 1 us, 5 + 64 + 27 at 0.2 us.
+// By hand, 8 bytes of 0x55 with identifier 0x555: SOF 0, id 10101010101, RRS IDE 00, FDF 1, res 0, BRS 1, ESI 0,
+// DLC 1000, data 01010101: no five equal bits anywhere. 17 + 13 bits at 1 us, 5 + 64 + 27 at 0.2 us.
 TEST(CanTiming, RatesSwitchAtBrsAndBackAtTheCrcDelimiter) {
   const std::vector<std::byte> data(8, std::byte{0x55});
   EXPECT_EQ(can_frame_duration(fast(), 0x555, data), Duration{30'000 + 96 * 200});

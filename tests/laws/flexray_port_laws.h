@@ -3,8 +3,8 @@
 //   class MyBench : public laws::FlexRayBench { ... };
 //   INSTANTIATE_TYPED_TEST_SUITE_P(MyMedium, FlexRayPortLaws, MyBench);     // in namespace ttf::laws
 //
-// A bench is a medium with at least three controllers in a row, controller 1 as far from 0 as from 2, whose clocks all run
-// at the nominal rate with tick 0 at the start of the run. Nothing but the test transmits.
+// A bench is a medium with at least three controllers in a row, controller 1 as far from 0 as from 2, whose clocks all
+// run at the nominal rate with tick 0 at the start of the run. Nothing but the test transmits.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -49,7 +49,8 @@ class FlexRayPortLaws : public testing::Test {
   // A frame that says who sent it and which it is.
   std::vector<std::byte> frame(std::size_t sender, int number, int words, Channel channel) const {
     std::vector<std::byte> payload(static_cast<std::size_t>(2 * words));
-    for (std::size_t i = 0; i < payload.size(); ++i) payload[i] = static_cast<std::byte>(number * 31 + static_cast<int>(i));
+    for (std::size_t i = 0; i < payload.size(); ++i)
+      payload[i] = static_cast<std::byte>(number * 31 + static_cast<int>(i));
     wire::FrameHeader header;
     header.frame_id = static_cast<std::uint16_t>(number + 1);
     header.cycle = static_cast<std::uint8_t>(sender);

@@ -1,0 +1,150 @@
+// How a controller judges what it receives (slot status).
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "tests/bus/alone.h"
+
+namespace ttf::bus {
+namespace {
+
+// One frame each, wrong in one way each; what the controller reports for its slot in cycle 0.
+int status_of(const Frame& frame, int slot, std::int64_t cycle = 0) {
+  Alone node;
+  frame.arrive(node);
+  node.run_to(cycle + 1);
+  for (const auto& problem : node.heard.problems)
+    if (problem.cycle == cycle && problem.slot == slot && problem.channel == frame.channel) return problem.status;
+  return kValidFrame;
+}
+
+TEST(ControllerJudges, ARightFrameIsNoProblem) {
+  EXPECT_EQ(status_of(Frame::status(2, 0), 2), kValidFrame);
+  EXPECT_EQ(status_of(Frame::status(2, 0, Channel::kB), 2), kValidFrame);
+  EXPECT_EQ(status_of(Frame::status(4, 0), 4), kValidFrame);
+}
+
+TEST(ControllerJudges, SilenceInAnOwnedSlotPerChannel) {
+  Alone node;
+  Frame::status(2, 0).arrive(node);   // channel A only
+  node.run_to(1);
+  std::vector<std::pair<int, Channel>> silent;
+  for (const auto& problem : node.heard.problems) {
+    EXPECT_EQ(problem.status, kNoFrame);
+    silent.emplace_back(problem.slot, problem.channel);
+  }
+  // Slots 1 and 5..8 are its own, 9 is sent in odd cycles, 10 is nobody's.
+  EXPECT_EQ(silent, (std::vector<std::pair<int, Channel>>{{2, Channel::kB}, {3, Channel::kA}, {3, Channel::kB},
+                                                          {4, Channel::kA}, {4, Channel::kB}}));
+  node.run_to(2);
+  const auto& last = node.heard.problems.back();
+  EXPECT_EQ(last.slot, 9);
+  EXPECT_EQ(last.channel, Channel::kA);   // B is not expected to carry it
+}
+
+TEST(ControllerJudges, SyntaxErrors) {
+  for (const std::size_t byte : {1u, 7u, 22u}) {   // header, payload, trailer
+    Alone node;
+    const Frame frame = Frame::status(2, 0);
+    auto bytes = frame.bytes();
+    bytes[byte] ^= std::byte{0x10};
+    node.controller.receive({Channel::kA, {frame.start}, {frame.start + 1000}, bytes});
+    node.run_to(1);
+    ASSERT_FALSE(node.heard.problems.empty());
+    EXPECT_EQ(node.heard.problems[0].slot, 2);
+    EXPECT_EQ(node.heard.problems[0].status, kSyntaxError);
+  }
+}
+
+TEST(ControllerJudges, AFrameOfTheOtherChannelIsASyntaxError) {
+  Alone node;
+  const Frame frame = Frame::status(2, 0, Channel::kA);
+  node.controller.receive({Channel::kB, {frame.start}, {frame.start + 1000}, frame.bytes()});
+  node.run_to(1);
+  const auto swapped = std::find_if(node.heard.problems.begin(), node.heard.problems.end(), [](const auto& problem) {
+    return problem.slot == 2 && problem.channel == Channel::kB;
+  });
+  ASSERT_NE(swapped, node.heard.problems.end());
+  EXPECT_EQ(swapped->status, kSyntaxError);
+}
+
+TEST(ControllerJudges, ContentErrors) {
+  Frame other_id = Frame::status(2, 0);
+  other_id.header.frame_id = 3;
+  EXPECT_EQ(status_of(other_id, 2), kContentError);
+  Frame other_cycle = Frame::status(2, 0);
+  other_cycle.header.cycle = 1;
+  EXPECT_EQ(status_of(other_cycle, 2), kContentError);
+  Frame shorter = Frame::status(2, 0);
+  shorter.payload.resize(14);
+  EXPECT_EQ(status_of(shorter, 2), kContentError);
+  Frame startup_only = Frame::status(2, 0);
+  startup_only.header.sync = false;
+  EXPECT_EQ(wire::decode_frame(Channel::kA, startup_only.bytes()).error, wire::FrameError::kNone);
+  EXPECT_EQ(status_of(startup_only, 2), kContentError);
+  EXPECT_EQ(status_of(Frame::status(10, 0), 10), kContentError);              // nobody's slot
+  EXPECT_EQ(status_of(Frame::status(5, 0), 5), kContentError);                // the receiver's own
+  EXPECT_EQ(status_of(Frame::status(9, 0), 9), kContentError);                // not in even cycles
+  EXPECT_EQ(status_of(Frame::status(9, 1, Channel::kB), 9, 1), kContentError);   // not on B
+  EXPECT_EQ(status_of(Frame::status(9, 1), 9, 1), kValidFrame);
+}
+
+// A frame must lie within the receiver's own slot, both ends included.
+TEST(ControllerJudges, BoundaryViolations) {
+  const std::int64_t begin = Alone::at(0, 84).value, end = Alone::at(0, 168).value;   // slot 2
+  Frame frame = Frame::status(2, 0);
+  frame.start = begin;
+  EXPECT_EQ(status_of(frame, 2), kValidFrame);
+  frame.start = end - frame.length;
+  EXPECT_EQ(status_of(frame, 2), kValidFrame);
+  frame.start = end - frame.length + 1;
+  EXPECT_EQ(status_of(frame, 2), kBoundaryViolation);
+  // One microtick early it begins in slot 1 and ends in slot 2: slot 1 is violated, slot 2 heard nothing.
+  frame.start = begin - 1;
+  EXPECT_EQ(status_of(frame, 1), kBoundaryViolation);
+  EXPECT_EQ(status_of(frame, 2), kNoFrame);
+}
+
+TEST(ControllerJudges, ASecondFrameInASlotIsAConflict) {
+  Alone node;
+  Frame first = Frame::status(2, 0), second = Frame::status(2, 0);
+  first.arrive(node);
+  second.start = first.start + 1500;
+  second.arrive(node);
+  node.run_to(1);
+  EXPECT_EQ(node.heard.problems[0].slot, 2);
+  EXPECT_EQ(node.heard.problems[0].status, kTransmissionConflict);
+}
+
+TEST(ControllerJudges, WrongFramesReachNeitherTheHostNorTheClock) {
+  Alone node(1);
+  MadeList list(node.cluster.pdus[0], 1, 3, 0);
+  Frame carrier = Frame::status(5, 0);
+  std::copy(list.bytes.begin(), list.bytes.end(), carrier.payload.begin());
+  carrier.header.cycle = 1;
+  carrier.arrive(node);
+  EXPECT_TRUE(node.heard.arrived.empty());
+  for (const int slot : {1, 3, 4}) {
+    Frame late = Frame::status(slot, 1);
+    late.start += 100;
+    late.header.cycle = 2;
+    late.arrive(node);
+  }
+  node.run_to(2);
+  ASSERT_EQ(node.heard.corrected.size(), 1u);
+  EXPECT_EQ(node.heard.corrected[0].offset.value, 0);   // only its own sync frame counts
+}
+
+TEST(ControllerJudges, ANullFrameIsValidAndLeavesTheListAlone) {
+  Alone node(1);
+  Frame frame = Frame::status(5, 0);
+  frame.header.null_frame = true;
+  frame.arrive(node);
+  node.run_to(1);
+  EXPECT_TRUE(node.heard.arrived.empty());
+  for (const auto& problem : node.heard.problems) EXPECT_FALSE(problem.slot == 5 && problem.channel == Channel::kA);
+}
+
+}  // namespace
+}  // namespace ttf::bus
