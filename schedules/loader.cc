@@ -289,7 +289,7 @@ class Loader {
       item.flexray = load_node_parameters(*own, shared);
       item.microtick_ps = item.flexray->pdMicrotick_ps;
     } else {
-      item.microtick_ps = map.scaled("microtick", 1'000, {1'000, 1'000'000}, "ns");
+      item.microtick_ps = map.scaled("microtick", 1'000, {2'000, 1'000'000}, "ns");
     }
     constexpr std::int64_t kMostDrift = 1'500'000;   // cClockDeviationMax
     item.max_drift_ppb = map.scaled("max_drift_ppm", 1'000, {0, kMostDrift}, "ppm");

@@ -111,7 +111,7 @@ void ClusterSimulation::run_until(TrueTime end) {
   while (true) {
     const auto earliest = static_cast<std::size_t>(std::min_element(next_.begin(), next_.end()) - next_.begin());
     const bool node_is_due = queue_.empty() || EventOrder{next_[earliest], Phase::kNode,
-                                                          static_cast<std::uint8_t>(earliest), 0} < queue_.next();
+                                                          static_cast<std::uint8_t>(earliest), 0, 0} < queue_.next();
     const TrueTime time = node_is_due ? next_[earliest] : queue_.next().time;
     if (time > end || time == kNever) break;
     TTF_CHECK(time >= now_, "time goes back from {} to {} ns", now_.ns, time.ns);

@@ -1,4 +1,4 @@
-// What is to happen in virtual time, in one total order: (true time, phase, node, sequence). Never addresses, hash order
+// What is to happen in virtual time, in one total order: (true time, phase, node, rank, sequence). Never addresses, hash order
 // or thread arrival. The order is written here and nowhere else.
 #pragma once
 
@@ -18,6 +18,7 @@ struct EventOrder {
   TrueTime time{};
   Phase phase{};
   std::uint8_t node = 0;           // receiver, or bus
+  std::uint16_t rank = 0;          // among the arrivals at one receiver: channel, then sender
   std::uint64_t sequence = 0;      // order of being scheduled
   auto operator<=>(const EventOrder&) const = default;
 };
@@ -31,8 +32,8 @@ class EventQueue {
     room.reserve(capacity);
     heap_ = Heap(Later{}, std::move(room));
   }
-  void schedule(TrueTime time, Phase phase, std::uint8_t node, const Payload& payload) {
-    heap_.push({{time, phase, node, next_sequence_++}, payload});
+  void schedule(TrueTime time, Phase phase, std::uint8_t node, const Payload& payload, std::uint16_t rank = 0) {
+    heap_.push({{time, phase, node, rank, next_sequence_++}, payload});
   }
   bool empty() const { return heap_.empty(); }
   const EventOrder& next() const { return heap_.top().order; }

@@ -47,7 +47,8 @@ void FlexRayMedium::transmit(NodeId sender, schedules::Channel channel, TrueTime
     event.channel_or_bus = static_cast<std::uint8_t>(channel);
     event.frame = frame;
     event.start = start + delay(sender, node);
-    queue_.schedule(event.start + length, Phase::kArrival, event.node, event);
+    const auto rank = static_cast<std::uint16_t>((index_of(channel) << 8) | index_of(sender));
+    queue_.schedule(event.start + length, Phase::kArrival, event.node, event, rank);
   }
 }
 
