@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "core/check.h"
 #include "nodes/signals.h"
@@ -48,6 +49,11 @@ FusionStep::FusionStep(const schedules::Cluster& cluster, const schedules::Task&
     : host_(std::move(host)) {
   std::size_t most = 0;
   for (const schedules::PortBinding& binding : task.reads) {
+    const schedules::PduLayout& layout = cluster.pdu(binding.pdu);
+    if (static_cast<std::size_t>(layout.max_elements) > fusion::kMaxObservations)
+      throw InputError({cluster.file, layout.line, "pdus." + layout.name + ".max_elements",
+                        std::to_string(layout.max_elements),
+                        "must be at most " + std::to_string(fusion::kMaxObservations) + " for a list that is fused"});
     codecs_.emplace_back(cluster, binding.pdu);
     most = std::max(most, static_cast<std::size_t>(cluster.pdu(binding.pdu).max_elements));
   }
