@@ -2,57 +2,10 @@
 
 #include <algorithm>
 
+#include "bus/wire/flexray_crc.h"
 #include "core/check.h"
 
 namespace ttf::wire {
-namespace {
-
-constexpr std::uint32_t kHeaderPolynomial = 0x385, kHeaderInit = 0x01A;    // 11 bits
-constexpr std::uint32_t kFramePolynomial = 0x5D6DCB;                       // 24 bits
-constexpr std::uint32_t kFrameInitA = 0xFEDCBA, kFrameInitB = 0xABCDEF;
-
-constexpr std::array<std::uint32_t, 256> make_frame_table() {
-  std::array<std::uint32_t, 256> table{};
-  for (std::uint32_t byte = 0; byte < 256; ++byte) {
-    std::uint32_t crc = byte << 16;
-    for (int bit = 0; bit < 8; ++bit) crc = (crc << 1) ^ ((crc & 0x800000u) ? kFramePolynomial : 0u);
-    table[byte] = crc & 0xFFFFFFu;
-  }
-  return table;
-}
-constexpr std::array<std::uint32_t, 256> kFrameTable = make_frame_table();
-
-// CRC-11 of four bits at once: the 20 bits it covers are five of them.
-constexpr std::array<std::uint32_t, 16> make_header_table() {
-  std::array<std::uint32_t, 16> table{};
-  for (std::uint32_t nibble = 0; nibble < 16; ++nibble) {
-    std::uint32_t crc = nibble << 7;
-    for (int bit = 0; bit < 4; ++bit) crc = (crc << 1) ^ ((crc & 0x400u) ? kHeaderPolynomial : 0u);
-    table[nibble] = crc & 0x7FFu;
-  }
-  return table;
-}
-constexpr std::array<std::uint32_t, 16> kHeaderTable = make_header_table();
-
-}  // namespace
-
-std::uint16_t header_crc(bool sync, bool startup, std::uint16_t frame_id, std::uint8_t payload_words) {
-  // 20 bits: sync, startup, 11 of the frame id, 7 of the length.
-  const std::uint32_t bits = (sync ? 1u << 19 : 0u) | (startup ? 1u << 18 : 0u) |
-                             (static_cast<std::uint32_t>(frame_id) << 7) | payload_words;
-  std::uint32_t crc = kHeaderInit;
-  for (int shift = 16; shift >= 0; shift -= 4)
-    crc = ((crc << 4) & 0x7FFu) ^ kHeaderTable[((crc >> 7) ^ (bits >> shift)) & 0xFu];
-  return static_cast<std::uint16_t>(crc);
-}
-
-std::uint32_t frame_crc(schedules::Channel channel, std::span<const std::byte> header_and_payload) {
-  std::uint32_t crc = channel == schedules::Channel::kA ? kFrameInitA : kFrameInitB;
-  for (const std::byte byte : header_and_payload)
-    crc = ((crc << 8) & 0xFFFFFFu) ^ kFrameTable[((crc >> 16) ^ static_cast<std::uint32_t>(byte)) & 0xFFu];
-  return crc;
-}
-
 std::size_t encode_frame(const FrameHeader& header, schedules::Channel channel, std::span<const std::byte> payload,
                          std::span<std::byte> frame) {
   const std::size_t size = kHeaderBytes + payload.size() + kTrailerBytes;

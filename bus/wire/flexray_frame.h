@@ -27,10 +27,6 @@ struct FrameHeader {
   std::uint8_t cycle = 0;       // 0..63
 };
 
-std::uint16_t header_crc(bool sync, bool startup, std::uint16_t frame_id, std::uint8_t payload_words);
-// Frame CRC over header and payload bytes; differs per channel by its initial value.
-std::uint32_t frame_crc(schedules::Channel channel, std::span<const std::byte> header_and_payload);
-
 // Writes the whole frame, both CRCs computed, and returns its length in bytes. payload.size() must be even and <= 254.
 std::size_t encode_frame(const FrameHeader& header, schedules::Channel channel, std::span<const std::byte> payload,
                          std::span<std::byte> frame);

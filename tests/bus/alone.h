@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "bus/wire/flexray_crc.h"
 #include "bus/wire/flexray_frame.h"
 #include "tests/bus/bus_rig.h"
 

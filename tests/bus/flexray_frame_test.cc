@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "bus/wire/flexray_crc.h"
 #include "core/random.h"
 
 namespace ttf::wire {
