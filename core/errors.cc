@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <string_view>
+
 namespace ttf {
 namespace {
 
@@ -14,16 +17,35 @@ std::string all_sentences(const std::vector<Finding>& findings) {
   return text;
 }
 
+// What comes from outside must not break the line, nor fill the screen: control characters as \xNN, and no more than
+// `most` bytes (cut between characters of UTF-8).
+std::string shown(std::string_view text, std::size_t most) {
+  constexpr std::size_t kAll = std::string_view::npos;
+  std::size_t end = std::min(most, text.size());
+  while (most != kAll && end < text.size() && end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
+  std::string out;
+  for (const char c : text.substr(0, end)) {
+    const auto code = static_cast<unsigned char>(c);
+    if (code < 0x20 || code == 0x7f)
+      out += fmt::format("\\x{:02x}", code);
+    else
+      out += c;
+  }
+  return end < text.size() ? out + "..." : out;
+}
+
+constexpr std::size_t kMostKey = 200, kMostValue = 100;
+
 }  // namespace
 
 std::string Finding::sentence() const {
   std::string text = file.empty() ? "input" : file;
   if (line > 0) text += fmt::format(":{}", line);
   text += ": ";
-  if (!key.empty()) text += key;
-  if (!value.empty()) text += fmt::format("{}{}", key.empty() ? "" : " = ", value);
+  if (!key.empty()) text += shown(key, kMostKey);
+  if (!value.empty()) text += fmt::format("{}{}", key.empty() ? "" : " = ", shown(value, kMostValue));
   if (!key.empty() || !value.empty()) text += ": ";
-  return text + expected;
+  return text + shown(expected, std::string_view::npos);
 }
 
 InputError::InputError(std::vector<Finding> findings)

@@ -20,7 +20,8 @@ struct Finding {
   std::string value;
   std::string expected;
 
-  // "clusters/a.yaml:12: flexray.gdNIT = 900: must be 2..805 macroticks"
+  // "clusters/a.yaml:12: flexray.gdNIT = 900: must be 2..805 macroticks". Always one line: control characters of the
+  // input are written as \xNN, and what is very long is cut.
   std::string sentence() const;
 };
 

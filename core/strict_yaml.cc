@@ -1,6 +1,7 @@
 #include "core/strict_yaml.h"
 
 #include <fmt/format.h>
+#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
@@ -75,6 +76,42 @@ std::optional<Duration> parse_duration(const std::string& text) {
   const auto ns = parse_scaled(std::string_view(text).substr(0, space), scale);
   if (!ns) return std::nullopt;
   return Duration{*ns};
+}
+
+// YAML allows tabs and line ends, but no other control character; the parser would take some of them for the end of the
+// file and pass over the rest. Throws InputError at the first one.
+void check_characters(const std::string& text, const std::string& name) {
+  int line = 1;
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if ((code < 0x20 && c != '\t' && c != '\n' && c != '\r') || code == 0x7f)
+      throw InputError({name, line, "", fmt::format("byte {:#04x}", code), "must not be in a YAML text"});
+    if (c == '\n') ++line;
+  }
+}
+
+// Notes where a document begins and builds nothing.
+struct DocumentStart final : YAML::EventHandler {
+  int line = 0;  // of the last one; 0 before the first
+  void OnDocumentStart(const YAML::Mark& mark) override { line = mark.line + 1; }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t, const std::string&) override {}
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {}
+  void OnMapEnd() override {}
+};
+
+// YAML::Load takes the first document and passes over the rest. (YAML::LoadAll, which would see the rest, does not end
+// where the parser finds a document of nothing: after a tag without a value, say.)
+void check_one_document(const std::string& text, const std::string& name) {
+  std::istringstream stream(text);
+  YAML::Parser parser(stream);
+  DocumentStart start;
+  if (parser.HandleNextDocument(start) && parser.HandleNextDocument(start))
+    throw InputError({name, start.line, "", "", "must be one YAML document: another one begins here"});
 }
 
 std::string duration_text(Duration d) {
@@ -371,7 +408,9 @@ StrictYaml StrictYaml::parse(std::string text, std::string name) {
   document.text_ = std::move(text);
   document.content_ = std::make_shared<YamlMap::Content>();
   document.content_->file = document.name_;
+  check_characters(document.text_, document.name_);
   try {
+    check_one_document(document.text_, document.name_);
     document.content_->node.reset(YAML::Load(document.text_));
   } catch (const YAML::Exception& error) {
     throw InputError({document.name_, error.mark.line + 1, "", "", "is not valid YAML: " + error.msg});

@@ -96,6 +96,8 @@ class YamlMap {
   Findings* findings_;
 };
 
+// One document of printable text: a second document, or a control character, is a finding, for the parser would pass
+// over what follows.
 class StrictYaml {
  public:
   static StrictYaml load(const std::string& path);

@@ -77,6 +77,36 @@ TEST(StrictYaml, BrokenYamlAndMissingFilesAreOneSentence) {
   EXPECT_THAT(sentence_of([] { StrictYaml::load("no/such.yaml"); }), HasSubstr("no/such.yaml: cannot be read"));
 }
 
+TEST(StrictYaml, OneDocumentToItsEnd) {
+  const auto sentence_of = [](const std::string& text) -> std::string {
+    try {
+      StrictYaml::parse(text, "c.yaml");
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(sentence_of("a: 1\n...\n"), "accepted");
+  EXPECT_EQ(sentence_of("---\na: 1\t# tabs and line ends are fine\r\n"), "accepted");
+  EXPECT_EQ(sentence_of("a: 1\n---\nb: 2\n"), "c.yaml:2: must be one YAML document: another one begins here");
+  // The parser sees documents of nothing here, and never the end of them.
+  EXPECT_EQ(sentence_of(", "), "c.yaml:1: must be one YAML document: another one begins here");
+  // The parser takes this character for the end of the file.
+  EXPECT_EQ(sentence_of("a: 1\n\x04\nb: 2\n"), "c.yaml:2: byte 0x04: must not be in a YAML text");
+  EXPECT_EQ(sentence_of(std::string("a: 1\0b", 6)), "c.yaml:1: byte 0x00: must not be in a YAML text");
+}
+
+TEST(StrictYaml, SentencesStayOneLineWhateverTheInput) {
+  const auto sentences = read("n: |\n  two\n  lines\nm: \"" + std::string(5000, 'x') + "\"\n? \"new\\nline\"\n: 1\n",
+                              [](YamlMap& map) {
+                                map.integer("n", {0, 5});
+                                map.integer("m", {0, 5});
+                              });
+  EXPECT_THAT(sentences, ElementsAre(HasSubstr("n = two\\x0alines\\x0a: must be"),
+                                     HasSubstr("m = " + std::string(100, 'x') + "...: must be"),
+                                     HasSubstr("new\\x0aline: is not a known key")));
+}
+
 TEST(StrictYaml, ScaledNumbersAreExact) {
   const auto value = [](const std::string& text) {
     std::int64_t result = -1;
