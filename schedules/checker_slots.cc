@@ -79,14 +79,16 @@ void check_slots(const Cluster& cluster, ClusterFindings& findings) {
                     fmt::format("must fit the payload of {} bytes (gPayloadLengthStatic)",
                                 2 * g.gPayloadLengthStatic));
     }
-    for (std::size_t j = 0; j < i; ++j) {
+    // Frames are ordered by slot, so the others of this one stand right before it. One owner too many is enough to say.
+    for (std::size_t j = i; j-- > 0 && cluster.frames[j].slot == frame.slot;) {
       const FrameSlot& other = cluster.frames[j];
-      if (other.slot != frame.slot || !share_a_channel(other, frame) || !share_a_cycle(other, frame)) continue;
+      if (!share_a_channel(other, frame) || !share_a_cycle(other, frame)) continue;
       findings.at(frame.line, key, fmt::format("{} on {}", sender.name, channels_text(frame.channels)),
                   fmt::format("is owned twice: {} on {} sends there in some of the same cycles (base {}, repetition {}; "
                               "line {})",
                               cluster.node(other.sender).name, channels_text(other.channels), other.base_cycle,
                               other.repetition, other.line));
+      break;
     }
   }
   for (const PduId pdu : lists) check_list(cluster, pdu, findings);

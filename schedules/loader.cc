@@ -17,6 +17,7 @@ namespace {
 
 constexpr Duration kLongest = Duration::milliseconds(10'000);
 constexpr Range<Duration> kExecution{Duration::microseconds(1), kLongest};
+constexpr int kLastSlot = 1023;           // cStaticSlotIDMax
 constexpr std::size_t kMostNamed = 200;   // ids are bytes, one value means none
 
 class Loader {
@@ -306,7 +307,7 @@ class Loader {
   void load_frame(YamlMap& map) {
     FrameSlot frame;
     frame.line = map.line();
-    frame.slot = static_cast<int>(map.integer("slot", {1, 1023}));
+    frame.slot = static_cast<int>(map.integer("slot", {1, kLastSlot}));
     frame.channels =
         map.choice<Channels>("channels", {{"A", Channels::kA}, {"B", Channels::kB}, {"AB", Channels::kAB}});
     frame.sender = node(map, "sender");
@@ -314,8 +315,13 @@ class Loader {
     std::int64_t fragments = 1;
     if (map.has("pdu")) {
       frame.pdu = pdu(map, "pdu");
-      fragments = map.integer("fragments", {1, 1023});
+      fragments = map.integer("fragments", {1, kLastSlot});
       frame.fragment = static_cast<int>(map.integer_or("first_fragment", 0, {0, 1022}));
+    }
+    if (frame.slot + fragments - 1 > kLastSlot) {
+      map.fail("fragments", fmt::format("must be at most {}: static slots end at {}", kLastSlot - frame.slot + 1,
+                                        kLastSlot));
+      fragments = 1;
     }
     map.finish();
     for (std::int64_t f = 0; f < fragments; ++f) {

@@ -65,6 +65,8 @@ std::vector<Mutation> mutations() {
        "base_cycle", "0..7"},
       {"fragment_without_slot", "pdu: image, fragments: 13", "pdu: image, fragments: 12", "frames.image",
        "fragment 12 has none"},
+      {"fragments_beyond", "pdu: image, fragments: 13", "pdu: image, fragments: 1010", "fragments",
+       "at most 1002: static slots end at 1023"},
       {"fragment_too_many", "pdu: image, fragments: 13", "pdu: image, fragments: 14", "slot 35", "0..12"},
       {"payload", "gPayloadLengthStatic: 28", "gPayloadLengthStatic: 27", "slot 6", "54 bytes"},
       {"sender_off_flexray", "(slot: 5, channels: AB, sender: )feature", "$01camera", "slot 5", "FlexRay controller"},
@@ -148,6 +150,16 @@ TEST(Mutations, AMistakeInTheSharedParametersIsReportedOnce) {
   const std::string text = std::regex_replace(shipped_text("paper_unsynchronised"), std::regex("pWakeupPattern: 2"),
                                               "pWakeupPattern: 99");
   EXPECT_EQ(findings_of(text).size(), 1u) << sentences(findings_of(text));
+}
+
+TEST(Mutations, ASlotWithManyOwnersIsSaidOncePerFrameTooMany) {
+  const std::string text = std::regex_replace(shipped_text("paper_unsynchronised"), std::regex("(slot: )[2-5],"),
+                                              "$011,");
+  const auto findings = findings_of(text);
+  EXPECT_EQ(std::count_if(findings.begin(), findings.end(),
+                          [](const Finding& f) { return f.expected.find("owned twice") != std::string::npos; }),
+            4)
+      << sentences(findings);
 }
 
 TEST(Mutations, AllMistakesAreReportedAtOnce) {
