@@ -28,6 +28,10 @@ std::vector<std::size_t> bind_raw(const schedules::Cluster& cluster, const sched
                           : bind<2>(cluster, layout, {"x", "y"});
 }
 
+std::size_t signals_of(const recording::RecordedObservation& row) {
+  return row.kind == recording::RecordedObservation::Kind::kRangeBearingRate ? 3 : 2;
+}
+
 }  // namespace
 
 RecordedNoise load_recorded_noise(YamlMap& yaml) {
@@ -89,6 +93,13 @@ RecordedSource::RecordedSource(const schedules::Cluster& cluster, const schedule
   if (track_.size() == 0)
     throw InputError({cluster.file, cluster.sensor(sensor).line, "sensors." + cluster.sensor(sensor).name, "",
                       "the recording has no row of this sensor"});
+  for (std::size_t i = 0; i < track_.size(); ++i)
+    if (signals_of(track_.row(i)) != signals_.size()) {
+      const schedules::PduLayout& raw = cluster.pdu(binding_of(task.writes, "raw").pdu);
+      throw InputError({cluster.file, raw.line, "pdus." + raw.name, "",
+                        "must have the signals of the recording's rows of this sensor: x and y of a laser, range, "
+                        "bearing and range_rate of a radar"});
+    }
 }
 
 void RecordedSource::run(StepContext& context) {
@@ -96,8 +107,7 @@ void RecordedSource::run(StepContext& context) {
   const recording::RecordedObservation& row = track_.row(context.measurement);
   Output& raw = context.outputs[0];
   raw.begin(context.measurement, 1, GlobalTime{});
-  const bool radar = row.kind == recording::RecordedObservation::Kind::kRangeBearingRate;
-  TTF_CHECK(signals_.size() == (radar ? 3u : 2u), "{} signals for this kind of row", signals_.size());
+  const bool radar = signals_of(row) == 3;
   const double radar_values[] = {row.range, row.bearing, row.range_rate};
   const double position[] = {row.x, row.y};
   for (std::size_t s = 0; s < signals_.size(); ++s) raw.set(0, signals_[s], radar ? radar_values[s] : position[s]);

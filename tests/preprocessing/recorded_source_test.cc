@@ -1,0 +1,51 @@
+// A recording and a cluster that do not fit are told so before anything runs.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+
+#include "nodes/recorded.h"
+#include "schedules/loader.h"
+
+namespace ttf::nodes {
+namespace {
+
+using recording::RecordedInput;
+using recording::RecordedObservation;
+using testing::HasSubstr;
+
+RecordedInput one_row(const std::string& sensor, RecordedObservation::Kind kind) {
+  RecordedInput input;
+  input.observations.push_back({.sensor = sensor, .time_us_from_start = 0, .kind = kind});
+  input.truth.push_back({});
+  return input;
+}
+
+// What is said of this recording as the source of the shipped cluster's sensor; empty if it fits.
+std::string refusal(const std::string& sensor, RecordedInput input) {
+  static const schedules::Cluster cluster =
+      schedules::load_cluster(std::string(TTF_SOURCE_DIR) + "/schedules/laser_radar.yaml");
+  const SensorId id = *cluster.find_sensor(sensor);
+  const schedules::Task& task = cluster.node(cluster.sensor(id).device).tasks.front();
+  try {
+    const RecordedSource source(cluster, task, id, std::make_shared<const RecordedInput>(std::move(input)));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(RecordedSource, TakesRowsOfItsSensorAndKindOnly) {
+  EXPECT_EQ(refusal("laser", one_row("laser", RecordedObservation::Kind::kPosition)), "");
+  EXPECT_EQ(refusal("radar", one_row("radar", RecordedObservation::Kind::kRangeBearingRate)), "");
+  EXPECT_THAT(refusal("laser", one_row("radar", RecordedObservation::Kind::kRangeBearingRate)),
+              HasSubstr("sensors.laser: the recording has no row of this sensor"));
+  EXPECT_THAT(refusal("laser", one_row("laser", RecordedObservation::Kind::kRangeBearingRate)),
+              HasSubstr("must have the signals of the recording's rows"));
+  EXPECT_THAT(refusal("radar", one_row("radar", RecordedObservation::Kind::kPosition)),
+              HasSubstr("must have the signals of the recording's rows"));
+}
+
+}  // namespace
+}  // namespace ttf::nodes
