@@ -1,6 +1,7 @@
 #include "nodes/scenario.h"
 
 #include <filesystem>
+#include <utility>
 
 namespace ttf::nodes {
 
@@ -13,8 +14,10 @@ std::string_view name_of(fusion::StrategyKind strategy) {
   return "";
 }
 
-Scenario load_scenario(const std::string& path) {
-  const StrictYaml yaml = StrictYaml::load(path);
+namespace {
+
+Scenario read_scenario(const StrictYaml& yaml) {
+  const std::string& path = yaml.name();
   Findings findings;
   YamlMap root = yaml.root(findings);
   Scenario scenario;
@@ -80,6 +83,14 @@ Scenario load_scenario(const std::string& path) {
   root.finish();
   findings.throw_if_any();
   return scenario;
+}
+
+}  // namespace
+
+Scenario load_scenario(const std::string& path) { return read_scenario(StrictYaml::load(path)); }
+
+Scenario parse_scenario(std::string text, std::string name) {
+  return read_scenario(StrictYaml::parse(std::move(text), std::move(name)));
 }
 
 }  // namespace ttf::nodes

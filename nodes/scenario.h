@@ -44,6 +44,8 @@ struct Scenario {
 
 // Throws InputError with every finding in the file. The clusters it names are not opened here.
 Scenario load_scenario(const std::string& path);
+// The same of a text; `name` is what errors call it, and clusters are looked for in its folder.
+Scenario parse_scenario(std::string text, std::string name);
 
 // "buff", "adva", "tt".
 std::string_view name_of(fusion::StrategyKind strategy);

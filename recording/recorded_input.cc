@@ -205,9 +205,10 @@ std::vector<RecordedScan> read_lidar_scans(const std::string& path) {
   return parse_lidar_scans(read_file(path), path);
 }
 
-RecordingFormat sniff_recording(const std::string& path) {
-  const std::string text = read_file(path);
-  if (std::string_view(text).substr(0, kMcapMagic.size()) == kMcapMagic) return RecordingFormat::kLog;
+RecordingFormat sniff_recording(const std::string& path) { return sniff_recording(read_file(path), path); }
+
+RecordingFormat sniff_recording(std::string_view text, const std::string& name) {
+  if (text.substr(0, kMcapMagic.size()) == kMcapMagic) return RecordingFormat::kLog;
   std::optional<RecordingFormat> format;
   bool decided = false;
   for_each_line(text, [&](int, std::string_view raw) {
@@ -223,7 +224,7 @@ RecordingFormat sniff_recording(const std::string& path) {
   });
   if (!format)
     throw InputError(
-        {path, 0, "", "",
+        {name, 0, "", "",
          "is no recording known here: rows of L or R (laser and radar), of frame, azimuth_rad, range_m, "
          "intensity (scanner), or an MCAP log"});
   return *format;

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace ttf::recording {
@@ -58,5 +59,6 @@ std::vector<RecordedScan> parse_lidar_scans(const std::string& text, const std::
 // Which reader a file is for, told by how it begins. Throws InputError if by none.
 enum class RecordingFormat : std::uint8_t { kLog = 1, kLaserRadar = 2, kLidarScans = 3 };
 RecordingFormat sniff_recording(const std::string& path);
+RecordingFormat sniff_recording(std::string_view bytes, const std::string& name);
 
 }  // namespace ttf::recording
