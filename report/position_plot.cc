@@ -12,8 +12,10 @@ double seconds(TrueTime t) { return static_cast<double>(t.ns) * 1e-9; }
 // True time of a global instant, as the clock that stamped the record shows. A recording without true time
 // (all zero) keeps global time.
 double seconds(GlobalTime t, const records::Stamp& stamp) {
-  const std::int64_t offset = stamp.true_time.ns != 0 ? stamp.true_time.ns - stamp.global.ns : 0;
-  return static_cast<double>(t.ns + offset) * 1e-9;
+  // In doubles: exact for runs of up to 100 days, and without overflow for whatever a damaged log says.
+  const auto ns = [](std::int64_t count) { return static_cast<double>(count); };
+  const double offset = stamp.true_time.ns != 0 ? ns(stamp.true_time.ns) - ns(stamp.global.ns) : 0.0;
+  return (ns(t.ns) + offset) * 1e-9;
 }
 
 bool earlier(const PositionPlots::Sample& a, const PositionPlots::Sample& b) { return a.t < b.t; }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
+
 #include "report/axes.h"
 #include "report/timing_painter.h"
 
@@ -11,13 +13,21 @@ namespace {
 constexpr Duration kMargin =
     Duration::milliseconds(300);  // ways of at most this length are followed into the window
 
+// A damaged or foreign log may say anything. No run has times 36 years from its start or as many cycles (of the longest,
+// 16 ms); up to there, differences of times and products with a cycle fit their type.
+constexpr std::int64_t kFarthest_ns = std::int64_t{1} << 60, kMostCycles = std::int64_t{1} << 36;
+
+constexpr Duration kLongestCycle = Duration::milliseconds(16);  // cCycleMax
+
+bool possible(std::int64_t ns) { return ns >= -kFarthest_ns && ns <= kFarthest_ns; }
+
 }  // namespace
 
 TimingDiagram::TimingDiagram(Names names, Duration cycle, TrueTime from, TrueTime to)
-    : names_(std::move(names)), cycle_(cycle), from_(from), to_(to) {}
+    : names_(std::move(names)), cycle_(cycle <= kLongestCycle ? cycle : Duration{}), from_(from), to_(to) {}
 
 bool TimingDiagram::near(TrueTime start, TrueTime end) const {
-  return start <= to_ + kMargin && end >= from_ - kMargin;
+  return possible(start.ns) && possible(end.ns) && start <= to_ + kMargin && end >= from_ - kMargin;
 }
 
 void TimingDiagram::on(const records::Measured& r) {
@@ -27,7 +37,8 @@ void TimingDiagram::on(const records::CanFrameSent& r) {
   if (near(r.start, r.end)) data_.can_frames.push_back({r.bus, r.start, r.end, r.pdu, r.sequence});
 }
 void TimingDiagram::on(const records::SlotFrameSent& r) {
-  if (near(r.stamp.true_time, r.end))
+  const bool in_a_run = possible(r.stamp.global.ns) && r.cycle >= -kMostCycles && r.cycle <= kMostCycles;
+  if (in_a_run && near(r.stamp.true_time, r.end))
     data_.slot_frames.push_back({r.stamp.true_time, r.end, r.stamp.global, r.stamp.node, r.cycle, r.slot,
                                  r.channel, r.null_frame, r.pdu, r.sequence, r.fragment});
 }
@@ -36,11 +47,11 @@ void TimingDiagram::on(const records::ListHop& r) {
     data_.hops.push_back({r.stamp.true_time, r.stamp.node, r.hop, r.pdu, r.sequence});
 }
 void TimingDiagram::on(const records::TaskRun& r) {
-  if (near(r.activated, r.end))
+  if (possible(r.start.true_time.ns) && near(r.activated, r.end))
     data_.runs.push_back({r.activated, r.start.true_time, r.end, r.start.node, r.task, r.deadline_met});
 }
 void TimingDiagram::on(const records::ListFused& r) {
-  if (near(r.stamp.true_time, r.stamp.true_time))
+  if (possible(r.measured.ns) && near(r.stamp.true_time, r.stamp.true_time))
     data_.fused.push_back({r.stamp.true_time, r.stamp.node, r.step, r.id, r.measured, r.disposition});
 }
 void TimingDiagram::on(const records::FusionStep& r) {
@@ -57,8 +68,9 @@ void TimingDiagram::on(const records::FeatureUsed& r) {
 }
 
 std::string TimingDiagram::svg() const {
+  // These make the lanes; what was fused or used is drawn between them.
   const bool nothing = data_.measurements.empty() && data_.can_frames.empty() && data_.slot_frames.empty() &&
-                       data_.runs.empty() && data_.fused.empty();
+                       data_.runs.empty();
   if (from_ >= to_ || nothing)
     return empty_picture("Timing diagram", fmt::format("There are no records between {} ms and {} ms.",
                                                        number(static_cast<double>(from_.ns) * 1e-6),

@@ -15,6 +15,7 @@ namespace ttf::report {
 namespace {
 
 constexpr double kPixelsPerMs = 14, kLeastPlot = 1000, kMostPlot = 5600;
+constexpr std::int64_t kMostCycles = 2000;  // more lines than this are no grid any more
 constexpr double kTop = 62, kBox = 14, kText = 9.5;
 
 double lane_height(const Lane& lane) {
@@ -101,17 +102,20 @@ class Painter {
   // Start of each cycle in true time, from the frames: global time runs at the cluster's own rate.
   std::map<std::int64_t, TrueTime> cycle_starts() const {
     std::map<std::int64_t, TrueTime> known;
-    if (cycle_.ns <= 0) return known;
+    if (cycle_.ns <= 0 || (to_ - from_).ns / cycle_.ns > kMostCycles) return known;
     for (const auto& f : data_.slot_frames)
       known.try_emplace(f.cycle, f.start - Duration{f.global.ns - f.cycle * cycle_.ns});
     std::map<std::int64_t, TrueTime> all;
     const std::pair<std::int64_t, TrueTime> anchor = known.empty()
                                                          ? std::pair<std::int64_t, TrueTime>{}
                                                          : std::pair<std::int64_t, TrueTime>(*known.begin());
+    const Duration half{cycle_.ns / 2};
     const std::int64_t before = (anchor.second - from_).ns / cycle_.ns + 1;
     TrueTime at = anchor.second - cycle_ * before;
     for (std::int64_t c = anchor.first - before; at <= to_ + cycle_; ++c, at += cycle_) {
-      if (const auto k = known.find(c); k != known.end()) at = k->second;
+      // A frame that is half a cycle off its place says nothing of where the cycle began.
+      if (const auto k = known.find(c); k != known.end() && (k->second - at < half && at - k->second < half))
+        at = k->second;
       all[c] = at;
     }
     return all;

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "report/position_plot.h"
 #include "report/schedule_picture.h"
@@ -37,6 +38,21 @@ TEST(PositionPlots, PutGlobalInstantsOnTrueTime) {
   const PositionPlots::Selection s = drive().select();
   ASSERT_FALSE(s.observations.empty());
   for (const auto& o : s.observations[0]) EXPECT_NEAR(std::fmod(o.t - 0.004 + 1e-9, 0.08), 0.0, 1e-8) << o.t;
+}
+
+TEST(PositionPlots, InstantsOfADamagedLogDoNotOverflow) {
+  PositionPlots plots(synthetic_names(), {});
+  constexpr std::int64_t kLowest = std::numeric_limits<std::int64_t>::min(),
+                         kHighest = std::numeric_limits<std::int64_t>::max();
+  records::ObservationSeen seen;
+  seen.stamp = {{kHighest}, {0}, {kLowest}, NodeId{0}};
+  seen.measured = {kHighest};
+  plots.on(seen);
+  const PositionPlots::Selection s = plots.select();
+  ASSERT_EQ(s.observations.size(), 1u);
+  ASSERT_EQ(s.observations[0].size(), 1u);
+  EXPECT_NEAR(s.observations[0][0].t, 3 * std::ldexp(1e-9, 63), 1.0);
+  expect_renders(plots.over_time_svg());
 }
 
 TEST(PositionPlots, ArrowsLeadToTheStepThatIntegratedTheMeasurement) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "report/timing_diagram.h"
 #include "report/timing_ways.h"
@@ -90,6 +91,61 @@ TEST(TimingDiagram, NamesAndTasksMayBeMissing) {
   EXPECT_NE(svg.find(">sensor 1</text>"), std::string::npos);
   EXPECT_EQ(count_class(svg, "arrow"), 1u);
   expect_renders(svg);
+}
+
+TEST(TimingDiagram, WhatIsFusedAloneMakesNoLane) {
+  TimingDiagram d(synthetic_names(), Duration::milliseconds(5), at_us(0), at_us(100'000));
+  d.on(records::ListFused{
+      SyntheticRun{}.stamp(9000, 1), 1, {SensorId{1}, 0}, {5'000'000}, Disposition::kFused});
+  EXPECT_NE(d.svg().find("no records"), std::string::npos);
+  expect_renders(d.svg());
+}
+
+// A damaged log may say anything; what no run can have is left out, and the rest is drawn as before.
+TEST(TimingDiagram, ImpossibleTimesChangeNothing) {
+  constexpr std::int64_t kLowest = std::numeric_limits<std::int64_t>::min(),
+                         kHighest = std::numeric_limits<std::int64_t>::max();
+  TimingDiagram d(synthetic_names(), Duration::milliseconds(5), at_us(200'000), at_us(350'000));
+  SyntheticRun{}.drive(d, 1'500'000);
+  for (const std::int64_t ns : {kLowest, kHighest}) {
+    const records::Stamp inside = SyntheticRun{}.stamp(250'000, 1);
+    const records::Stamp beyond{{ns}, {ns}, {ns}, NodeId{1}};
+    records::SlotFrameSent frame;
+    frame.stamp = inside;
+    frame.end = at_us(250'074);
+    frame.cycle = ns;
+    d.on(frame);
+    frame.cycle = 50;
+    frame.stamp.global = {ns};
+    d.on(frame);
+    d.on(records::Measured{beyond, {SensorId{0}, 0}, {}});
+    d.on(records::ListFused{inside, 1, {SensorId{0}, 3}, {ns}, Disposition::kFused});
+    d.on(records::ListFused{beyond, 1, {SensorId{0}, 3}, {0}, Disposition::kFused});
+  }
+  EXPECT_EQ(d.svg(), diagram(200, 350));
+}
+
+// A frame that claims another cycle than its instant has: the lines of the cycles stay where they are, and end.
+TEST(TimingDiagram, AFrameOfAnotherCycleMovesNoLine) {
+  TimingDiagram d(synthetic_names(), Duration::milliseconds(5), at_us(200'000), at_us(350'000));
+  SyntheticRun{}.drive(d, 1'500'000);
+  SyntheticRun{}.slot(d, 45, 1, 5, kNoPdu, 0, 0, true);
+  records::SlotFrameSent frame;
+  frame.stamp = SyntheticRun{}.stamp(250'000, 5);
+  frame.end = at_us(250'074);
+  frame.cycle = 4000;
+  d.on(frame);
+  const std::string svg = d.svg();
+  for (int cycle = 40; cycle < 70; ++cycle)
+    EXPECT_EQ(count(svg, fmt::format("fill=\"#444444\">{}</text>", cycle)), 1u) << cycle;
+}
+
+TEST(TimingDiagram, CyclesNoBusCanHaveMakeNoGrid) {
+  for (const Duration cycle : {Duration{1}, Duration{std::numeric_limits<std::int64_t>::max()}}) {
+    TimingDiagram d(synthetic_names(), cycle, at_us(200'000), at_us(350'000));
+    SyntheticRun{}.drive(d, 1'500'000);
+    EXPECT_EQ(count(d.svg(), "fill=\"#444444\">"), 0u) << cycle.ns;
+  }
 }
 
 // Ways, checked stop by stop.
