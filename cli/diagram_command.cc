@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "cli/commands.h"
+#include "cli/time_window.h"
 #include "core/errors.h"
 #include "nodes/laser/laser_preprocessor.h"
 #include "recording/log_reader.h"
@@ -24,8 +25,6 @@ struct Options {
   std::string out;
   int frame = 0;
 };
-
-TrueTime at_seconds(double s) { return {static_cast<std::int64_t>(s * 1e9 + 0.5)}; }
 
 report::Names names_of(const recording::LogManifest& manifest) {
   report::Names names;
@@ -79,17 +78,14 @@ int run(const Options& options) {
     report::write_picture(boxes(options), options.out);
     return 0;
   }
-  if (options.to_s >= 0.0 && options.to_s <= std::max(0.0, options.from_s))
-    throw InputError({"command line", 0, "--to", fmt::format("{}", options.to_s), "must be after --from"});
+  const TimeWindow window = time_window(options.from_s, options.to_s);
   Extent extent;
   std::vector<recording::LogInfo> infos;
   for (const std::string& log : options.logs) infos.push_back(read(log, extent));
-  const TrueTime from = at_seconds(std::max(0.0, options.from_s));
+  const TrueTime from = window.from;
   // A timing diagram of a whole drive is unreadable: 160 ms unless told.
   const bool timing = options.kind == "timing";
-  const TrueTime to = options.to_s >= 0.0 ? at_seconds(options.to_s)
-                      : timing           ? from + Duration::milliseconds(160)
-                                         : extent.last;
+  const TrueTime to = window.to ? *window.to : timing ? from + Duration::milliseconds(160) : extent.last;
   std::string svg;
   if (timing) {
     if (options.logs.size() != 1)

@@ -80,6 +80,9 @@ done
 
 # Diagrams from logs, whole and cut off.
 expect 0 '' diagram "$work/a/tt.mcap" --from 1.5 --to 1.6 -o "$work/timing.pdf"
+expect 2 'command line: --from = 1e.300: must be 0..1000000000 s' \
+  diagram "$work/a/tt.mcap" --from 1e300 -o "$work/timing.pdf"
+expect 2 'must be after --from' diagram "$work/a/tt.mcap" --from 1.5 --to 1.5 -o "$work/timing.pdf"
 expect 0 '' diagram "$work/a/tt.mcap" "$work/a/adva.mcap" --kind plane -o "$work/plane.svg"
 head -c 200000 "$work/a/tt.mcap" >"$work/cut.mcap"
 expect 0 'warning: .*cut.mcap' diagram "$work/cut.mcap" -o "$work/cut.svg"
