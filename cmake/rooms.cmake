@@ -16,6 +16,13 @@ if(TTF_SANITIZE)
     $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   target_link_options(ttf_options INTERFACE -fsanitize=${TTF_SANITIZE})
 endif()
+if(TTF_FUZZ)
+  if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+    message(FATAL_ERROR "TTF_FUZZ needs clang++ (libFuzzer); use the preset fuzz")
+  endif()
+  # Coverage of our own code guides the fuzzers; libFuzzer itself is linked into the targets alone (tests/fuzz).
+  target_compile_options(ttf_options INTERFACE -fsanitize=fuzzer-no-link)
+endif()
 
 # ttf_room(<name> SOURCES <files...> [DEPS <targets...>]): the static library of a folder.
 function(ttf_room name)

@@ -1,0 +1,70 @@
+#include "tests/fuzz/cluster_laws.h"
+
+#include <cmath>
+#include <memory>
+
+#include "bus/wire/pdu_codec.h"
+#include "core/check.h"
+#include "nodes/catalog.h"
+#include "schedules/ages.h"
+#include "schedules/checker.h"
+#include "schedules/loader.h"
+#include "schedules/show.h"
+#include "tests/fuzz/harness.h"
+
+namespace ttf::fuzz {
+namespace {
+
+constexpr char kFile[] = "cluster.yaml";
+
+// Codes in use survive a journey through physical units.
+void check_signals(const schedules::PduLayout& layout, const std::vector<schedules::Signal>& signals) {
+  for (const schedules::Signal& signal : signals) {
+    const std::uint32_t last = wire::to_raw(signal, signal.high);
+    for (const std::uint32_t raw : {0u, 1u, last / 3, last / 2, last - (last > 0 ? 1 : 0), last}) {
+      const double physical = wire::to_physical(signal, raw);
+      TTF_CHECK(raw > last || wire::to_raw(signal, physical) == raw, "{}.{}: {} is {} is {}", layout.name,
+                signal.name, raw, physical, wire::to_raw(signal, physical));
+    }
+  }
+}
+
+void check_ages(const schedules::Cluster& cluster) {
+  for (const schedules::AgePath& age : schedules::measurement_ages(cluster))
+    TTF_CHECK(Duration{} <= age.fusion_best && age.fusion_best <= age.fusion_worst &&
+                  age.fused_best <= age.fused_worst && age.use_best <= age.use_worst &&
+                  age.fusion_worst <= age.fused_worst,
+              "fusion {}..{}, fused {}..{}, use {}..{} ns", age.fusion_best.ns, age.fusion_worst.ns,
+              age.fused_best.ns, age.fused_worst.ns, age.use_best.ns, age.use_worst.ns);
+  schedules::ages_text(cluster);
+}
+
+recording::RecordedInput some_recording() {
+  return recording::parse_laser_radar(
+      "L\t10\t0\t1000\t10\t0\t1\t0\t0\t0\nR\t10\t0\t1\t2000\t10\t0\t1\t0\t0\t0\n", "rows.txt");
+}
+
+}  // namespace
+
+void check_cluster(const std::string& text) {
+  schedules::Cluster cluster;
+  if (!accepted(kFile, [&] { cluster = schedules::parse_cluster(text, kFile); })) return;
+  schedules::show_text(cluster);  // shows what is not consistent, too
+  if (const auto findings = schedules::check(cluster); !findings.empty())
+    return check_refusal(InputError(findings), kFile);
+  if (!accepted(kFile, [&] { schedules::bind_ports(cluster, nodes::step_ports()); })) return;
+  for (const schedules::PduLayout& layout : cluster.pdus) {
+    check_signals(layout, layout.header);
+    check_signals(layout, layout.element);
+  }
+  check_ages(cluster);
+  const nodes::Scenario scenario;
+  const auto rows = std::make_shared<const recording::RecordedInput>(some_recording());
+  for (std::size_t node = 0; node < cluster.nodes.size(); ++node)
+    accepted(kFile, [&] {
+      nodes::make_steps({&scenario, &cluster, fusion::StrategyKind::kAdva, 1, 0, nullptr, rows},
+                        static_cast<NodeId>(node));
+    });
+}
+
+}  // namespace ttf::fuzz

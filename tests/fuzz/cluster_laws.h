@@ -1,0 +1,10 @@
+// What must hold for any text that claims to be a cluster, up to the code of its nodes.
+#pragma once
+
+#include <string>
+
+namespace ttf::fuzz {
+
+void check_cluster(const std::string& text);
+
+}  // namespace ttf::fuzz

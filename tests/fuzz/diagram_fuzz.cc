@@ -1,0 +1,65 @@
+// Any records as the pictures of a log. Laws: a picture comes out, whatever the log says; it is text without control
+// characters; and the same log gives the same picture.
+//
+// Input: start of the window (8 bytes, ns), its length and the cycle (4 bytes each, us), which names are known (1 byte),
+// then messages: kind (1 byte), length (2 bytes), payload.
+#include <algorithm>
+
+#include "core/check.h"
+#include "recording/log_reader.h"
+#include "report/position_plot.h"
+#include "report/timing_diagram.h"
+#include "tests/fuzz/harness.h"
+#include "tests/fuzz/mcap_around.h"
+
+namespace {
+
+using namespace ttf;
+
+struct Pictures {
+  report::Names names;
+  TrueTime from, to;
+  Duration cycle;
+
+  std::vector<std::string> of(const std::string& log) const {
+    report::TimingDiagram timing(names, cycle, from, to);
+    recording::read_log_bytes(log, "drive.mcap", timing);
+    report::PositionPlots position(names, {.title = "drive", .from = from, .to = to});
+    recording::read_log_bytes(log, "drive.mcap", position);
+    return {timing.svg(), position.over_time_svg(), position.plane_svg()};
+  }
+};
+
+}  // namespace
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  fuzz::Source source(data, size);
+  Pictures pictures;
+  // What cli/time_window.h lets through.
+  pictures.from = {static_cast<std::int64_t>(source.take<std::uint64_t>() % 1'000'000'000'000'000'000u)};
+  pictures.to = pictures.from + Duration::microseconds(source.take<std::uint32_t>());
+  pictures.cycle = Duration::microseconds(source.take<std::uint32_t>());
+  if ((source.take<std::uint8_t>() & 1) != 0) {
+    pictures.names.nodes = {"laser", "fusion"};
+    pictures.names.tasks = {{"scan"}, {"fuse", "image <1>"}};
+    pictures.names.pdus = {"laser_scan", "laser_objects", "image"};
+    pictures.names.sensors = {"laser", "camera"};
+    pictures.names.can_buses = {"can & co"};
+  }
+  fuzz::Messages messages;
+  while (!source.empty()) {
+    const auto kind = source.take<std::uint8_t>();
+    const auto payload = source.bytes(source.take<std::uint16_t>());
+    messages.emplace_back(kind, std::string_view(reinterpret_cast<const char*>(payload.data()), payload.size()));
+  }
+  const std::string log = fuzz::mcap_around(messages);
+  const std::vector<std::string> svgs = pictures.of(log);
+  for (const std::string& svg : svgs) {
+    TTF_CHECK(svg.substr(0, 4) == "<?xm", "{}", svg.substr(0, 80));
+    TTF_CHECK(svg.find("nan") == std::string::npos && svg.find("inf") == std::string::npos, "no number in a picture");
+    TTF_CHECK(std::none_of(svg.begin(), svg.end(), [](char c) { return c >= 0 && c < ' ' && c != '\n'; }),
+              "a control character");
+  }
+  TTF_CHECK(pictures.of(log) == svgs, "another picture of the same log");
+  return 0;
+}

@@ -1,0 +1,61 @@
+// Any bytes as a log. Laws: only InputError ends the reading; every warning is a line that names the file; counts are
+// those of the records handed on; and what was read, written again, is read the same, without a warning.
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <numeric>
+
+#include "core/check.h"
+#include "recording/log_reader.h"
+#include "recording/log_writer.h"
+#include "tests/fuzz/harness.h"
+#include "tests/recording/record_text.h"
+
+namespace {
+
+using namespace ttf;
+
+constexpr char kFile[] = "drive.mcap";
+
+// A file in memory, by a path that can be opened.
+class MemoryFile {
+ public:
+  MemoryFile() : descriptor_(::memfd_create("log", MFD_CLOEXEC)) {
+    TTF_CHECK(descriptor_ >= 0, "no memory file");
+  }
+  ~MemoryFile() { ::close(descriptor_); }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+  std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
+
+ private:
+  int descriptor_;
+};
+
+void check_written_again(std::string_view bytes, const recording::LogInfo& info, const recording::TextSink& read) {
+  const MemoryFile file;
+  recording::LogWriter writer(file.path(), info.manifest);
+  recording::read_log_bytes(bytes, kFile, writer);
+  writer.close();
+  recording::TextSink again;
+  const recording::LogInfo info_again = recording::read_log(file.path(), again);
+  TTF_CHECK(again.lines == read.lines, "{} records are {}", read.lines.size(), again.lines.size());
+  TTF_CHECK(info_again.manifest == info.manifest, "the manifest changed");
+  TTF_CHECK(info_again.warning.empty() && !info_again.truncated, "{}", info_again.warning);
+  TTF_CHECK(info_again.content_hash == writer.content_hash(), "the content hash changed");
+}
+
+}  // namespace
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view bytes(reinterpret_cast<const char*>(data), size);
+  recording::TextSink read;
+  recording::LogInfo info;
+  if (!fuzz::accepted(kFile, [&] { info = recording::read_log_bytes(bytes, kFile, read); })) return 0;
+  fuzz::check_lines(info.warning, kFile);
+  const auto counted = std::accumulate(info.counts.begin(), info.counts.end(), std::uint64_t{0});
+  TTF_CHECK(counted == read.lines.size(), "{} records counted, {} handed on", counted, read.lines.size());
+  TTF_CHECK(!info.truncated || !info.warning.empty(), "a torn log without a word");
+  check_written_again(bytes, info, read);
+  return 0;
+}

@@ -1,0 +1,96 @@
+// Any text as a recording. Laws: one finding per broken line, which names file and column; times never decrease; rows
+// written again are read the same; and a scan goes through laser preprocessing without losing finiteness.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <vector>
+
+#include "core/check.h"
+#include "nodes/laser/laser_preprocessor.h"
+#include "nodes/recorded.h"
+#include "recording/recorded_input.h"
+#include "tests/fuzz/harness.h"
+
+namespace {
+
+using namespace ttf;
+using recording::RecordedObservation;
+
+constexpr char kFile[] = "rows.txt";
+
+std::string written(const recording::RecordedInput& input) {
+  std::string text;
+  for (std::size_t i = 0; i < input.observations.size(); ++i) {
+    const RecordedObservation& o = input.observations[i];
+    const recording::RecordedTruth& t = input.truth[i];
+    text += o.kind == RecordedObservation::Kind::kPosition
+                ? fmt::format("L\t{}\t{}", o.x, o.y)
+                : fmt::format("R\t{}\t{}\t{}", o.range, o.bearing, o.range_rate);
+    text += fmt::format("\t{}\t{}\t{}\t{}\t{}\t{}\t{}\n", input.first_time_us + o.time_us_from_start, t.x, t.y, t.vx,
+                        t.vy, t.yaw, t.yaw_rate);
+  }
+  return text;
+}
+
+void check_laser_radar(const std::string& text) {
+  recording::RecordedInput input;
+  if (!fuzz::accepted(kFile, [&] { input = recording::parse_laser_radar(text, kFile); })) return;
+  TTF_CHECK(!input.observations.empty() && input.observations.size() == input.truth.size(), "{} rows, {} truths",
+            input.observations.size(), input.truth.size());
+  std::int64_t last = 0;
+  for (std::size_t i = 0; i < input.observations.size(); ++i) {
+    const std::int64_t at = input.observations[i].time_us_from_start;
+    TTF_CHECK(at >= last && at == input.truth[i].time_us_from_start, "row {} at {} us", i, at);
+    last = at;
+  }
+  const std::string once = written(input);
+  TTF_CHECK(written(recording::parse_laser_radar(once, kFile)) == once, "rows change when written again");
+
+  const nodes::RecordedScene scene(input, TrueTime{});
+  std::vector<world::ObjectState> states;
+  for (const Duration at : {Duration{-1}, Duration{}, Duration::milliseconds(50), Duration::milliseconds(3'600'000)}) {
+    scene.states_at(TrueTime{} + at, states);
+    TTF_CHECK(states.size() == 1 && std::isfinite(states[0].x) && std::isfinite(states[0].y) &&
+                  std::isfinite(states[0].speed),
+              "{} states", states.size());
+  }
+}
+
+void check_scans(const std::string& text) {
+  std::vector<recording::RecordedScan> scans;
+  if (!fuzz::accepted(kFile, [&] { scans = recording::parse_lidar_scans(text, kFile); })) return;
+  TTF_CHECK(!scans.empty(), "no scan");
+  std::string once;
+  const recording::RecordedScan* before = nullptr;
+  for (const recording::RecordedScan& scan : scans) {
+    TTF_CHECK(!scan.returns.empty() && (before == nullptr || before->frame < scan.frame), "scan {}", scan.frame);
+    before = &scan;
+    std::vector<nodes::ScanPoint> points;
+    for (const recording::RecordedReturn& hit : scan.returns) {
+      once += fmt::format("{},{},{},{}\n", scan.frame, hit.azimuth_rad, hit.range_m, hit.intensity);
+      points.push_back({0, hit.azimuth_rad, hit.range_m});
+    }
+    std::vector<nodes::LaserObject> objects;
+    nodes::LaserPreprocessor(nodes::LaserPreprocessingConfig{}).process(points, objects);
+    for (const nodes::LaserObject& o : objects)
+      TTF_CHECK(std::isfinite(o.x) && std::isfinite(o.y) && std::isfinite(o.heading) && std::isfinite(o.length) &&
+                    std::isfinite(o.width) && o.sxx > 0 && o.syy > 0 && o.sxy * o.sxy < o.sxx * o.syy,
+                "x {} y {} heading {} length {} width {} covariance {} {} {}", o.x, o.y, o.heading, o.length, o.width,
+                o.sxx, o.sxy, o.syy);
+  }
+  std::string twice;
+  for (const recording::RecordedScan& scan : recording::parse_lidar_scans(once, kFile))
+    for (const recording::RecordedReturn& hit : scan.returns)
+      twice += fmt::format("{},{},{},{}\n", scan.frame, hit.azimuth_rad, hit.range_m, hit.intensity);
+  TTF_CHECK(once == twice, "rows change when written again");
+}
+
+}  // namespace
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string text = fuzz::text_of(data, size);
+  fuzz::accepted(kFile, [&] { recording::sniff_recording(text, kFile); });
+  check_laser_radar(text);
+  check_scans(text);
+  return 0;
+}

@@ -1,0 +1,12 @@
+// Any text as a scenario file. Law: a file is one document; what follows its end is refused, never passed over.
+#include "core/check.h"
+#include "tests/fuzz/harness.h"
+#include "tests/fuzz/scenario_laws.h"
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace ttf::fuzz;
+  const std::string text = text_of(data, size);
+  if (check_scenario(text))
+    TTF_CHECK(!check_scenario(text + "\n...\n---\nunknown: 1\n"), "a second document is passed over");
+  return 0;
+}

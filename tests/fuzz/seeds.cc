@@ -1,0 +1,222 @@
+// Makes the seeds of every fuzz target: from shipped files and by our own encoders, so that none need be kept.
+//   fuzz_seeds FOLDER       FOLDER/<target>/<seed>, and FOLDER/<target>.dict where words help
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <set>
+#include <string>
+
+#include "bus/wire/flexray_frame.h"
+#include "core/check.h"
+#include "core/random.h"
+#include "recording/log_writer.h"
+#include "recording/mcap_reader.h"
+#include "tests/fuzz/harness.h"
+#include "tests/recording/record_text.h"
+
+namespace {
+
+using namespace ttf;
+namespace fs = std::filesystem;
+
+void write(const fs::path& path, const std::string& bytes) {
+  fs::create_directories(path.parent_path());
+  std::ofstream file(path, std::ios::binary);
+  TTF_CHECK(file << bytes, "{} cannot be written", path.string());
+}
+
+template <class Int>
+void put(std::string& out, Int value) {
+  out.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+std::string drawn_bytes(std::uint32_t index, std::size_t count) {
+  RandomStream random({.seed = 7, .purpose = Purpose::kTest, .entity = 0, .index = index});
+  std::string bytes;
+  for (std::size_t i = 0; i < count; ++i) bytes += static_cast<char>(random.bits());
+  return bytes;
+}
+
+bool of_a_name(char c) {
+  return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_';
+}
+
+// Keys and how often each occurs.
+std::map<std::string, int> keys_of(const std::string& yaml) {
+  std::map<std::string, int> keys;
+  std::string word;
+  for (const char c : yaml) {
+    if (c == ':' && !word.empty()) ++keys[word];
+    word = of_a_name(c) ? word + c : "";
+  }
+  return keys;
+}
+
+void write_dictionary(const fs::path& path, const std::set<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += "\"" + word + "\"\n";
+  write(path, text);
+}
+
+// The files themselves for the targets of text; for the targets of edits one seed for each key, which sets it to
+// something that looks like a value, and one which drops it.
+void yaml_seeds(const fs::path& folder, const std::string& what, const fs::path& shipped_in,
+                const std::vector<std::string>& names) {
+  const std::array<std::string, 8> values{"0", "1", "-1", "1023", "5 ms", "1e300", "true", "[1, 2]"};
+  std::set<std::string> words{"0", "1", "-1", "65535", "2147483647", "1e308", "nan", "0.5", "1 ns", "5 ms",
+                              "3600 s", "true", "false", "[", "]", "{", "}", "- ", "+ ", "AB", "&a", "*a"};
+  std::size_t next = 0;
+  std::set<std::string> known;
+  for (const std::string& name : names) {
+    const std::string text = fuzz::shipped((shipped_in / (name + ".yaml")).string());
+    write(folder / (what + "_text") / name, text);
+    write(folder / (what + "_edits") / name, name + "\n");
+    for (const auto& [key, times] : keys_of(text)) {
+      words.insert(key);
+      if (!known.insert(key).second) continue;
+      const std::string edits = folder / (what + "_edits") / (name + "_" + key);
+      write(edits, name + "\n" + key + " 0 " + values[next++ % values.size()] + "\n");
+      write(edits + "_dropped", name + "\n- " + key + " " + std::to_string(times / 2) + "\n");
+    }
+  }
+  write_dictionary(folder / (what + "_text.dict"), words);
+  write_dictionary(folder / (what + "_edits.dict"), words);
+}
+
+void recorded_seeds(const fs::path& folder) {
+  write(folder / "recorded/laser_radar",
+        "L\t4.6\t0.3\t1477010443000000\t4.7\t0.2\t5\t0.1\t0\t0\n"
+        "R\t8.46\t0.0287\t-3.04\t1477010443050000\t8.6\t0.25\t-3.0\t0\t0.01\t0.006\n");
+  std::string scans = "frame, azimuth_rad, range_m, intensity\n";
+  for (int frame = 0; frame < 2; ++frame)
+    for (int i = 0; i < 40; ++i)
+      scans += std::to_string(frame) + "," + std::to_string(0.01 * i) + "," + std::to_string(10 + i / 10) + ",0.5\n";
+  write(folder / "recorded/scans", scans);
+  write_dictionary(folder / "recorded.dict", {"L\\x09", "R\\x09", "frame", "e308", "nan", "-", "\\x0d\\x0a", "#"});
+}
+
+void frame_seeds(const fs::path& folder) {
+  for (const std::size_t payload : {0u, 16u, 254u}) {
+    wire::FrameHeader header;
+    header.sync = header.startup = payload == 16;
+    header.null_frame = payload == 0;
+    header.frame_id = static_cast<std::uint16_t>(payload + 1);
+    header.cycle = 5;
+    std::array<std::byte, wire::kMaxFrameBytes> frame{};
+    const std::vector<std::byte> bytes(payload, std::byte{0x5a});
+    const std::size_t size = wire::encode_frame(header, schedules::Channel::kA, bytes, frame);
+    for (const char how : {'\0', '\2'})
+      write(folder / "frame" / ("payload_" + std::to_string(payload) + (how != 0 ? "_right" : "")),
+            how + std::string(reinterpret_cast<const char*>(frame.data()), size));
+  }
+}
+
+// Acts and fragments are any bytes; drawn ones of different lengths reach most of it.
+void drawn_seeds(const fs::path& folder) {
+  for (std::uint32_t i = 0; i < 40; ++i) {
+    const std::string name = "drawn_" + std::to_string(i);
+    std::string list = drawn_bytes(i, 2 + 70 * (i % 8));
+    for (std::size_t at = 2; at < list.size(); at += 60) list[at] = static_cast<char>(list[at] | 1);
+    write(folder / "list" / name, list);
+    write(folder / "steps" / name, drawn_bytes(100 + i, 200 + 300 * (i % 6)));
+    write(folder / "window" / name, drawn_bytes(200 + i, 16));
+  }
+  // Lists of the sensors, then every node's tasks in turn: the whole way.
+  for (const char cluster : {'\0', '\1'})
+    for (const char strategy : {'\0', '\1', '\2'}) {
+      std::string acts{cluster, strategy};
+      for (std::uint32_t round = 0; round < 6; ++round) {
+        for (std::uint16_t pdu = 0; pdu < 5; ++pdu) {
+          acts += '\1';
+          put(acts, pdu);
+          put(acts, static_cast<std::uint8_t>(round));
+          put(acts, std::uint16_t{6});
+          acts += drawn_bytes(300 + round * 8 + pdu, 4 + 6 * 12 * 4);
+        }
+        for (std::uint8_t task = 0; task < 24; ++task) {
+          acts += '\2';
+          put(acts, task);
+          put(acts, std::uint16_t{5000});
+          put(acts, std::uint16_t{20000});
+        }
+      }
+      write(folder / "steps" / ("way_" + std::to_string(cluster) + std::to_string(strategy)), acts);
+    }
+}
+
+class Payloads final : public recording::McapHandler {
+ public:
+  void on_metadata(std::string_view, const std::vector<std::pair<std::string, std::string>>&) override {}
+  void on_attachment(std::string_view, std::string_view) override {}
+  bool on_message(std::uint16_t channel, std::uint64_t, std::string_view payload) override {
+    if (payload.size() > 0xffff) return true;
+    put(messages, static_cast<std::uint8_t>(channel));
+    put(messages, static_cast<std::uint16_t>(payload.size()));
+    messages += payload;
+    return true;
+  }
+  std::string messages;
+};
+
+std::string log_with(const fs::path& scratch, recording::Values values, int first_kind, int last_kind, int rounds) {
+  {
+    recording::LogManifest manifest;
+    manifest.node_names = {"laser", "fusion"};
+    manifest.task_names = {{"scan"}, {"fuse", "image"}};
+    manifest.sensor_names = {"laser"};
+    recording::LogWriter writer(scratch.string(), manifest);
+    writer.attach("a.yaml", "application/yaml", "name: a\n");
+    for (int i = 0; i < rounds; ++i)
+      for (int kind = first_kind; kind <= last_kind; ++kind)
+        recording::emit(writer, kind, values, static_cast<std::uint32_t>(i), std::int64_t{i} * 10'000'000);
+    writer.close();
+  }
+  std::ifstream file(scratch, std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  file.close();
+  fs::remove(scratch);
+  return bytes;
+}
+
+void log_seeds(const fs::path& folder) {
+  using recording::Values;
+  fs::create_directories(folder / "log");
+  const fs::path scratch = folder / "scratch.mcap";
+  const auto add = [&](const std::string& name, Values values, int first, int last, int rounds) {
+    const std::string log = log_with(scratch, values, first, last, rounds);
+    write(folder / "log" / name, log);
+    Payloads payloads;
+    recording::walk_mcap(log, payloads);
+    std::string window;
+    put(window, std::uint64_t{0});
+    put(window, std::uint32_t{100'000});
+    put(window, std::uint32_t{5'000});
+    put(window, std::uint8_t{1});
+    write(folder / "diagram" / name, window + payloads.messages);
+  };
+  constexpr int kKinds = recording::kRecordKinds;
+  add("empty", Values::kZero, 1, 0, 1);
+  for (int kind = 1; kind <= kKinds; ++kind) {
+    add("zero_" + std::to_string(kind), Values::kZero, kind, kind, 1);
+    add("smallest_" + std::to_string(kind), Values::kSmallest, kind, kind, 1);
+  }
+  add("drawn", Values::kDrawn, 1, kKinds, 3);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) return 2;
+  const fs::path folder = argv[1];
+  fs::remove_all(folder);
+  yaml_seeds(folder, "cluster", "schedules",
+             {"paper_synchronised", "paper_unsynchronised", "laser_radar", "laser_radar_synchronised"});
+  yaml_seeds(folder, "scenario", "scenarios", {"paper_scenario1", "paper_scenario2", "laser_radar_recorded"});
+  recorded_seeds(folder);
+  frame_seeds(folder);
+  drawn_seeds(folder);
+  log_seeds(folder);
+  return 0;
+}
