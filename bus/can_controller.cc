@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "bus/wire/can_timing.h"
 #include "core/check.h"
+#include "schedules/can_load.h"
 
 namespace ttf::bus {
 
@@ -20,8 +20,9 @@ void CanController::send(PduId pdu, const ListView& list) {
   });
   TTF_CHECK(message != bus_.messages.end(), "{} does not send this PDU on {}", cluster_.node(node_).name, bus_.name);
   const auto fragment = static_cast<std::size_t>(cluster_.pdu(pdu).fragment_bytes);
-  const auto length = static_cast<std::size_t>(
-      wire::can_length(bus_.flexible_data_rate, cluster_.pdu(pdu).fragment_bytes));
+  const auto data_length = schedules::can_data_length(bus_.flexible_data_rate, cluster_.pdu(pdu).fragment_bytes);
+  TTF_CHECK(data_length.has_value(), "{} bytes on {}", fragment, bus_.name);
+  const auto length = static_cast<std::size_t>(*data_length);
   for (int f = 0; f < list.fragments; ++f) {
     const auto payload = list.bytes.subspan(static_cast<std::size_t>(f) * fragment, fragment);
     std::fill(padded_.begin(), padded_.end(), std::byte{0});

@@ -15,36 +15,6 @@ constexpr int kUnstuffed = 13;           // CRC delimiter to the end of the inte
 constexpr int kArbitrationFd = 17;       // SOF, identifier, RRS, IDE, FDF, res, BRS
 constexpr int kControlFd = 5;            // ESI, DLC
 
-struct Bits {
-  std::int64_t nominal = 0;
-  std::int64_t data = 0;
-};
-
-Bits bits_of(const CanBus& bus, int bytes, bool worst) {
-  const auto length = can_data_length(bus.flexible_data_rate, bytes);
-  TTF_CHECK(length.has_value(), "{} bytes in a frame on {}", bytes, bus.name);
-  const int payload = 8 * *length;
-  if (!bus.flexible_data_rate) {
-    const int stuffed = kStuffedClassic + payload;
-    return {stuffed + kUnstuffed + (worst ? (stuffed - 1) / 4 : 0), 0};
-  }
-  const int check = *length <= 16 ? 4 + 17 + 6 : 4 + 21 + 7;
-  Bits bits{kArbitrationFd + kUnstuffed, kControlFd + payload + check};
-  if (worst) {
-    const int arbitration_stuff = (kArbitrationFd - 1) / 4;
-    bits.nominal += arbitration_stuff;
-    bits.data += (kArbitrationFd + kControlFd + payload - 1) / 4 - arbitration_stuff;
-  }
-  return bits;
-}
-
-Duration duration_of(const CanBus& bus, Bits bits) {
-  const Int128 rates = static_cast<Int128>(bus.nominal_bit_rate) * bus.data_bit_rate;
-  const Int128 work = (static_cast<Int128>(bits.nominal) * bus.data_bit_rate +
-                       static_cast<Int128>(bits.data) * bus.nominal_bit_rate) * 1'000'000'000;
-  return {static_cast<std::int64_t>((work + rates - 1) / rates)};
-}
-
 }  // namespace
 
 std::optional<int> can_data_length(bool flexible_data_rate, int bytes) {
@@ -54,9 +24,37 @@ std::optional<int> can_data_length(bool flexible_data_rate, int bytes) {
   return *std::lower_bound(kLong.begin(), kLong.end(), bytes);
 }
 
-Duration can_worst_case(const CanBus& bus, int bytes) { return duration_of(bus, bits_of(bus, bytes, true)); }
+CanBits can_unstuffed_bits(const CanBus& bus, int bytes) {
+  const auto length = can_data_length(bus.flexible_data_rate, bytes);
+  TTF_CHECK(length.has_value(), "{} bytes in a frame on {}", bytes, bus.name);
+  const int payload = 8 * *length;
+  if (!bus.flexible_data_rate) return {kStuffedClassic + payload + kUnstuffed, 0};
+  const int check = *length <= 16 ? 4 + 17 + 6 : 4 + 21 + 7;
+  return {kArbitrationFd + kUnstuffed, kControlFd + payload + check};
+}
 
-Duration can_best_case(const CanBus& bus, int bytes) { return duration_of(bus, bits_of(bus, bytes, false)); }
+Duration can_duration(const CanBus& bus, CanBits bits) {
+  const Int128 rates = static_cast<Int128>(bus.nominal_bit_rate) * bus.data_bit_rate;
+  const Int128 work = (static_cast<Int128>(bits.nominal) * bus.data_bit_rate +
+                       static_cast<Int128>(bits.data) * bus.nominal_bit_rate) * 1'000'000'000;
+  return {static_cast<std::int64_t>((work + rates - 1) / rates)};
+}
+
+Duration can_worst_case(const CanBus& bus, int bytes) {
+  CanBits bits = can_unstuffed_bits(bus, bytes);
+  const int payload = 8 * *can_data_length(bus.flexible_data_rate, bytes);
+  // After the first bit, every fourth can need a stuff bit.
+  if (bus.flexible_data_rate) {
+    const int arbitration_stuff = (kArbitrationFd - 1) / 4;
+    bits.nominal += arbitration_stuff;
+    bits.data += (kArbitrationFd + kControlFd + payload - 1) / 4 - arbitration_stuff;
+  } else {
+    bits.nominal += (kStuffedClassic + payload - 1) / 4;
+  }
+  return can_duration(bus, bits);
+}
+
+Duration can_best_case(const CanBus& bus, int bytes) { return can_duration(bus, can_unstuffed_bits(bus, bytes)); }
 
 Duration can_list_worst_case(const CanBus& bus, const PduLayout& layout) {
   return can_worst_case(bus, layout.fragment_bytes) * layout.max_fragments();

@@ -12,6 +12,9 @@
 // bits in which the rate changes (BRS, CRC delimiter) are counted at the nominal rate, which is on the safe side.
 #pragma once
 
+#include <cstdint>
+#include <optional>
+
 #include "core/time.h"
 #include "schedules/cluster.h"
 
@@ -24,7 +27,17 @@ inline constexpr double kCanLoadLimit = 0.8;
 // where no frame does.
 std::optional<int> can_data_length(bool flexible_data_rate, int bytes);
 
-// From start of frame to the end of the intermission, rounded up to whole nanoseconds; `bytes` must fit a frame.
+// Bits of a frame from its start to the end of the intermission, by the rate they are sent at.
+struct CanBits {
+  std::int64_t nominal = 0;
+  std::int64_t data = 0;
+};
+// Without stuff bits but CAN FD's fixed ones; `bytes` must fit a frame.
+CanBits can_unstuffed_bits(const CanBus& bus, int bytes);
+// Rounded up to whole nanoseconds.
+Duration can_duration(const CanBus& bus, CanBits bits);
+
+// From start of frame to the end of the intermission; `bytes` must fit a frame.
 Duration can_worst_case(const CanBus& bus, int bytes);   // any data
 Duration can_best_case(const CanBus& bus, int bytes);    // no stuff bits but the fixed ones
 

@@ -38,11 +38,19 @@ TEST(CanFrames, FlexibleDataRateByHand) {
 }
 
 TEST(CanFrames, LengthsAreTheOnesThereAre) {
-  EXPECT_EQ(can_data_length(false, 8), 8);
+  int previous = -1;
+  for (const int length : {0, 1, 2, 3, 4, 5, 6, 7, 8, 12, 16, 20, 24, 32, 48, 64}) {
+    for (int bytes = previous + 1; bytes <= length; ++bytes) EXPECT_EQ(can_data_length(true, bytes), length);
+    previous = length;
+  }
+  for (int bytes = 0; bytes <= 8; ++bytes) EXPECT_EQ(can_data_length(false, bytes), bytes);
   EXPECT_EQ(can_data_length(false, 9), std::nullopt);
-  EXPECT_EQ(can_data_length(true, 9), 12);
-  EXPECT_EQ(can_data_length(true, 33), 48);
   EXPECT_EQ(can_data_length(true, 65), std::nullopt);
+  EXPECT_EQ(can_data_length(true, -1), std::nullopt);
+}
+
+TEST(CanFrames, RoundUpToWholeNanoseconds) {
+  EXPECT_EQ(can_best_case(classic(300'000), 0), Duration{156'667});   // 47 / 300 kHz = 156'666.7 ns
 }
 
 // What frames on the wire really take lies between the two.
