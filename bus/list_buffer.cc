@@ -8,12 +8,6 @@
 namespace ttf::bus {
 namespace {
 
-std::size_t header_signal(const schedules::PduLayout& layout, std::string_view name) {
-  const auto signal = schedules::find_signal(layout.header, name);
-  TTF_CHECK(signal.has_value(), "{} has no header signal {}", layout.name, name);
-  return *signal;
-}
-
 std::size_t capacity(const schedules::PduLayout& layout) {
   return static_cast<std::size_t>(layout.fragment_bytes) * static_cast<std::size_t>(layout.max_fragments());
 }
@@ -39,9 +33,9 @@ std::span<const std::byte> OutgoingList::fragment(int index) const {
 
 IncomingList::IncomingList(const schedules::PduLayout& layout)
     : layout_(&layout),
-      sequence_signal_(header_signal(layout, "sequence")),
-      fragment_signal_(header_signal(layout, "fragment")),
-      count_signal_(header_signal(layout, "count")),
+      sequence_signal_(wire::header_signal(layout, "sequence")),
+      fragment_signal_(wire::header_signal(layout, "fragment")),
+      count_signal_(wire::header_signal(layout, "count")),
       collecting_bytes_(capacity(layout)),
       complete_bytes_(capacity(layout)),
       present_(static_cast<std::size_t>(layout.max_fragments())) {}

@@ -8,12 +8,6 @@
 namespace ttf::nodes {
 namespace {
 
-std::size_t header_signal(const schedules::PduLayout& layout, std::string_view name) {
-  const auto signal = schedules::find_signal(layout.header, name);
-  TTF_CHECK(signal.has_value(), "{} has no header signal {}", layout.name, name);
-  return *signal;
-}
-
 std::uint32_t low_bits(std::uint64_t value, int bits) {
   return static_cast<std::uint32_t>(bits >= 32 ? value : value & ((std::uint64_t{1} << bits) - 1));
 }
@@ -36,9 +30,9 @@ void Output::begin(std::uint32_t sequence, int count, GlobalTime time_stamp) {
   fragments_ = layout_->fragments_of(count);
   written_ = true;
   std::fill(bytes_.begin(), bytes_.end(), std::byte{0});
-  const std::size_t sequence_signal = header_signal(*layout_, "sequence");
-  const std::size_t fragment_signal = header_signal(*layout_, "fragment");
-  const std::size_t count_signal = header_signal(*layout_, "count");
+  const std::size_t sequence_signal = wire::header_signal(*layout_, "sequence");
+  const std::size_t fragment_signal = wire::header_signal(*layout_, "fragment");
+  const std::size_t count_signal = wire::header_signal(*layout_, "count");
   const auto stamp_signal = schedules::find_signal(layout_->header, "timestamp");
   for (int f = 0; f < fragments_; ++f) {
     const std::span<std::byte> payload(bytes_.data() + static_cast<std::size_t>(f) * fragment_bytes(*layout_),
@@ -94,7 +88,7 @@ std::optional<GlobalTime> StrobeLatch::time_of(std::uint32_t sequence) const {
 }
 
 GlobalTime time_stamp(const schedules::PduLayout& layout, const bus::ListView& list, GlobalTime near) {
-  const std::size_t signal = header_signal(layout, "timestamp");
+  const std::size_t signal = wire::header_signal(layout, "timestamp");
   const int bits = layout.header[signal].bits;
   const std::int64_t modulus = std::int64_t{1} << bits;
   const std::int64_t raw = wire::read_header_raw(layout, list.bytes.first(fragment_bytes(layout)), signal);
@@ -108,7 +102,7 @@ GlobalTime time_stamp(const schedules::PduLayout& layout, const bus::ListView& l
 
 int element_count(const schedules::PduLayout& layout, const bus::ListView& list) {
   return static_cast<int>(
-      wire::read_header_raw(layout, list.bytes.first(fragment_bytes(layout)), header_signal(layout, "count")));
+      wire::read_header_raw(layout, list.bytes.first(fragment_bytes(layout)), wire::header_signal(layout, "count")));
 }
 
 double element_value(const schedules::PduLayout& layout, const bus::ListView& list, int index, std::size_t signal) {

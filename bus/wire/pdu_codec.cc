@@ -43,6 +43,12 @@ int element_start(const schedules::PduLayout& layout, int index) {
 
 }  // namespace
 
+std::size_t header_signal(const schedules::PduLayout& layout, std::string_view name) {
+  const auto signal = schedules::find_signal(layout.header, name);
+  TTF_CHECK(signal.has_value(), "{} has no header signal {}", layout.name, name);
+  return *signal;
+}
+
 std::uint32_t to_raw(const schedules::Signal& signal, double physical, int* saturated) {
   TTF_CHECK(!std::isnan(physical), "{} is not a number", signal.name);
   const double bounded = physical < signal.low ? signal.low : physical > signal.high ? signal.high : physical;

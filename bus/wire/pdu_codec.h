@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 #include "schedules/pdu.h"
 
@@ -13,6 +14,10 @@ namespace ttf::wire {
 // ours and fails a check.
 std::uint32_t to_raw(const schedules::Signal& signal, double physical, int* saturated = nullptr);
 double to_physical(const schedules::Signal& signal, std::uint32_t raw);
+
+// Index of the header signal of that name, for names that the loader has found in the layout ("sequence", "fragment" and
+// "count" in every one): a layout without it is a bug of ours and fails a check.
+std::size_t header_signal(const schedules::PduLayout& layout, std::string_view name);
 
 // One signal of the header or of element `index` in a fragment's payload. The payload must be fragment_bytes long.
 std::uint32_t read_header_raw(const schedules::PduLayout& layout, std::span<const std::byte> payload, std::size_t signal);
