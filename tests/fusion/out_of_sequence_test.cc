@@ -107,6 +107,14 @@ TEST(OutOfSequence, ThePaperTableII) {
   EXPECT_NEAR(random_walk('C', 0.05).mse(0, 0), 0.3470, 5e-5);
 }
 
+// Taking both in order, as the tracker does after going back, is the exact solution that algorithm A
+// reproduces.
+TEST(OutOfSequence, InOrderProcessingIsAlgorithmA) {
+  const auto update = [](double p) { return p / (p + 1.0); };
+  for (const double q : {0.05, 1.0, 4.0})
+    EXPECT_NEAR(update(update(1.0 + 0.5 * q) + 0.5 * q), random_walk('A', q).p(0, 0), 1e-15) << "q " << q;
+}
+
 // One object through the tracker's history:
 //
 //      scan 0        scan 1 (late)     scan 2

@@ -1,0 +1,113 @@
+// What BUFF holds back and when it lets go. Timelines: x measured, > arrives at the fusion node; fusion every
+// 10 ms.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "tests/fusion/drives.h"
+
+namespace ttf::fusion {
+namespace {
+
+// Worst delays: sensor 0 60 ms, sensor 1 30 ms.
+//
+//   t [ms]    0     10    20    30    40    50    60    70    80    90    100   110
+//   sensor 0  x0 ------------------------------>55           nothing more comes
+//   sensor 1        x0 --------->30         x1 ------>65
+//   fused                                         0/0   1/0                     1/1
+//
+//   1/0 (10 ms) is there at 30, but sensor 0 could still deliver something older: until 10 + 60 = 70.
+//   0/0 ( 0 ms) is there at 55; sensor 1 has delivered something younger: fused at 60, at once.
+//   1/1 (50 ms): sensor 0 could still deliver until 50 + 60 = 110.
+TEST(Buff, WaitsUntilTheOrderIsCertain) {
+  const std::vector<SensorTiming> sensors{free_running(0, 60), free_running(1, 30)};
+  const auto strategy = make_strategy(StrategyKind::kBuff, {}, sensors);
+  const std::vector<Arrival> arrivals{
+      {55, scan(0, 0, at_ms(0))}, {30, scan(1, 0, at_ms(10))}, {65, scan(1, 1, at_ms(50))}};
+  EXPECT_EQ(run(*strategy, arrivals, 150), (std::vector{fused(60, 0, 0), fused(70, 1, 0), fused(110, 1, 1)}));
+}
+
+// A scan of the same instant from the other sensor settles the order: the smaller sensor first.
+//
+//   t [ms]    0     10    20    30    40    50    60
+//   sensor 0        x0 ------------------>45
+//   sensor 1        x0 ------>25
+//   fused                                   0/0, 1/0
+TEST(Buff, OfOneInstantTheSmallerSensorIsFirst) {
+  const std::vector<SensorTiming> sensors{free_running(0, 60), free_running(1, 30)};
+  const auto strategy = make_strategy(StrategyKind::kBuff, {}, sensors);
+  EXPECT_EQ(run(*strategy, {{45, scan(0, 0, at_ms(10))}, {25, scan(1, 0, at_ms(10))}}, 150),
+            (std::vector{fused(50, 0, 0), fused(50, 1, 0)}));
+}
+
+TEST(Buff, SaysWhatItHolds) {
+  const std::vector<SensorTiming> sensors{free_running(0, 60), free_running(1, 30)};
+  const auto strategy = make_strategy(StrategyKind::kBuff, {}, sensors);
+  strategy->accept(scan(1, 0, at_ms(10)).view());
+  strategy->fuse(at_ms(30));
+  ASSERT_EQ(strategy->last_fused().size(), 1u);
+  EXPECT_EQ(strategy->last_fused()[0].disposition, Disposition::kHeld);
+  EXPECT_EQ(strategy->last_fused()[0].measured, at_ms(10));
+  EXPECT_TRUE(strategy->newest().empty());
+}
+
+// Of a silent sensor, to the nanosecond.
+TEST(Buff, LetsGoWhenNothingOlderCanArriveAnyMore) {
+  const auto strategy =
+      make_strategy(StrategyKind::kBuff, {}, std::vector{free_running(0, 60), free_running(1, 30)});
+  strategy->accept(scan(1, 0, at_ms(20)).view());
+  strategy->fuse(at_ms(80) - Duration{1});
+  EXPECT_EQ(held(*strategy), 1u);
+  strategy->fuse(at_ms(80));
+  EXPECT_EQ(held(*strategy), 0u);
+}
+
+// sensor 0 breaks its promise of 60 ms:
+//
+//   t [ms]    0     10    20    30    40    50    60    70    80    90
+//   sensor 0  x0 ------------------------------------------------>85
+//   sensor 1        x0 --------->30
+//   fused                                               1/0         0/0 late
+TEST(Buff, RepairsABrokenPromise) {
+  const std::vector<SensorTiming> sensors{free_running(0, 60), free_running(1, 30)};
+  const auto strategy = make_strategy(StrategyKind::kBuff, {}, sensors);
+  EXPECT_EQ(run(*strategy, {{85, scan(0, 0, at_ms(0))}, {30, scan(1, 0, at_ms(10))}}, 150),
+            (std::vector{fused(70, 1, 0), fused(90, 0, 0, Disposition::kFusedLate)}));
+}
+
+// Any drive that keeps its promises: released in chronological order, never late, and no later than the last
+// promise.
+TEST(Buff, IsInOrderAndNeverWaitsLongerThanTheWorstDelay) {
+  const std::vector<SensorTiming> sensors{free_running(0, 120), free_running(1, 45), free_running(2, 80)};
+  const std::int64_t period[] = {80, 42, 55};
+  for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+    RandomStream stream({.seed = seed});
+    std::vector<Arrival> arrivals;
+    std::map<MeasurementId, std::pair<std::int64_t, std::int64_t>> measured_arrived;
+    for (std::uint8_t s = 0; s < 3; ++s) {
+      std::int64_t before_this = 0;
+      for (std::uint32_t k = 0; k < 20; ++k) {
+        const std::int64_t t = 7 * s + period[s] * k;
+        before_this = std::max(before_this, t + stream.integer(5, sensors[s].worst_delay.ns / 1'000'000));
+        arrivals.push_back({before_this, scan(s, k, at_ms(t))});
+        measured_arrived[arrivals.back().scan.id] = {t, before_this};
+      }
+    }
+    const auto strategy = make_strategy(StrategyKind::kBuff, {}, sensors);
+    const std::vector<Fused> result = run(*strategy, arrivals, 2500);
+    ASSERT_EQ(result.size(), arrivals.size());
+    std::pair<std::int64_t, MeasurementId> last{-1, {}};
+    for (const Fused& f : result) {
+      ASSERT_EQ(f.disposition, Disposition::kFused);
+      const auto [t, arrived] = measured_arrived[f.id];
+      ASSERT_LT(last, (std::pair{t, f.id}));
+      last = {t, f.id};
+      ASSERT_LT(f.ms, std::max(arrived, t + 120) + 10);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ttf::fusion

@@ -1,0 +1,51 @@
+// Drives in milliseconds for the tests of the strategies: what arrives when, and what was fused when.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <iosfwd>
+#include <vector>
+
+#include "fusion/strategy.h"
+#include "tests/fusion/scenes.h"
+
+namespace ttf::fusion {
+
+// What the schedule promises of a sensor: measurements at unknown instants, or every `period_ms` from
+// `first_ms`.
+SensorTiming free_running(std::uint8_t sensor, std::int64_t worst_ms);
+SensorTiming scheduled(std::uint8_t sensor, std::int64_t worst_ms, std::int64_t first_ms,
+                       std::int64_t period_ms);
+
+// Laser and camera, both on a schedule: from 0 every 80 ms, there after 60 ms at worst; from 20 every 40 ms,
+// after 35.
+std::vector<SensorTiming> laser_and_camera();
+
+struct Arrival {
+  std::int64_t ms = 0;
+  OwnedScan scan;
+};
+// In the order of their arrival; what arrives together stays as it is.
+void sort_by_arrival(std::vector<Arrival>& arrivals);
+
+// Lists of laser_and_camera() with delays up to their worst, so that many arrive out of order: `laser_scans`
+// of the laser, twice as many of the camera.
+std::vector<Arrival> drawn_drive(std::uint64_t seed, std::uint32_t laser_scans);
+
+struct Fused {
+  std::int64_t ms = 0;
+  MeasurementId id;
+  Disposition disposition = Disposition::kFused;
+  bool operator==(const Fused&) const = default;
+};
+std::ostream& operator<<(std::ostream& out, const Fused& f);
+Fused fused(std::int64_t ms, std::uint8_t sensor, std::uint32_t sequence,
+            Disposition d = Disposition::kFused);
+
+// Fusion every 10 ms from 0 to `until`; what was reported, held scans left out.
+std::vector<Fused> run(Strategy& strategy, std::vector<Arrival> arrivals, std::int64_t until);
+
+// Scans that the last fusion instant left waiting.
+std::size_t held(const Strategy& strategy);
+
+}  // namespace ttf::fusion
