@@ -68,7 +68,8 @@ void Assignment::solve(std::span<const Candidate> candidates, std::size_t rows, 
   }
 }
 
-// Rows are inserted one by one along the shortest augmenting path; potentials u, v keep reduced costs non-negative.
+// Rows are inserted one by one along the shortest augmenting path; potentials u, v keep reduced costs
+// non-negative.
 void Assignment::solve_component() {
   component_rows_.clear();
   component_columns_.clear();
@@ -81,13 +82,15 @@ void Assignment::solve_component() {
   component_columns_.erase(std::unique(component_columns_.begin(), component_columns_.end()),
                            component_columns_.end());
   const std::size_t n = component_rows_.size(), tracks = component_columns_.size(), m = tracks + n;
-  for (std::size_t j = 0; j < tracks; ++j) local_column_[static_cast<std::size_t>(component_columns_[j])] = static_cast<int>(j);
+  for (std::size_t j = 0; j < tracks; ++j)
+    local_column_[static_cast<std::size_t>(component_columns_[j])] = static_cast<int>(j);
   std::fill(cost_.begin(), cost_.begin() + static_cast<std::ptrdiff_t>(n * m), kForbidden);
   for (std::size_t i = 0; i < n; ++i) cost_[i * m + tracks + i] = 0.0;
   std::size_t i = 0;
   for (std::size_t c = first_; c < last_; ++c) {
     while (component_rows_[i] != sorted_[c].row) ++i;
-    cost_[i * m + static_cast<std::size_t>(local_column_[static_cast<std::size_t>(sorted_[c].column)])] = -sorted_[c].gain;
+    cost_[i * m + static_cast<std::size_t>(local_column_[static_cast<std::size_t>(sorted_[c].column)])] =
+        -sorted_[c].gain;
   }
 
   constexpr double kInfinity = std::numeric_limits<double>::infinity();

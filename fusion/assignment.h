@@ -1,8 +1,9 @@
 // Optimal assignment of observations to tracks (global nearest neighbour).
 //
-// The candidates are sparse: only pairs inside their gate. They fall into independent components that are solved one by one
-// with shortest augmenting paths (Hungarian method with potentials: Kuhn 1955, Munkres 1957), which leaves an observation
-// unassigned where that is cheaper. Storage is taken at construction; solving allocates nothing.
+// The candidates are sparse: only pairs inside their gate. They fall into independent components that are
+// solved one by one with shortest augmenting paths (Hungarian method with potentials: Kuhn 1955, Munkres
+// 1957), which leaves an observation unassigned where that is cheaper. Storage is taken at construction;
+// solving allocates nothing.
 #pragma once
 
 #include <cstddef>
@@ -32,10 +33,10 @@ class Assignment {
 
   std::size_t rows_ = 0, columns_ = 0, max_rows_;
   std::vector<int> column_of_;
-  std::vector<int> parent_;                  // union-find over rows, then columns
+  std::vector<int> parent_;  // union-find over rows, then columns
   std::vector<int> component_rows_, component_columns_, local_column_;
   std::vector<Candidate> sorted_;
-  std::size_t first_ = 0, last_ = 0;         // candidates of the component being solved
+  std::size_t first_ = 0, last_ = 0;  // candidates of the component being solved
   std::vector<double> cost_, u_, v_, shortest_;
   std::vector<int> match_, way_;
   std::vector<char> used_;

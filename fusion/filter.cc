@@ -13,7 +13,8 @@ void symmetrise(Covariance& p) { p = 0.5 * (p + p.transpose()).eval(); }
 
 template <int Dimension>
 double normalised(const Innovation& innovation) {
-  const Eigen::Matrix<double, Dimension, Dimension> s = innovation.s.template topLeftCorner<Dimension, Dimension>();
+  const Eigen::Matrix<double, Dimension, Dimension> s =
+      innovation.s.template topLeftCorner<Dimension, Dimension>();
   const Eigen::Matrix<double, Dimension, 1> nu = innovation.nu.template head<Dimension>();
   return nu.dot(s.ldlt().solve(nu));
 }
@@ -21,8 +22,10 @@ double normalised(const Innovation& innovation) {
 template <int Dimension>
 void joseph(Estimate& estimate, const Observation& observation, const Innovation& innovation) {
   const Eigen::Matrix<double, Dimension, 6> h = innovation.h.template topRows<Dimension>();
-  const Eigen::Matrix<double, Dimension, Dimension> s = innovation.s.template topLeftCorner<Dimension, Dimension>();
-  const Eigen::Matrix<double, Dimension, Dimension> r = observation.r.template topLeftCorner<Dimension, Dimension>();
+  const Eigen::Matrix<double, Dimension, Dimension> s =
+      innovation.s.template topLeftCorner<Dimension, Dimension>();
+  const Eigen::Matrix<double, Dimension, Dimension> r =
+      observation.r.template topLeftCorner<Dimension, Dimension>();
   const Eigen::Matrix<double, 6, Dimension> k = s.ldlt().solve(h * estimate.p).transpose();
   estimate.x += k * innovation.nu.template head<Dimension>();
   const Covariance a = Covariance::Identity() - k * h;
@@ -86,7 +89,7 @@ Eigen::Matrix<double, 3, 6> jacobian(ObservationKind kind, const State& x) {
     return h;
   }
   const double range2 = x(0) * x(0) + x(1) * x(1), range = std::sqrt(range2), range3 = range2 * range;
-  const double cross = x(1) * x(2) - x(0) * x(3);   // so that d(rate)/dx = y cross / r^3
+  const double cross = x(1) * x(2) - x(0) * x(3);  // so that d(rate)/dx = y cross / r^3
   h(0, 0) = x(0) / range;
   h(0, 1) = x(1) / range;
   h(1, 0) = -x(1) / range2;
@@ -110,7 +113,8 @@ Innovation innovate(const Estimate& estimate, const Observation& observation) {
   if (observation.kind == ObservationKind::kRangeBearingRate) innovation.nu(1) = wrap_angle(innovation.nu(1));
   innovation.s = innovation.h * estimate.p * innovation.h.transpose() + observation.r;
   innovation.s = (0.5 * (innovation.s + innovation.s.transpose())).eval();
-  innovation.distance_squared = innovation.dimension == 2 ? normalised<2>(innovation) : normalised<3>(innovation);
+  innovation.distance_squared =
+      innovation.dimension == 2 ? normalised<2>(innovation) : normalised<3>(innovation);
   innovation.valid = true;
   return innovation;
 }
@@ -142,7 +146,8 @@ Estimate initial_estimate(const Observation& observation, const TrackerConfig& c
     estimate.p.block<2, 2>(2, 2) = rotation * velocity.asDiagonal() * rotation.transpose();
   }
   if (config.motion == MotionModel::kConstantAcceleration)
-    estimate.p(4, 4) = estimate.p(5, 5) = config.initial_acceleration_sigma * config.initial_acceleration_sigma;
+    estimate.p(4, 4) = estimate.p(5, 5) =
+        config.initial_acceleration_sigma * config.initial_acceleration_sigma;
   symmetrise(estimate.p);
   return estimate;
 }

@@ -1,9 +1,10 @@
 // The Kalman filter of one object: Cartesian state, linear motion, linear and linearised measurements.
 //
-// State (x, y, vx, vy, ax, ay) in metres and seconds, ISO 8855 axes; under constant velocity the accelerations are zero
-// and certain. Prediction x <- F x, P <- F P F' + Q with the exactly discretised white-noise model (Bar-Shalom, Li,
-// Kirubarajan: "Estimation with Applications to Tracking and Navigation", 2001, eq. 6.2.2-8 and 6.2.3-7). Update with gain
-// K = P H' S^-1 by an LDLT solve, covariance in Joseph form (5.2.3-18), so P stays symmetric and positive.
+// State (x, y, vx, vy, ax, ay) in metres and seconds, ISO 8855 axes; under constant velocity the
+// accelerations are zero and certain. Prediction x <- F x, P <- F P F' + Q with the exactly discretised
+// white-noise model (Bar-Shalom, Li, Kirubarajan: "Estimation with Applications to Tracking and Navigation",
+// 2001, eq. 6.2.2-8 and 6.2.3-7). Update with gain K = P H' S^-1 by an LDLT solve, covariance in Joseph form
+// (5.2.3-18), so P stays symmetric and positive.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,13 +25,13 @@ struct Estimate {
 // By dt >= 0 seconds.
 void predict(Estimate& estimate, MotionModel motion, double process_noise, double dt);
 
-// Innovation of an observation, the bearing's wrapped to (-pi, pi]. `valid` is false where the measurement model has no
-// derivative (an object at the sensor's origin): such an observation cannot be used.
+// Innovation of an observation, the bearing's wrapped to (-pi, pi]. `valid` is false where the measurement
+// model has no derivative (an object at the sensor's origin): such an observation cannot be used.
 struct Innovation {
   Eigen::Vector3d nu = Eigen::Vector3d::Zero();
   Eigen::Matrix<double, 3, 6> h = Eigen::Matrix<double, 3, 6>::Zero();
   Eigen::Matrix3d s = Eigen::Matrix3d::Zero();
-  double distance_squared = 0.0;               // nu' S^-1 nu
+  double distance_squared = 0.0;  // nu' S^-1 nu
   int dimension = 0;
   bool valid = false;
 };

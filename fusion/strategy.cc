@@ -8,8 +8,8 @@
 namespace ttf::fusion {
 namespace {
 
-// What the three share: the scans that wait, the timeline, and the account of what happened. They differ in which waiting
-// scan may be fused.
+// What the three share: the scans that wait, the timeline, and the account of what happened. They differ in
+// which waiting scan may be fused.
 class TimelineStrategy : public Strategy {
  public:
   TimelineStrategy(const TrackerConfig& config, std::span<const SensorTiming> sensors)
@@ -24,7 +24,8 @@ class TimelineStrategy : public Strategy {
     newest_received_.resize(sensors_.size());
     any_received_.resize(sensors_.size());
     for (const SensorTiming& s : sensors_)
-      TTF_CHECK(!s.scheduled || s.period.ns > 0, "sensor {}: period of {} ns", index_of(s.sensor), s.period.ns);
+      TTF_CHECK(!s.scheduled || s.period.ns > 0, "sensor {}: period of {} ns", index_of(s.sensor),
+                s.period.ns);
   }
 
   void accept(const Scan& scan) final {
@@ -63,8 +64,8 @@ class TimelineStrategy : public Strategy {
     for (std::size_t i = 0; i < waiting_.size(); ++i) {
       const std::size_t slot = waiting_[i];
       const StoredScan& scan = pending_[slot];
-      // In chronological order: what must wait holds back all that is younger. A stamp from the future is wrong,
-      // and would make everything after it late.
+      // In chronological order: what must wait holds back all that is younger. A stamp from the future is
+      // wrong, and would make everything after it late.
       blocked = blocked || scan.measured > now || !may_fuse(scan, now);
       if (blocked) {
         note(report_, {scan.id, scan.measured, Disposition::kHeld});
@@ -112,9 +113,14 @@ class TimelineStrategy : public Strategy {
   void take(const StoredScan& scan, std::vector<FusedScan>& report) {
     Disposition disposition = Disposition::kFused;
     switch (timeline_.insert(scan.view())) {
-      case Timeline::Insertion::kInOrder: break;
-      case Timeline::Insertion::kLate: disposition = Disposition::kFusedLate; break;
-      case Timeline::Insertion::kTooOld: disposition = Disposition::kDroppedTooOld; break;
+      case Timeline::Insertion::kInOrder:
+        break;
+      case Timeline::Insertion::kLate:
+        disposition = Disposition::kFusedLate;
+        break;
+      case Timeline::Insertion::kTooOld:
+        disposition = Disposition::kDroppedTooOld;
+        break;
     }
     note(report, {scan.id, scan.measured, disposition});
     if (disposition == Disposition::kDroppedTooOld) return;
@@ -184,14 +190,16 @@ class TimeTriggered final : public TimelineStrategy {
   // Time stamps are clock readings: an instant of the schedule is recognised within a quarter of the period.
   static Duration tolerance(const SensorTiming& timing) { return {timing.period.ns / 4}; }
 
-  // Instants are compared on the schedule, not by their stamps: two sensors that measure at the same instant wait
-  // for each other whichever stamp happens to be smaller. A measurement that fits no instant stands for itself.
+  // Instants are compared on the schedule, not by their stamps: two sensors that measure at the same instant
+  // wait for each other whichever stamp happens to be smaller. A measurement that fits no instant stands for
+  // itself.
   GlobalTime scheduled_instant(const StoredScan& scan) const {
     for (std::size_t s = 0; s < sensor_count(); ++s) {
       const SensorTiming& own = sensor(s);
       if (own.sensor != scan.id.sensor || !own.scheduled) continue;
       const std::int64_t since = (scan.measured - own.first).ns + own.period.ns / 2;
-      const std::int64_t cycle = since >= 0 ? since / own.period.ns : -((own.period.ns - 1 - since) / own.period.ns);
+      const std::int64_t cycle =
+          since >= 0 ? since / own.period.ns : -((own.period.ns - 1 - since) / own.period.ns);
       const GlobalTime instant = own.first + own.period * cycle;
       const Duration off = scan.measured - instant;
       if (off <= tolerance(own) && -off <= tolerance(own)) return instant;
@@ -205,9 +213,12 @@ class TimeTriggered final : public TimelineStrategy {
 std::unique_ptr<Strategy> make_strategy(StrategyKind kind, const TrackerConfig& config,
                                         std::span<const SensorTiming> sensors) {
   switch (kind) {
-    case StrategyKind::kBuff: return std::make_unique<Buff>(config, sensors);
-    case StrategyKind::kAdva: return std::make_unique<Adva>(config, sensors);
-    case StrategyKind::kTt: return std::make_unique<TimeTriggered>(config, sensors);
+    case StrategyKind::kBuff:
+      return std::make_unique<Buff>(config, sensors);
+    case StrategyKind::kAdva:
+      return std::make_unique<Adva>(config, sensors);
+    case StrategyKind::kTt:
+      return std::make_unique<TimeTriggered>(config, sensors);
   }
   TTF_CHECK(false, "strategy {}", static_cast<int>(kind));
 }

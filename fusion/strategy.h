@@ -1,16 +1,18 @@
-// The three ways to fuse observations that arrive late and out of order (paper, section II-B), behind one interface.
+// The three ways to fuse observations that arrive late and out of order (paper, section II-B), behind one
+// interface.
 //
-// BUFF  keeps a scan back until chronological order is certain: for every other sensor, a scan that is not older has
-//       arrived, or none can arrive any more (its worst delay has passed). Then fuses in order.
-// ADVA  takes scans as they come. One that is older than what is fused already is taken in exactly: the tracker goes back to
-//       before it, takes it in, and takes in again what came after, associations included. That is bit-identical to
-//       having received everything in order.
-// TT    relies on the schedule: the instants of all measurements are known beforehand. A scan waits only for scheduled
-//       older measurements of other sensors that have not arrived and are not yet due; one that misses its due instant is
-//       not waited for.
-// Whatever a strategy fused too early (a broken promise) is repaired as in ADVA and reported as late. Scans older than the
-// history are dropped and reported; one with a stamp from the future waits until its time. Order among scans: (measured,
-// sensor, sequence).
+// BUFF  keeps a scan back until chronological order is certain: for every other sensor, a scan that is not
+//       older has arrived, or none can arrive any more (its worst delay has passed). Then fuses in order.
+// ADVA  takes scans as they come. One that is older than what is fused already is taken in exactly: the
+//       tracker goes back to before it, takes it in, and takes in again what came after, associations
+//       included. That is bit-identical to having received everything in order.
+// TT    relies on the schedule: the instants of all measurements are known beforehand. A scan waits only for
+//       scheduled older measurements of other sensors that have not arrived and are not yet due; one that
+//       misses its due instant is not waited for.
+//
+// Whatever a strategy fused too early (a broken promise) is repaired as in ADVA and reported as late. Scans
+// older than the history are dropped and reported; one with a stamp from the future waits until its time.
+// Order among scans: (measured, sensor, sequence).
 //
 // After construction nothing allocates.
 #pragma once
@@ -33,13 +35,19 @@ enum class StrategyKind : std::uint8_t { kBuff = 0, kAdva = 1, kTt = 2 };
 // What the schedule promises about a sensor.
 struct SensorTiming {
   SensorId sensor{};
-  Duration worst_delay{};      // from the measurement until fusion can have it
-  bool scheduled = false;      // the instants below are known beforehand
+  Duration worst_delay{};  // from the measurement until fusion can have it
+  bool scheduled = false;  // the instants below are known beforehand
   GlobalTime first{};
   Duration period{};
 };
 
-enum class Disposition : std::uint8_t { kFused = 1, kFusedLate = 2, kHeld = 3, kDroppedTooOld = 4, kDuplicate = 5 };
+enum class Disposition : std::uint8_t {
+  kFused = 1,
+  kFusedLate = 2,
+  kHeld = 3,
+  kDroppedTooOld = 4,
+  kDuplicate = 5
+};
 struct FusedScan {
   MeasurementId id;
   GlobalTime measured{};
@@ -59,8 +67,8 @@ class Strategy {
   virtual void fuse(GlobalTime now) = 0;
   // What became of each scan at the last fusion instant, and which are held.
   virtual std::span<const FusedScan> last_fused() const = 0;
-  // Confirmed tracks predicted to `at`, into `out` (which keeps its capacity). Never touches the filter state; where `at` is
-  // before the newest measurement, the tracks are shown as of that measurement.
+  // Confirmed tracks predicted to `at`, into `out` (which keeps its capacity). Never touches the filter
+  // state; where `at` is before the newest measurement, the tracks are shown as of that measurement.
   virtual void image(GlobalTime at, std::vector<TrackView>& out) const = 0;
   // Confirmed tracks at the instant of the newest fused measurement, as of the last fuse().
   virtual std::span<const TrackView> tracks() const = 0;

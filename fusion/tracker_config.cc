@@ -8,12 +8,14 @@ TrackerConfig load_tracker(YamlMap& yaml) {
                                          {{"constant_velocity", MotionModel::kConstantVelocity},
                                           {"constant_acceleration", MotionModel::kConstantAcceleration}});
   c.process_noise = yaml.number_or("process_noise", c.process_noise, {1e-6, 1e4});
-  c.initial_velocity_sigma = yaml.number_or("initial_velocity_sigma", c.initial_velocity_sigma, {0.01, 100.0}, "m/s");
+  c.initial_velocity_sigma =
+      yaml.number_or("initial_velocity_sigma", c.initial_velocity_sigma, {0.01, 100.0}, "m/s");
   c.initial_acceleration_sigma =
       yaml.number_or("initial_acceleration_sigma", c.initial_acceleration_sigma, {0.01, 100.0}, "m/s^2");
   c.gate_probability = yaml.number_or("gate_probability", c.gate_probability, {0.5, 0.999999});
   c.confirm_window = static_cast<int>(yaml.integer_or("confirm_window", c.confirm_window, {1, 32}, "scans"));
-  c.confirm_hits = static_cast<int>(yaml.integer_or("confirm_hits", c.confirm_hits, {1, c.confirm_window}, "scans"));
+  c.confirm_hits =
+      static_cast<int>(yaml.integer_or("confirm_hits", c.confirm_hits, {1, c.confirm_window}, "scans"));
   c.delete_misses = static_cast<int>(yaml.integer_or("delete_misses", c.delete_misses, {1, 1000}, "scans"));
   c.delete_position_sigma =
       yaml.number_or("delete_position_sigma", c.delete_position_sigma, {0.1, 100.0}, "m");

@@ -11,21 +11,21 @@ enum class MotionModel : unsigned char { kConstantVelocity, kConstantAcceleratio
 
 struct TrackerConfig {
   MotionModel motion = MotionModel::kConstantVelocity;
-  // Spectral density of the white noise that drives each axis: acceleration [m^2/s^3] for constant velocity, jerk
-  // [m^2/s^5] for constant acceleration. 3 m^2/s^3 lets the velocity wander by 1.7 m/s within a second, a car that
-  // brakes or accelerates moderately.
+  // Spectral density of the white noise that drives each axis: acceleration [m^2/s^3] for constant velocity,
+  // jerk [m^2/s^5] for constant acceleration. 3 m^2/s^3 lets the velocity wander by 1.7 m/s within a second,
+  // a car that brakes or accelerates moderately.
   double process_noise = 3.0;
-  double initial_velocity_sigma = 8.0;        // [m/s] of a new track, per axis
-  double initial_acceleration_sigma = 2.0;    // [m/s^2]
-  double gate_probability = 0.9973;           // that the right observation falls in its gate (three sigma in one dimension)
-  int confirm_hits = 3;                       // M of the last N scans confirm a track
+  double initial_velocity_sigma = 8.0;      // [m/s] of a new track, per axis
+  double initial_acceleration_sigma = 2.0;  // [m/s^2]
+  double gate_probability = 0.9973;         // that the right observation is in its gate (three sigma in 1D)
+  int confirm_hits = 3;                     // M of the last N scans confirm a track
   int confirm_window = 5;
-  int delete_misses = 8;                      // scans in a row without an observation end a confirmed track
-  double delete_position_sigma = 5.0;         // [m] so does this much uncertainty
-  int max_objects = 25;                       // confirmed tracks: what the image's list carries
-  std::size_t history_scans = 64;             // how far back a late scan can be taken in
-  double heading_noise = 0.05;                // spectral density of the heading's random walk [rad^2/s]
-  double extent_noise = 0.01;                 // of length and width [m^2/s]
+  int delete_misses = 8;               // scans in a row without an observation end a confirmed track
+  double delete_position_sigma = 5.0;  // [m] so does this much uncertainty
+  int max_objects = 25;                // confirmed tracks: what the image's list carries
+  std::size_t history_scans = 64;      // how far back a late scan can be taken in
+  double heading_noise = 0.05;         // spectral density of the heading's random walk [rad^2/s]
+  double extent_noise = 0.01;          // of length and width [m^2/s]
 };
 
 TrackerConfig load_tracker(YamlMap& yaml);
