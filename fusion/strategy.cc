@@ -23,6 +23,7 @@ class TimelineStrategy : public Strategy {
     newest_.reserve(sensors_.size());
     newest_received_.resize(sensors_.size());
     any_received_.resize(sensors_.size());
+    settled_.resize(sensors_.size());
     for (const SensorTiming& s : sensors_)
       TTF_CHECK(!s.scheduled || s.period.ns > 0, "sensor {}: period of {} ns", index_of(s.sensor),
                 s.period.ns);
@@ -59,6 +60,7 @@ class TimelineStrategy : public Strategy {
   void fuse(GlobalTime now) final {
     report_.assign(between_.begin(), between_.end());
     between_.clear();
+    for (std::size_t s = 0; s < sensors_.size(); ++s) settled_[s] = sensors_[s].settling.settled(now);
     std::size_t kept = 0;
     bool blocked = false;
     for (std::size_t i = 0; i < waiting_.size(); ++i) {
@@ -66,7 +68,7 @@ class TimelineStrategy : public Strategy {
       const StoredScan& scan = pending_[slot];
       // In chronological order: what must wait holds back all that is younger. A stamp from the future is
       // wrong, and would make everything after it late.
-      blocked = blocked || scan.measured > now || !may_fuse(scan, now);
+      blocked = blocked || scan.measured > now || !may_fuse(scan);
       if (blocked) {
         note(report_, {scan.id, scan.measured, Disposition::kHeld});
         waiting_[kept++] = slot;
@@ -96,7 +98,8 @@ class TimelineStrategy : public Strategy {
   }
 
  protected:
-  virtual bool may_fuse(const StoredScan& scan, GlobalTime now) const = 0;
+  // At the present fusion instant.
+  virtual bool may_fuse(const StoredScan& scan) const = 0;
 
   std::size_t sensor_count() const { return sensors_.size(); }
   const SensorTiming& sensor(std::size_t s) const { return sensors_[s]; }
@@ -104,6 +107,8 @@ class TimelineStrategy : public Strategy {
   bool arrived_since(std::size_t s, GlobalTime instant) const {
     return any_received_[s] && newest_received_[s] >= instant;
   }
+  // What sensor s measured until `instant` has arrived, or never will.
+  bool settled(std::size_t s, GlobalTime instant) const { return settled_[s] >= instant; }
 
  private:
   static void note(std::vector<FusedScan>& report, const FusedScan& what) {
@@ -149,16 +154,17 @@ class TimelineStrategy : public Strategy {
   std::vector<MeasurementId> newest_;
   std::vector<GlobalTime> newest_received_;
   std::vector<char> any_received_;
+  std::vector<GlobalTime> settled_;  // by sensor, at the present fusion instant
 };
 
 class Buff final : public TimelineStrategy {
   using TimelineStrategy::TimelineStrategy;
 
  private:
-  bool may_fuse(const StoredScan& scan, GlobalTime now) const override {
+  bool may_fuse(const StoredScan& scan) const override {
     for (std::size_t s = 0; s < sensor_count(); ++s) {
       if (sensor(s).sensor == scan.id.sensor) continue;
-      if (!arrived_since(s, scan.measured) && now < scan.measured + sensor(s).worst_delay) return false;
+      if (!arrived_since(s, scan.measured) && !settled(s, scan.measured)) return false;
     }
     return true;
   }
@@ -168,21 +174,21 @@ class Adva final : public TimelineStrategy {
   using TimelineStrategy::TimelineStrategy;
 
  private:
-  bool may_fuse(const StoredScan&, GlobalTime) const override { return true; }
+  bool may_fuse(const StoredScan&) const override { return true; }
 };
 
 class TimeTriggered final : public TimelineStrategy {
   using TimelineStrategy::TimelineStrategy;
 
  private:
-  bool may_fuse(const StoredScan& scan, GlobalTime now) const override {
+  bool may_fuse(const StoredScan& scan) const override {
     const GlobalTime mine = scheduled_instant(scan);
     for (std::size_t s = 0; s < sensor_count(); ++s) {
       const SensorTiming& other = sensor(s);
       if (other.sensor == scan.id.sensor || !other.scheduled || mine < other.first) continue;
       // The other sensor's newest instant that is not after this measurement's.
       const GlobalTime instant = other.first + other.period * ((mine - other.first).ns / other.period.ns);
-      if (!arrived_since(s, instant - tolerance(other)) && now < instant + other.worst_delay) return false;
+      if (!arrived_since(s, instant - tolerance(other)) && !settled(s, instant)) return false;
     }
     return true;
   }

@@ -2,13 +2,14 @@
 // interface.
 //
 // BUFF  keeps a scan back until chronological order is certain: for every other sensor, a scan that is not
-//       older has arrived, or none can arrive any more (its worst delay has passed). Then fuses in order.
+//       older has arrived, or none can arrive any more (fusion/settling.h). Then fuses in order.
 // ADVA  takes scans as they come. One that is older than what is fused already is taken in exactly: the
 //       tracker goes back to before it, takes it in, and takes in again what came after, associations
 //       included. That is bit-identical to having received everything in order.
 // TT    relies on the schedule: the instants of all measurements are known beforehand. A scan waits only for
 //       scheduled older measurements of other sensors that have not arrived and are not yet due; one that
-//       misses its due instant is not waited for.
+//       misses its due instant is not waited for: the first fusion instant at which the schedule has it
+//       arrived (fusion/settling.h).
 //
 // Whatever a strategy fused too early (a broken promise) is repaired as in ADVA and reported as late. Scans
 // older than the history are dropped and reported; one with a stamp from the future waits until its time.
@@ -25,6 +26,7 @@
 #include "core/ids.h"
 #include "core/time.h"
 #include "fusion/observation.h"
+#include "fusion/settling.h"
 #include "fusion/tracker.h"
 #include "fusion/tracker_config.h"
 
@@ -35,7 +37,7 @@ enum class StrategyKind : std::uint8_t { kBuff = 0, kAdva = 1, kTt = 2 };
 // What the schedule promises about a sensor.
 struct SensorTiming {
   SensorId sensor{};
-  Duration worst_delay{};  // from the measurement until fusion can have it
+  Settling settling;       // when its measurements have arrived at the latest
   bool scheduled = false;  // the instants below are known beforehand
   GlobalTime first{};
   Duration period{};

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "core/check.h"
 #include "nodes/signals.h"
 #include "schedules/ages.h"
+#include "schedules/settled.h"
 
 namespace ttf::nodes {
 namespace {
@@ -22,20 +24,27 @@ schedules::CycleInstant image_use(const schedules::Cluster& cluster, PduId image
                     "needs a reader that is activated by time: the image is predicted to that instant"});
 }
 
+// The schedule's fusion instants, one by one. A fusing task that time does not activate has none: there the worst delay says
+// when to stop waiting.
+fusion::Settling settling(const schedules::Cluster& cluster, const schedules::AgePath& path) {
+  const auto round = schedules::settled_round(cluster, path.sensor);
+  if (!round) return fusion::Settling::after(path.fusion_worst);
+  std::vector<fusion::Settling::Step> steps;
+  for (const schedules::Settled& settled : round->instants) steps.push_back({settled.at, settled.measured});
+  return {std::move(steps), round->round};
+}
+
 }  // namespace
 
 std::vector<fusion::SensorTiming> sensor_timings(const schedules::Cluster& cluster) {
   std::vector<fusion::SensorTiming> timings;
   for (const schedules::AgePath& path : schedules::measurement_ages(cluster)) {
     const schedules::Sensor& sensor = cluster.sensor(path.sensor);
-    fusion::SensorTiming timing{};
-    timing.sensor = path.sensor;
-    timing.worst_delay = path.fusion_worst;
-    timing.scheduled = sensor.scheduled;
-    timing.first = sensor.scheduled ? schedules::next_occurrence(cluster.flexray, sensor.at, GlobalTime{}).time
-                                    : GlobalTime{};
-    timing.period = sensor.scheduled ? cluster.cycle() * sensor.at.repetition : sensor.period;
-    timings.push_back(timing);
+    const GlobalTime first = sensor.scheduled
+                                 ? schedules::next_occurrence(cluster.flexray, sensor.at, GlobalTime{}).time
+                                 : GlobalTime{};
+    const Duration period = sensor.scheduled ? cluster.cycle() * sensor.at.repetition : sensor.period;
+    timings.push_back({path.sensor, settling(cluster, path), sensor.scheduled, first, period});
   }
   return timings;
 }

@@ -17,7 +17,7 @@
 
 namespace ttf::nodes {
 
-// What the schedule promises the strategy about each sensor (schedules/ages.h computes the worst delays).
+// What the schedule promises the strategy about each sensor (schedules/settled.h computes until when it is waited for).
 std::vector<fusion::SensorTiming> sensor_timings(const schedules::Cluster& cluster);
 
 struct FusionHost {

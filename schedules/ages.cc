@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "schedules/age_stages.h"
+#include "schedules/settled.h"
 
 namespace ttf::schedules {
 namespace {
@@ -37,25 +38,41 @@ class Ages {
     return ages;
   }
 
-  // BUFF: any measurement is released when `held` has passed since it was made, at the next fusion instant.
-  void buffer(AgePath& ages, Duration held) {
+  // BUFF lets the oldest of the measurements that wait for a sensor go at `at`, `age` after it was made.
+  struct Release {
+    GlobalTime at{};
+    Duration age{};
+  };
+  void releases(SensorId sensor, std::vector<Release>& all) const {
+    const auto round = settled_round(cluster_, sensor);
+    if (!round) return;
+    const std::vector<Settled>& settled = round->instants;
+    // The youngest that an instant settles is followed by the oldest that the next one does.
+    for (std::size_t i = 0; i < settled.size(); ++i) {
+      const GlobalTime next = i + 1 < settled.size() ? settled[i + 1].at : settled.front().at + round->round;
+      all.push_back({next, next - settled[i].measured});
+    }
+  }
+
+  void buffer(AgePath& ages, const std::vector<Release>& releases) {
     const Path path = path_of(cluster_, ages.sensor);
     const std::size_t gate = path.available;
     std::int64_t fused = 0, used = 0;
     const std::size_t last = std::max(path.used, path.fused);
     // Not activated by time: there are no fusion instants to hold a list for.
     if (gate >= path.stages.size() || path.stages[gate].kind != Stage::Kind::kActivation) return;
-    for (const std::int64_t entry : entries(cluster_, path.stages[gate], kFromCycle, true)) {
-      const auto instants = walk(cluster_, path, gate, last, entry, true, true);
-      fused = std::max(fused, instants[path.fused - gate - 1] - entry);
-      if (path.used != 0) used = std::max(used, instants.back() - entry);
+    for (const Release& release : releases) {
+      const auto instants = walk(cluster_, path, gate, last, release.at.ns, true, true);
+      const std::int64_t measured = (release.at - release.age).ns;
+      fused = std::max(fused, instants[path.fused - gate - 1] - measured);
+      if (path.used != 0) used = std::max(used, instants.back() - measured);
     }
     const auto with_clocks = [&](std::int64_t sum) {
       return Duration{sum + clocks_.apart_ns + drift(sum)};
     };
-    ages.buffered_fused_worst = with_clocks(held.ns + fused);
+    ages.buffered_fused_worst = with_clocks(fused);
     if (path.used == 0) return;
-    ages.buffered_use_worst = with_clocks(held.ns + used);
+    ages.buffered_use_worst = with_clocks(used);
     ages.buffered_newest_worst = ages.buffered_use_worst + until_next_newest(path, ages.sensor);
   }
 
@@ -135,9 +152,9 @@ std::vector<AgePath> measurement_ages(const Cluster& cluster) {
   std::vector<AgePath> paths;
   for (std::size_t s = 0; s < cluster.sensors.size(); ++s)
     if (auto path = ages.of(static_cast<SensorId>(s))) paths.push_back(std::move(*path));
-  Duration held{};
-  for (const AgePath& path : paths) held = std::max(held, path.fusion_worst);
-  for (AgePath& path : paths) ages.buffer(path, held);
+  std::vector<Ages::Release> releases;
+  for (const AgePath& path : paths) ages.releases(path.sensor, releases);
+  for (AgePath& path : paths) ages.buffer(path, releases);
   return paths;
 }
 

@@ -48,7 +48,7 @@ struct AgePath {
   // The newest measurement of the sensor that an image has in it, at any use of an image, not only the first: until the
   // use before the one at which the next measurement comes in.
   Duration newest_worst{};
-  // With BUFF: held until no older measurement of any sensor can still arrive, the largest fusion_worst of all.
+  // With BUFF: held until no older measurement of any sensor can still arrive (schedules/settled.h).
   Duration buffered_fused_worst{}, buffered_use_worst{};
   Duration buffered_newest_worst{};      // the newest one at any use, as newest_worst
   bool reaches_use = false;              // else everything about use is zero

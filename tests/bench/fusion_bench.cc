@@ -20,8 +20,8 @@ constexpr std::uint32_t kCycles = 400;
 struct Scene {
   std::vector<OwnedScan> laser, camera;
   const std::vector<SensorTiming> sensors{
-      {SensorId{0}, Duration::milliseconds(60), true, at_ms(0), Duration::milliseconds(40)},
-      {SensorId{1}, Duration::milliseconds(35), true, at_ms(20), Duration::milliseconds(40)}};
+      {SensorId{0}, Settling::after(Duration::milliseconds(60)), true, at_ms(0), Duration::milliseconds(40)},
+      {SensorId{1}, Settling::after(Duration::milliseconds(35)), true, at_ms(20), Duration::milliseconds(40)}};
 
   Scene() {
     const Lanes seen_by_laser{.seed = 1}, seen_by_camera{.sigma = 0.4, .seed = 2};

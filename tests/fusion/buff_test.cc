@@ -80,8 +80,9 @@ TEST(Buff, RepairsABrokenPromise) {
 // Any drive that keeps its promises: released in chronological order, never late, and no later than the last
 // promise.
 TEST(Buff, IsInOrderAndNeverWaitsLongerThanTheWorstDelay) {
-  const std::vector<SensorTiming> sensors{free_running(0, 120), free_running(1, 45), free_running(2, 80)};
-  const std::int64_t period[] = {80, 42, 55};
+  const std::int64_t worst[] = {120, 45, 80}, period[] = {80, 42, 55};
+  const std::vector<SensorTiming> sensors{free_running(0, worst[0]), free_running(1, worst[1]),
+                                          free_running(2, worst[2])};
   for (std::uint64_t seed = 1; seed <= 50; ++seed) {
     RandomStream stream({.seed = seed});
     std::vector<Arrival> arrivals;
@@ -90,7 +91,7 @@ TEST(Buff, IsInOrderAndNeverWaitsLongerThanTheWorstDelay) {
       std::int64_t before_this = 0;
       for (std::uint32_t k = 0; k < 20; ++k) {
         const std::int64_t t = 7 * s + period[s] * k;
-        before_this = std::max(before_this, t + stream.integer(5, sensors[s].worst_delay.ns / 1'000'000));
+        before_this = std::max(before_this, t + stream.integer(5, worst[s]));
         arrivals.push_back({before_this, scan(s, k, at_ms(t))});
         measured_arrived[arrivals.back().scan.id] = {t, before_this};
       }

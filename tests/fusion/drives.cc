@@ -6,12 +6,12 @@
 namespace ttf::fusion {
 
 SensorTiming free_running(std::uint8_t sensor, std::int64_t worst_ms) {
-  return {static_cast<SensorId>(sensor), Duration::milliseconds(worst_ms), false, {}, {}};
+  return {static_cast<SensorId>(sensor), Settling::after(Duration::milliseconds(worst_ms)), false, {}, {}};
 }
 SensorTiming scheduled(std::uint8_t sensor, std::int64_t worst_ms, std::int64_t first_ms,
                        std::int64_t period_ms) {
-  return {static_cast<SensorId>(sensor), Duration::milliseconds(worst_ms), true, at_ms(first_ms),
-          Duration::milliseconds(period_ms)};
+  return {static_cast<SensorId>(sensor), Settling::after(Duration::milliseconds(worst_ms)), true,
+          at_ms(first_ms), Duration::milliseconds(period_ms)};
 }
 
 std::vector<SensorTiming> laser_and_camera() { return {scheduled(0, 60, 0, 80), scheduled(1, 35, 20, 40)}; }

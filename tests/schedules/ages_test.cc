@@ -1,62 +1,12 @@
-// Ages of a cluster small enough to work out by hand. One cycle is 5 ms, slots last 84 us, oscillators are exact; clocks
-// differ by at most 6.85 us (assumed precision) and a macrotick, which with rounding makes 7851 ns on every bound.
-//
-//   device: measure 1 ms -> list in slot 3 of every cycle (168..252 us)
-//   fusion: fuse 2 ms at 1 ms of odd cycles; publish 0.1 ms at the start of even cycles -> image in slot 4 there
-//   user:   use at 0.5 ms of even cycles
+// Ages of a cluster small enough to work out by hand, tests/schedules/small_cluster.h.
 #include "schedules/ages.h"
 
 #include <gtest/gtest.h>
 
+#include "tests/schedules/small_cluster.h"
+
 namespace ttf::schedules {
 namespace {
-
-constexpr std::int64_t kClocks = 7851, kApart = 7850, kRounding = 101;
-
-Task timed(std::string name, CycleInstant at, Duration execution) {
-  Task task;
-  task.name = std::move(name);
-  task.activation.at = at;
-  task.best_case = task.worst_case = execution;
-  return task;
-}
-
-Cluster small(bool scheduled) {
-  Cluster cluster;
-  cluster.pdus.resize(2);
-  for (PduLayout& layout : cluster.pdus) {
-    layout.fragment_bytes = 56;
-    layout.max_elements = layout.elements_per_fragment = 1;
-  }
-  cluster.pdus[0].sensor = SensorId{0};
-  cluster.nodes.resize(3);
-  for (Node& node : cluster.nodes) {
-    node.flexray.emplace();
-    node.drift_ppb = 0;
-  }
-  Task measure = timed("measure", {}, Duration::milliseconds(1));
-  measure.activation.kind = ActivationKind::kSensor;
-  measure.activation.sensor = SensorId{0};
-  measure.writes = {{"raw", PduId{0}, std::nullopt, 0}};
-  cluster.nodes[0].tasks = {measure};
-  Task fuse = timed("fuse", {1, 2, Macroticks{1000}}, Duration::milliseconds(2));
-  fuse.reads = {{"s", PduId{0}, std::nullopt, 0}};
-  Task publish = timed("publish", {0, 2, Macroticks{0}}, Duration::microseconds(100));
-  publish.writes = {{"image", PduId{1}, std::nullopt, 0}};
-  cluster.nodes[1].tasks = {fuse, publish};
-  Task use = timed("use", {0, 2, Macroticks{500}}, Duration::microseconds(100));
-  use.reads = {{"image", PduId{1}, std::nullopt, 0}};
-  cluster.nodes[2].tasks = {use};
-  cluster.frames = {{3, Channels::kAB, 0, 1, NodeId{0}, PduId{0}, 0, 0},
-                    {4, Channels::kAB, 0, 2, NodeId{1}, PduId{1}, 0, 0}};
-  Sensor sensor;
-  sensor.name = "s";
-  sensor.scheduled = scheduled;
-  sensor.period = Duration::milliseconds(10);
-  sensor.at = {0, 2, Macroticks{0}};
-  cluster.sensors = {sensor};
-  return cluster;
-}
 
 // Measured at 0, written at 1 ms, sent in the next cycle's slot 3: at worst until its end, 5.252 ms; at best the frame's 652
 // bits from the action point on, 5.175 ms + 65.2 us. Fused at 6 ms, published at 10 ms, used at 10.5 ms.
@@ -118,10 +68,13 @@ TEST(Ages, ATaskInTheWayCountsOnce) {
   EXPECT_EQ(delayed[0].use_worst.ns - plain[0].use_worst.ns, 3'000'000 + kRounding);
 }
 
-// BUFF holds until fusion_worst has passed, and then until the next fusion: a period of 10 ms at worst.
+// Written when slot 3 of an odd cycle begins at the latest, a list is fused in that cycle at 1 ms; written later, 10 ms
+// later. So BUFF holds no list longer than the way to the slot, 0.832 ms from there to the fusion and the 10 ms; a stamp
+// may be 1.5 us off.
 TEST(Ages, OfHeldMeasurements) {
   const auto ages = measurement_ages(small(false));
-  EXPECT_EQ(ages[0].buffered_fused_worst.ns, ages[0].fusion_worst.ns + 10'000'000 - 1 + kClocks);
+  EXPECT_EQ(ages[0].buffered_fused_worst.ns,
+            1'000'000 + kRounding + kApart + 1'500 + 832'000 + 10'000'000 + kClocks);
   EXPECT_EQ(ages[0].buffered_use_worst.ns, ages[0].buffered_fused_worst.ns + 4'500'000);
   EXPECT_EQ(ages[0].buffered_newest_worst - ages[0].buffered_use_worst, ages[0].newest_worst - ages[0].use_worst);
 }
