@@ -219,9 +219,12 @@ bool Decoder::decode(RecordKind kind, std::string_view bytes, records::Sink& sin
     }
     case RecordKind::kReference: {
       const auto& in = payloads_.reference;
+      constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
       return hand_on(records::ReferenceFix{TrueTime{in.measured_true()}, GlobalTime{in.measured()},
                                            GlobalTime{in.available()}, narrow.id<ObjectId>(in.object()),
-                                           in.x(), in.y(), in.sigma()});
+                                           in.x(), in.y(), in.sigma(),
+                                           in.has_vx() ? in.vx() : kNone, in.has_vy() ? in.vy() : kNone,
+                                           in.has_sigma_velocity() ? in.sigma_velocity() : kNone});
     }
     case RecordKind::kTruth: {
       const auto& in = payloads_.truth;

@@ -237,6 +237,9 @@ Encoded encode(const records::ReferenceFix& in, Payloads& payloads) {
   out.set_x(in.x);
   out.set_y(in.y);
   out.set_sigma(in.sigma);
+  out.set_vx(in.vx);
+  out.set_vy(in.vy);
+  out.set_sigma_velocity(in.sigma_velocity);
   return {RecordKind::kReference, &out, {in.measured_true.ns, in.measured.ns}};
 }
 

@@ -40,6 +40,9 @@ class Observer final : public records::Sink {
       record.x = fix.x;
       record.y = fix.y;
       record.sigma = reference_->sigma();
+      record.vx = fix.vx;
+      record.vy = fix.vy;
+      record.sigma_velocity = reference_->velocity_sigma();
       out_.on(record);
       ++next_fix_;
     }

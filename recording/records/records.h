@@ -197,6 +197,7 @@ struct ReferenceFix {                // DGPS on the tracked car, transformed wit
   GlobalTime available{};
   ObjectId object{};
   double x = 0, y = 0, sigma = 0;
+  double vx = 0, vy = 0, sigma_velocity = 0;   // from Doppler; not a number where the receiver gives none
 };
 
 struct TruthState {

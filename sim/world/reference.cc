@@ -19,6 +19,7 @@ ReferenceConfig load_reference(YamlMap& yaml) {
   c.period = yaml.duration_or("period", c.period, {Duration::milliseconds(1), Duration::milliseconds(10'000)});
   c.latency = yaml.duration_or("latency", c.latency, {Duration{}, Duration::milliseconds(10'000)});
   c.sigma_m = yaml.number_or("sigma", c.sigma_m, {0.0, 20.0}, "m");
+  c.velocity_sigma_mps = yaml.number_or("velocity_sigma", c.velocity_sigma_mps, {0.0, 5.0}, "m/s");
   c.excursion_probability = yaml.number_or("excursion_probability", c.excursion_probability, {0.0, 1.0});
   c.excursion_m = yaml.number_or("excursion", c.excursion_m, {0.0, 50.0}, "m");
   c.excursion_fixes = static_cast<int>(yaml.integer_or("excursion_fixes", c.excursion_fixes, {1, 100}));
@@ -47,6 +48,8 @@ Fix Reference::fix(std::uint32_t index, const World& world) const {
   const ObjectState truth = world.state_of(object_, fix.measured);
   RandomStream noise({seed_, replication_, Purpose::kReferenceNoise, kFixEntity, index});
   double x = truth.x + config_.sigma_m * noise.normal(), y = truth.y + config_.sigma_m * noise.normal();
+  const double vx = truth.speed * std::cos(truth.heading) + config_.velocity_sigma_mps * noise.normal(),
+               vy = truth.speed * std::sin(truth.heading) + config_.velocity_sigma_mps * noise.normal();
   const std::uint32_t length = static_cast<std::uint32_t>(config_.excursion_fixes);
   for (std::uint32_t back = 0; back < std::min(length, index + 1); ++back) {
     RandomStream excursion({seed_, replication_, Purpose::kReferenceNoise, kExcursionEntity, index - back});
@@ -59,6 +62,8 @@ Fix Reference::fix(std::uint32_t index, const World& world) const {
   const double c = std::cos(alignment_), s = std::sin(alignment_);
   fix.x = c * x - s * y;
   fix.y = s * x + c * y;
+  fix.vx = c * vx - s * vy;
+  fix.vy = s * vx + c * vy;
   return fix;
 }
 

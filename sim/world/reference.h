@@ -3,7 +3,8 @@
 //
 // The sensor car's alignment comes from two fixes at different spots before the drive, so all fixes are turned about the
 // sensor's origin by a constant error of atan2(difference of the two fixes' cross errors, baseline). Now and then the
-// solution jumps away for several fixes (loss of carrier lock or of corrections).
+// solution jumps away for several fixes (loss of carrier lock or of corrections). The velocity comes from the carriers' Doppler
+// shifts: it is independent of the position's error, does not jump with it, and is turned by the alignment as the position is.
 #pragma once
 
 #include <cstdint>
@@ -19,6 +20,8 @@ struct ReferenceConfig {
   Duration period = Duration::milliseconds(100);
   Duration latency = Duration::milliseconds(60);
   double sigma_m = 0.25;                      // per axis: code differential positioning
+  // Per axis. NovAtel's OEM receivers state 0.03 m/s RMS, u-blox' NEO-M8 0.05 m/s (data sheets, velocity accuracy).
+  double velocity_sigma_mps = 0.05;
   double excursion_probability = 0.04;        // that an excursion begins at a fix
   double excursion_m = 1.0;                   // its size, uniform in direction
   int excursion_fixes = 3;                    // how long it lasts
@@ -31,7 +34,8 @@ struct Fix {
   TrueTime measured{};
   TrueTime available{};
   ObjectId object{};
-  double x = 0, y = 0;
+  double x = 0, y = 0;     // [m]
+  double vx = 0, vy = 0;   // [m/s]
 };
 
 class Reference {
@@ -40,6 +44,7 @@ class Reference {
   // The index-th fix; a pure function of index, whichever order it is asked in.
   Fix fix(std::uint32_t index, const World& world) const;
   double sigma() const { return config_.sigma_m; }
+  double velocity_sigma() const { return config_.velocity_sigma_mps; }
   double alignment_error_rad() const { return alignment_; }
 
  private:

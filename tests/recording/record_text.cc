@@ -200,7 +200,8 @@ void TextSink::on(const records::FeatureUsed& r) {
   lines.push_back(line("feature", r.stamp, r.image_sequence, r.image_valid_at, r.fresh, r.objects));
 }
 void TextSink::on(const records::ReferenceFix& r) {
-  lines.push_back(line("reference", r.measured_true, r.measured, r.available, r.object, r.x, r.y, r.sigma));
+  lines.push_back(line("reference", r.measured_true, r.measured, r.available, r.object, r.x, r.y, r.sigma, r.vx, r.vy,
+                       r.sigma_velocity));
 }
 void TextSink::on(const records::TruthState& r) {
   lines.push_back(line("truth", r.at, r.object, r.x, r.y, r.heading, r.speed, r.acceleration, r.yaw_rate,
@@ -279,6 +280,7 @@ void emit(records::Sink& sink, int kind, Values values, std::uint32_t index, std
     case 16:
       return sink.on(records::ReferenceFix{d.get<TrueTime>(), d.get<GlobalTime>(), d.get<GlobalTime>(),
                                            d.get<ObjectId>(), d.get<double>(), d.get<double>(),
+                                           d.get<double>(), d.get<double>(), d.get<double>(),
                                            d.get<double>()});
     case 17:
       return sink.on(records::TruthState{d.get<TrueTime>(), d.get<ObjectId>(), d.get<double>(),

@@ -90,6 +90,39 @@ TEST(Reference, PositionNoiseHasItsSigmaPerAxis) {
   EXPECT_NEAR(xy / n, 0.0, 4.0 / std::sqrt(kFixes));
 }
 
+// A moving car: the velocity's noise has its sigma per axis, whatever the position's errors are, and is not the position's.
+TEST(Reference, VelocityNoiseHasItsOwnSigmaAndDoesNotJump) {
+  ReferenceConfig c;
+  c.sigma_m = 5.0;
+  c.excursion_probability = 0.5;
+  c.alignment_baseline_m = 10.0;
+  WorldConfig config =
+      world_from("objects: [{name: car, x: 80, y: 60, heading: 0.5, speed: 12, reference: true, segments: "
+                 "[{duration: 200 s}]}]");
+  config.duration = Duration::milliseconds(200'000);
+  const World world(config, 1, 0);
+  const Reference reference(c, config, 1, 0);
+  const double cosine = std::cos(reference.alignment_error_rad()), sine = std::sin(reference.alignment_error_rad());
+  ASSERT_GT(std::abs(reference.alignment_error_rad()), 0.1) << "too well aligned to show whether the velocity is turned";
+  constexpr int kFixes = 2000;
+  double xx = 0, yy = 0, xy = 0, with_position = 0;
+  for (std::uint32_t k = 0; k < kFixes; ++k) {
+    const Fix fix = reference.fix(k, world);
+    const ObjectState truth = world.state_of(ObjectId{0}, fix.measured);
+    const double x = cosine * fix.vx + sine * fix.vy - truth.speed * std::cos(truth.heading),
+                 y = -sine * fix.vx + cosine * fix.vy - truth.speed * std::sin(truth.heading);
+    xx += x * x;
+    yy += y * y;
+    xy += x * y;
+    with_position += x * (cosine * fix.x + sine * fix.y - truth.x) / std::hypot(c.sigma_m, c.excursion_m);
+  }
+  const double n = kFixes * reference.velocity_sigma() * reference.velocity_sigma();
+  EXPECT_NEAR(xx / n, 1.0, 4.0 * std::sqrt(2.0 / kFixes));
+  EXPECT_NEAR(yy / n, 1.0, 4.0 * std::sqrt(2.0 / kFixes));
+  EXPECT_NEAR(xy / n, 0.0, 4.0 / std::sqrt(kFixes));
+  EXPECT_NEAR(with_position / (kFixes * reference.velocity_sigma()), 0.0, 4.0 / std::sqrt(kFixes));
+}
+
 TEST(Reference, ExcursionsLastSeveralFixesAndAreAsOftenAsStated) {
   ReferenceConfig c;
   c.sigma_m = 0.0;
