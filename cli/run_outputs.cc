@@ -27,28 +27,34 @@ struct Row {
 };
 
 std::string number(std::uint64_t n) { return fmt::format("{}", n); }
+// Of nothing there is no age, rather than one of zero.
+std::string mean_cell(const experiments::AgeStatistics& ages) {
+  return ages.count == 0 ? "-" : report::cell(ms(ages.mean()), 1);
+}
+std::string worst_cell(const experiments::AgeStatistics& ages) {
+  return ages.count == 0 ? "-" : report::cell(ms(ages.worst), 1);
+}
 
 const Row kRows[] = {
     {"position RMSE against truth [m]", [](const StrategyResult& r) { return report::cell(r.summary.position_rmse_truth, 3); }},
     {"velocity RMSE against truth [m/s]", [](const StrategyResult& r) { return report::cell(r.summary.velocity_rmse_truth, 3); }},
     {"  x, y, vx, vy", [](const StrategyResult& r) {
-       return fmt::format("{:.2f} {:.2f} {:.2f} {:.2f}", r.summary.rmse_truth[0], r.summary.rmse_truth[1],
-                          r.summary.rmse_truth[2], r.summary.rmse_truth[3]);
+       const auto& rmse = r.summary.rmse_truth;
+       return fmt::format("{} {} {} {}", report::cell(rmse[0], 2), report::cell(rmse[1], 2), report::cell(rmse[2], 2),
+                          report::cell(rmse[3], 2));
      }},
-    {"position RMSE against DGPS [m]", [](const StrategyResult& r) {
-       return r.summary.reference_compared ? report::cell(r.summary.position_rmse_reference, 3) : std::string("-");
-     }},
-    {"velocity RMSE against DGPS [m/s]", [](const StrategyResult& r) {
-       return r.summary.reference_compared ? report::cell(r.summary.velocity_rmse_reference, 3) : std::string("-");
-     }},
+    {"position RMSE against DGPS [m]", [](const StrategyResult& r) { return report::cell(r.summary.position_rmse_reference, 3); }},
+    {"velocity RMSE against DGPS [m/s]", [](const StrategyResult& r) { return report::cell(r.summary.velocity_rmse_reference, 3); }},
     {"NEES (4 degrees of freedom)", [](const StrategyResult& r) { return report::cell(r.summary.nees, 2); }},
     {"  95 % band", [](const StrategyResult& r) {
-       return fmt::format("{:.2f}..{:.2f}", r.summary.nees_low, r.summary.nees_high);
+       return r.summary.nees_samples == 0
+                  ? std::string("-")
+                  : fmt::format("{:.2f}..{:.2f}", r.summary.nees_low, r.summary.nees_high);
      }},
-    {"age when fused, mean [ms]", [](const StrategyResult& r) { return report::cell(ms(r.summary.age_fused.mean()), 1); }},
-    {"age when fused, worst [ms]", [](const StrategyResult& r) { return report::cell(ms(r.summary.age_fused.worst), 1); }},
-    {"age when used, mean [ms]", [](const StrategyResult& r) { return report::cell(ms(r.summary.age_used.mean()), 1); }},
-    {"age when used, worst [ms]", [](const StrategyResult& r) { return report::cell(ms(r.summary.age_used.worst), 1); }},
+    {"age when fused, mean [ms]", [](const StrategyResult& r) { return mean_cell(r.summary.age_fused); }},
+    {"age when fused, worst [ms]", [](const StrategyResult& r) { return worst_cell(r.summary.age_fused); }},
+    {"age when used, mean [ms]", [](const StrategyResult& r) { return mean_cell(r.summary.age_used); }},
+    {"age when used, worst [ms]", [](const StrategyResult& r) { return worst_cell(r.summary.age_used); }},
     {"observation lists received", [](const StrategyResult& r) { return number(r.summary.received); }},
     {"  arrived out of sequence", [](const StrategyResult& r) { return number(r.summary.out_of_sequence); }},
     {"  fused late (retrodicted)", [](const StrategyResult& r) { return number(r.summary.fused_late); }},
@@ -68,6 +74,7 @@ const Row kRows[] = {
 };
 
 nlohmann::ordered_json ages(const experiments::AgeStatistics& statistics) {
+  if (statistics.count == 0) return {{"count", 0}, {"mean_ms", nullptr}, {"worst_ms", nullptr}};
   return {{"count", statistics.count}, {"mean_ms", ms(statistics.mean())}, {"worst_ms", ms(statistics.worst)}};
 }
 
@@ -102,6 +109,7 @@ std::string comparison_table(const std::vector<StrategyResult>& results) {
   return table.text();
 }
 
+// What is not a number becomes null.
 nlohmann::ordered_json to_json(const nodes::Scenario& scenario, std::uint64_t seed,
                                const std::vector<StrategyResult>& results) {
   nlohmann::ordered_json json;

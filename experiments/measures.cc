@@ -3,8 +3,8 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "experiments/pairing.h"
 #include "fusion/metrics.h"
 
 namespace ttf::experiments {
@@ -15,7 +15,8 @@ void AgeStatistics::add(Duration age) {
   worst = std::max(worst, age);
 }
 
-DriveMeasures::DriveMeasures(TrueTime from, double gate_m) : from_(from), gate_(gate_m) {}
+// The reference itself may be off by metres.
+DriveMeasures::DriveMeasures(TrueTime from, double gate_m) : from_(from), gate_(gate_m), reference_(2.0 * gate_m) {}
 
 void DriveMeasures::on(const records::FusionInput& input) {
   ++summary_.received;
@@ -50,17 +51,17 @@ void DriveMeasures::on(const records::ListFused& fused) {
 
 void DriveMeasures::on(const records::TrackState& track) {
   if (!track.predicted_for_image) return;
-  if (!predicted_.empty() && predicted_.front().valid_at < track.valid_at - Duration::milliseconds(500))
-    std::erase_if(predicted_, [&](const Predicted& p) { return p.valid_at < track.valid_at; });
-  Predicted predicted{track.valid_at, {}, {}};
+  Predicted& predicted = predicted_.emplace_back();
   std::copy(track.state.begin(), track.state.end(), predicted.state.begin());
   std::copy(track.covariance.begin(), track.covariance.end(), predicted.covariance.begin());
-  predicted_.push_back(predicted);
 }
 
+// An image's predictions are reported before it, one an object. Where a torn log lost some, they are not to be told apart.
 void DriveMeasures::on(const records::ImageWritten& image) {
-  newest_[image.sequence].assign(image.newest.begin(), image.newest.end());
-  while (newest_.size() > 8) newest_.erase(newest_.begin());
+  if (predicted_.size() != image.objects.size()) predicted_.clear();
+  images_[image.sequence] = {{image.newest.begin(), image.newest.end()}, std::move(predicted_)};
+  predicted_.clear();
+  while (images_.size() > 8) images_.erase(images_.begin());
 }
 
 void DriveMeasures::on(const records::FeatureUsed& used) {
@@ -70,14 +71,14 @@ void DriveMeasures::on(const records::FeatureUsed& used) {
   }
   if (used.stamp.true_time < from_) return;
   ++summary_.uses;
-  if (const auto newest = newest_.find(used.image_sequence); newest != newest_.end())
-    for (const MeasurementId& id : newest->second)
+  if (const auto image = images_.find(used.image_sequence); image != images_.end())
+    for (const MeasurementId& id : image->second.newest)
       if (const auto measured = measured_.find(id); measured != measured_.end()) {
         const Duration age = used.stamp.global - measured->second;
         summary_.age_used.add(age);
         summary_.age_used_by_sensor[id.sensor].add(age);
       }
-  Use use{used.stamp.true_time, used.image_valid_at, {}};
+  Use use{used.stamp.true_time, used.image_sequence, used.fresh, {}};
   bool warned = false;
   for (const records::FeatureObject& object : used.objects) {
     const records::ImageObject& image = object.image;
@@ -86,6 +87,7 @@ void DriveMeasures::on(const records::FeatureUsed& used) {
     warned |= object.warning;
   }
   if (warned) ++summary_.warnings;
+  reference_.use(use.at, use.objects);
   pending_ = std::move(use);
 }
 
@@ -100,110 +102,57 @@ void DriveMeasures::on(const records::TruthState& truth) {
   truth_.push_back(truth);
 }
 
-void DriveMeasures::on(const records::ReferenceFix& fix) { fixes_.push_back(fix); }
+void DriveMeasures::on(const records::ReferenceFix& fix) { reference_.fix(fix); }
 
-// Pairs closest first; each true object and each image object at most once.
 void DriveMeasures::judge(const Use& use) {
   if (truth_.empty() || truth_.front().at != use.at) return;
-  struct Pair {
-    double distance;
-    std::size_t truth, object;
-  };
-  std::vector<Pair> pairs;
-  for (std::size_t t = 0; t < truth_.size(); ++t)
-    for (std::size_t o = 0; o < use.objects.size(); ++o) {
-      const double distance = std::hypot(truth_[t].x - use.objects[o].x, truth_[t].y - use.objects[o].y);
-      if (distance <= gate_) pairs.push_back({distance, t, o});
-    }
-  std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
-    if (a.distance != b.distance) return a.distance < b.distance;
-    return a.truth != b.truth ? a.truth < b.truth : a.object < b.object;
-  });
-  std::vector<bool> truth_taken(truth_.size()), object_taken(use.objects.size());
-  std::uint64_t matched = 0;
-  for (const Pair& pair : pairs) {
-    if (truth_taken[pair.truth] || object_taken[pair.object]) continue;
-    truth_taken[pair.truth] = object_taken[pair.object] = true;
-    ++matched;
-    const records::TruthState& truth = truth_[pair.truth];
-    const Estimate& estimate = use.objects[pair.object];
-    const double errors[] = {estimate.x - truth.x, estimate.y - truth.y,
-                             estimate.vx - truth.speed * std::cos(truth.heading),
-                             estimate.vy - truth.speed * std::sin(truth.heading)};
+  std::vector<PlanePosition> truth, objects;
+  for (const records::TruthState& state : truth_) truth.push_back({state.x, state.y});
+  for (const PlaneEstimate& object : use.objects) objects.push_back({object.x, object.y});
+  const std::vector<TruthPair> pairs = closest_pairs(truth, objects, gate_);
+  summary_.matched += pairs.size();
+  summary_.missed += truth.size() - pairs.size();
+  summary_.spurious += objects.size() - pairs.size();
+  // An image used again was predicted to its first use: its covariance says nothing about now.
+  const auto image = images_.find(use.image_sequence);
+  const bool consistency =
+      use.fresh && image != images_.end() && image->second.predicted.size() == use.objects.size();
+  for (const TruthPair& pair : pairs) {
+    const records::TruthState& state = truth_[pair.truth];
+    const PlaneEstimate& estimate = use.objects[pair.estimate];
+    const double errors[] = {estimate.x - state.x, estimate.y - state.y,
+                             estimate.vx - state.speed * std::cos(state.heading),
+                             estimate.vy - state.speed * std::sin(state.heading)};
     for (std::size_t k = 0; k < 4; ++k) squares_[k] += errors[k] * errors[k];
-  }
-  summary_.matched += matched;
-  summary_.missed += truth_.size() - matched;
-  summary_.spurious += use.objects.size() - matched;
-  judge_nees(use);
-  if (!fixes_.empty()) reference_uses_.push_back({use.at, use.objects});
-}
-
-// The prediction that was valid at this use, with its full covariance, against the truth nearest to it.
-void DriveMeasures::judge_nees(const Use& use) {
-  for (const Predicted& predicted : predicted_) {
-    if (predicted.valid_at != use.image_valid_at) continue;
-    const records::TruthState* nearest = nullptr;
-    double best = gate_;
-    for (const records::TruthState& truth : truth_) {
-      const double distance = std::hypot(truth.x - predicted.state[0], truth.y - predicted.state[1]);
-      if (distance < best) {
-        best = distance;
-        nearest = &truth;
-      }
-    }
-    if (nearest == nullptr) continue;
-    Eigen::Vector4d error;
-    error << predicted.state[0] - nearest->x, predicted.state[1] - nearest->y,
-        predicted.state[2] - nearest->speed * std::cos(nearest->heading),
-        predicted.state[3] - nearest->speed * std::sin(nearest->heading);
-    Eigen::Matrix4d covariance;
-    for (int r = 0; r < 4; ++r)
-      for (int c = 0; c < 4; ++c) covariance(r, c) = predicted.covariance[static_cast<std::size_t>(6 * r + c)];
-    nees_sum_ += error.dot(covariance.ldlt().solve(error));
-    ++summary_.nees_samples;
+    if (consistency) judge_consistency(image->second.predicted[pair.estimate], state);
   }
 }
 
-// The reference at a use: its fixes on either side, interpolated; its velocity is their difference quotient.
-void DriveMeasures::judge_references() {
-  double position = 0.0, velocity = 0.0;
-  for (const ReferenceUse& use : reference_uses_) {
-    const auto after = std::find_if(fixes_.begin(), fixes_.end(),
-                                    [&](const records::ReferenceFix& fix) { return fix.measured_true >= use.at; });
-    if (after == fixes_.begin() || after == fixes_.end()) continue;
-    const records::ReferenceFix& b = *after;
-    const records::ReferenceFix& a = *(after - 1);
-    const double h = (b.measured_true - a.measured_true).seconds();
-    if (h <= 0.0) continue;
-    const double s = (use.at - a.measured_true).seconds() / h;
-    const double x = a.x + s * (b.x - a.x), y = a.y + s * (b.y - a.y);
-    const Estimate* nearest = nullptr;
-    double best = 2.0 * gate_;   // the reference itself may be off by metres
-    for (const Estimate& estimate : use.objects)
-      if (const double distance = std::hypot(estimate.x - x, estimate.y - y); distance < best) {
-        best = distance;
-        nearest = &estimate;
-      }
-    if (nearest == nullptr) continue;
-    const double evx = nearest->vx - (b.x - a.x) / h, evy = nearest->vy - (b.y - a.y) / h;
-    position += best * best;
-    velocity += evx * evx + evy * evy;
-    ++summary_.reference_compared;
-  }
-  const auto n = static_cast<double>(std::max<std::uint64_t>(1, summary_.reference_compared));
-  summary_.position_rmse_reference = std::sqrt(position / n);
-  summary_.velocity_rmse_reference = std::sqrt(velocity / n);
+// The prediction as the filter has it, with its full covariance, which the image rounds and shortens.
+void DriveMeasures::judge_consistency(const Predicted& predicted, const records::TruthState& truth) {
+  Eigen::Vector4d error;
+  error << predicted.state[0] - truth.x, predicted.state[1] - truth.y,
+      predicted.state[2] - truth.speed * std::cos(truth.heading),
+      predicted.state[3] - truth.speed * std::sin(truth.heading);
+  Eigen::Matrix4d covariance;
+  for (int r = 0; r < 4; ++r)
+    for (int c = 0; c < 4; ++c) covariance(r, c) = predicted.covariance[static_cast<std::size_t>(6 * r + c)];
+  nees_sum_ += error.dot(covariance.ldlt().solve(error));
+  ++summary_.nees_samples;
 }
 
 DriveSummary DriveMeasures::finish() {
   if (pending_) judge(*pending_);
   pending_.reset();
-  judge_references();
-  const auto n = static_cast<double>(std::max<std::uint64_t>(1, summary_.matched));
-  for (std::size_t k = 0; k < 4; ++k) summary_.rmse_truth[k] = std::sqrt(squares_[k] / n);
-  summary_.position_rmse_truth = std::hypot(summary_.rmse_truth[0], summary_.rmse_truth[1]);
-  summary_.velocity_rmse_truth = std::hypot(summary_.rmse_truth[2], summary_.rmse_truth[3]);
+  summary_.reference_compared = reference_.compared();
+  summary_.position_rmse_reference = reference_.position_rmse();
+  summary_.velocity_rmse_reference = reference_.velocity_rmse();
+  if (summary_.matched > 0) {
+    const auto n = static_cast<double>(summary_.matched);
+    for (std::size_t k = 0; k < 4; ++k) summary_.rmse_truth[k] = std::sqrt(squares_[k] / n);
+    summary_.position_rmse_truth = std::hypot(summary_.rmse_truth[0], summary_.rmse_truth[1]);
+    summary_.velocity_rmse_truth = std::hypot(summary_.rmse_truth[2], summary_.rmse_truth[3]);
+  }
   if (summary_.nees_samples > 0) {
     const auto samples = static_cast<double>(summary_.nees_samples);
     summary_.nees = nees_sum_ / samples;

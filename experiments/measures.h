@@ -7,12 +7,14 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <vector>
 
 #include "core/ids.h"
 #include "core/time.h"
+#include "experiments/reference_judge.h"
 #include "recording/records/records.h"
 
 namespace ttf::experiments {
@@ -26,23 +28,26 @@ struct AgeStatistics {
   Duration mean() const { return count == 0 ? Duration{} : Duration{sum.ns / static_cast<std::int64_t>(count)}; }
 };
 
+// What was compared with nothing is not a number, never a perfect zero.
+inline constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
+
 struct DriveSummary {
   // Root mean square over all matched objects and uses; x, y [m], vx, vy [m/s].
-  std::array<double, 4> rmse_truth{};
-  double position_rmse_truth = 0.0;        // of the plane distance [m]
-  double velocity_rmse_truth = 0.0;        // of the plane velocity difference [m/s]
-  double position_rmse_reference = 0.0;    // against the DGPS [m]
-  double velocity_rmse_reference = 0.0;    // against the DGPS' differences [m/s]
+  std::array<double, 4> rmse_truth{kNotMeasured, kNotMeasured, kNotMeasured, kNotMeasured};
+  double position_rmse_truth = kNotMeasured;      // of the plane distance [m]
+  double velocity_rmse_truth = kNotMeasured;      // of the plane velocity difference [m/s]
+  double position_rmse_reference = kNotMeasured;  // against the DGPS [m]
+  double velocity_rmse_reference = kNotMeasured;  // against the DGPS' Doppler velocity [m/s]
   std::uint64_t matched = 0;               // object uses compared with the truth
   std::uint64_t missed = 0;                // true objects without an image within the gate
   std::uint64_t spurious = 0;              // image objects without a true object within the gate
   std::uint64_t reference_compared = 0;
   std::uint64_t uses = 0;                  // times the feature service used an image
-  // Normalised estimation error squared of (x, y, vx, vy) predicted to the use, averaged, and the band in which the
-  // average lies with 95 % if the samples are independent and the model is right.
-  double nees = 0.0;
+  // Normalised estimation error squared of (x, y, vx, vy) predicted to the use, averaged over the same pairs at first uses of
+  // an image, and the band in which the average lies with 95 % if the samples are independent and the model is right.
+  double nees = kNotMeasured;
   std::uint64_t nees_samples = 0;
-  double nees_low = 0.0, nees_high = 0.0;
+  double nees_low = kNotMeasured, nees_high = kNotMeasured;
   // Age of a measurement when it was fused, and of the newest of each sensor when its image was used.
   AgeStatistics age_fused;
   AgeStatistics age_used;
@@ -77,26 +82,23 @@ class DriveMeasures final : public records::Sink {
   void on(const records::ReferenceFix&) override;
 
  private:
-  struct Estimate {
-    double x, y, vx, vy;
-  };
   struct Predicted {
-    GlobalTime valid_at;
     std::array<double, 6> state;
     std::array<double, 36> covariance;
   };
+  // What an image shows and was made from; its objects and predictions are in the same order.
+  struct Image {
+    std::vector<MeasurementId> newest;
+    std::vector<Predicted> predicted;
+  };
   struct Use {
     TrueTime at;
-    GlobalTime image_valid_at;
-    std::vector<Estimate> objects;
-  };
-  struct ReferenceUse {
-    TrueTime at;
-    std::vector<Estimate> objects;
+    std::uint32_t image_sequence = 0;
+    bool fresh = true;
+    std::vector<PlaneEstimate> objects;
   };
   void judge(const Use& use);
-  void judge_references();
-  void judge_nees(const Use& use);
+  void judge_consistency(const Predicted& predicted, const records::TruthState& truth);
 
   TrueTime from_;
   double gate_;
@@ -106,12 +108,11 @@ class DriveMeasures final : public records::Sink {
   std::uint32_t receiving_step_ = 0;
   std::optional<GlobalTime> newest_received_, newest_before_;     // before: in earlier steps
   std::map<MeasurementId, GlobalTime> measured_;                  // of fused lists
-  std::map<std::uint32_t, std::vector<MeasurementId>> newest_;    // by image sequence
-  std::vector<Predicted> predicted_;
+  std::vector<Predicted> predicted_;                              // for the image that is being written
+  std::map<std::uint32_t, Image> images_;                         // by sequence, the newest few
   std::optional<Use> pending_;
   std::vector<records::TruthState> truth_;                        // of one instant
-  std::vector<records::ReferenceFix> fixes_;
-  std::vector<ReferenceUse> reference_uses_;
+  ReferenceJudge reference_;
 };
 
 }  // namespace ttf::experiments

@@ -7,5 +7,6 @@
 namespace ttf::support {
 
 std::int64_t allocations();  // since the program began
+std::int64_t live_bytes();   // allocated and not released
 
 }  // namespace ttf::support

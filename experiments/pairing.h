@@ -1,0 +1,23 @@
+// Which estimate belongs to which true object: one to one, the closest pair first.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace ttf::experiments {
+
+struct PlanePosition {
+  double x = 0.0, y = 0.0;   // [m]
+};
+
+struct TruthPair {
+  std::size_t truth = 0, estimate = 0;
+};
+
+// Pairs no further apart than `gate_m` [m], by growing distance; each truth and each estimate in at most one. Equal distances are
+// taken in the order of truth, then estimate.
+std::vector<TruthPair> closest_pairs(std::span<const PlanePosition> truth, std::span<const PlanePosition> estimates,
+                                     double gate_m);
+
+}  // namespace ttf::experiments

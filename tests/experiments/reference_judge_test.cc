@@ -1,0 +1,91 @@
+#include "experiments/reference_judge.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace ttf::experiments {
+namespace {
+
+TrueTime at(std::int64_t ms) { return TrueTime{} + Duration::milliseconds(ms); }
+
+records::ReferenceFix fix(std::int64_t ms, double x, double vx) {
+  records::ReferenceFix fix;
+  fix.measured_true = at(ms);
+  fix.x = x;
+  fix.vx = vx;
+  return fix;
+}
+
+TEST(ReferenceJudge, ComparesWithTheFixesInterpolatedOnceBothAreKnown) {
+  ReferenceJudge judge(8.0);
+  judge.fix(fix(0, 10.0, 4.0));
+  // At 25 ms the reference is at 10.5 m with 4.5 m/s.
+  judge.use(at(25), std::vector<PlaneEstimate>{{40, 0, 0, 0}, {10.5, 0.3, 4.5, 0.4}});
+  EXPECT_EQ(judge.compared(), 0u) << "the second fix is not there yet";
+  EXPECT_TRUE(std::isnan(judge.position_rmse()));
+  EXPECT_TRUE(std::isnan(judge.velocity_rmse()));
+  judge.fix(fix(100, 12.0, 6.0));
+  EXPECT_EQ(judge.compared(), 1u);
+  EXPECT_NEAR(judge.position_rmse(), 0.3, 1e-12);
+  EXPECT_NEAR(judge.velocity_rmse(), 0.4, 1e-12);
+  // A use that is judged at once, as its fixes are known: 0.4 m away now.
+  judge.use(at(50), std::vector<PlaneEstimate>{{11.4, 0, 5.0, 0.0}});
+  EXPECT_EQ(judge.compared(), 2u);
+  EXPECT_NEAR(judge.position_rmse(), std::sqrt((0.09 + 0.16) / 2), 1e-12);
+  EXPECT_NEAR(judge.velocity_rmse(), std::sqrt(0.16 / 2), 1e-12);
+}
+
+// The velocity is the receiver's own: fixes that jump away do not change it.
+TEST(ReferenceJudge, TheVelocityIsNotTheFixesDifference) {
+  ReferenceJudge judge(8.0);
+  judge.fix(fix(0, 10.0, 5.0));
+  judge.fix(fix(100, 15.0, 5.0));
+  judge.use(at(50), std::vector<PlaneEstimate>{{12.5, 0, 5.0, 0.0}});
+  EXPECT_EQ(judge.velocity_rmse(), 0.0);
+}
+
+TEST(ReferenceJudge, WithoutVelocityOnlyThePositionCounts) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  ReferenceJudge judge(8.0);
+  judge.fix(fix(0, 10.0, kNone));
+  judge.fix(fix(100, 10.0, kNone));
+  judge.use(at(50), std::vector<PlaneEstimate>{{10.0, 0.5, 1.0, 1.0}});
+  EXPECT_EQ(judge.compared(), 1u);
+  EXPECT_NEAR(judge.position_rmse(), 0.5, 1e-12);
+  EXPECT_TRUE(std::isnan(judge.velocity_rmse()));
+}
+
+TEST(ReferenceJudge, AnObjectBeyondTheGateIsAnother) {
+  ReferenceJudge judge(2.0);
+  judge.fix(fix(0, 10.0, 0.0));
+  judge.fix(fix(100, 10.0, 0.0));
+  judge.use(at(50), std::vector<PlaneEstimate>{{12.1, 0, 0, 0}});
+  judge.use(at(60), {});
+  EXPECT_EQ(judge.compared(), 0u);
+}
+
+// A use that lies outside the fixes is not extrapolated to.
+TEST(ReferenceJudge, NothingBeforeTheFirstFixOrAfterTheLast) {
+  ReferenceJudge judge(8.0);
+  const std::vector<PlaneEstimate> estimates{{10, 0, 0, 0}};
+  judge.use(at(-10), estimates);
+  judge.fix(fix(0, 10.0, 0.0));
+  judge.fix(fix(100, 10.0, 0.0));
+  judge.use(at(-5), estimates);
+  judge.use(at(101), estimates);
+  EXPECT_EQ(judge.compared(), 0u);
+  EXPECT_EQ(judge.waiting(), 1u);
+}
+
+TEST(ReferenceJudge, AReferenceThatFallsSilentIsNotWaitedForForever) {
+  ReferenceJudge judge(8.0);
+  judge.fix(fix(0, 10.0, 0.0));
+  for (std::int64_t ms = 40; ms < 600'000; ms += 40) judge.use(at(ms), std::vector<PlaneEstimate>{{10, 0, 0, 0}});
+  EXPECT_LE(judge.waiting(), 501u) << "20 s, a use every 40 ms";
+}
+
+}  // namespace
+}  // namespace ttf::experiments
