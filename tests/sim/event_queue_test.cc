@@ -23,5 +23,18 @@ TEST(EventQueue, OneTotalOrder) {
   EXPECT_TRUE(queue.empty());
 }
 
+// Among simultaneous arrivals at one receiver the rank decides, before the order of scheduling and after the receiver.
+TEST(EventQueue, RankIsBetweenNodeAndSequence) {
+  EventQueue<int> queue(16);
+  queue.schedule(TrueTime{10}, Phase::kArrival, 1, 4, 0);
+  queue.schedule(TrueTime{10}, Phase::kArrival, 0, 3, 0x0100);
+  queue.schedule(TrueTime{10}, Phase::kArrival, 0, 1, 0x0002);
+  queue.schedule(TrueTime{10}, Phase::kArrival, 0, 2, 0x0002);
+  queue.schedule(TrueTime{10}, Phase::kArrival, 0, 0, 0x0001);
+  queue.schedule(TrueTime{10}, Phase::kNode, 0, 5, 0);
+  for (int expected = 0; expected < 6; ++expected) EXPECT_EQ(queue.pop(), expected);
+  EXPECT_TRUE(queue.empty());
+}
+
 }  // namespace
 }  // namespace ttf::sim

@@ -1,0 +1,78 @@
+// Images as they were written and used, kept whole and compared in every field, bit for bit.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "recording/records/records.h"
+
+namespace ttf::testing_support {
+
+inline bool same(const records::Stamp& a, const records::Stamp& b) {
+  return a.true_time == b.true_time && a.local == b.local && a.global == b.global && a.node == b.node;
+}
+
+// Every field by name: one that is added later does not compile until it is compared, too.
+inline auto bits(const records::ImageObject& object) {
+  const auto& [track, x, y, heading, speed, acceleration, length, width, sigma_x, sigma_y, correlation_xy, sigma_heading,
+               sigma_speed, sigma_acceleration, sigma_length, sigma_width] = object;
+  std::vector<std::uint64_t> all{index_of(track)};
+  for (const double value : {x, y, heading, speed, acceleration, length, width, sigma_x, sigma_y, correlation_xy,
+                             sigma_heading, sigma_speed, sigma_acceleration, sigma_length, sigma_width})
+    all.push_back(std::bit_cast<std::uint64_t>(value));
+  return all;
+}
+
+struct ImageCopy {
+  records::Stamp stamp;
+  std::uint32_t sequence = 0;
+  GlobalTime valid_at{}, newest_measurement{};
+  std::vector<records::ImageObject> objects;
+  std::vector<MeasurementId> newest;
+
+  ImageCopy() = default;
+  explicit ImageCopy(const records::ImageWritten& image) {
+    const auto& [its_stamp, its_sequence, its_valid_at, its_newest_measurement, its_objects, its_newest] = image;
+    stamp = its_stamp;
+    sequence = its_sequence;
+    valid_at = its_valid_at;
+    newest_measurement = its_newest_measurement;
+    objects.assign(its_objects.begin(), its_objects.end());
+    newest.assign(its_newest.begin(), its_newest.end());
+  }
+};
+
+inline bool same(const std::vector<records::ImageObject>& a, const std::vector<records::ImageObject>& b) {
+  if (a.size() != b.size()) return false;
+  for (std::size_t o = 0; o < a.size(); ++o)
+    if (bits(a[o]) != bits(b[o])) return false;
+  return true;
+}
+
+inline bool same(const ImageCopy& a, const ImageCopy& b) {
+  return same(a.stamp, b.stamp) && a.sequence == b.sequence && a.valid_at == b.valid_at &&
+         a.newest_measurement == b.newest_measurement && a.newest == b.newest && same(a.objects, b.objects);
+}
+
+// Of a whole drive.
+struct Images final : records::Sink {
+  using records::Sink::on;
+  struct Use {
+    std::uint32_t sequence = 0;
+    GlobalTime valid_at{};
+    bool fresh = false;
+    std::vector<records::ImageObject> objects;
+  };
+  std::map<std::uint32_t, ImageCopy> written;   // by sequence
+  std::vector<Use> used;
+
+  void on(const records::ImageWritten& image) override { written[image.sequence] = ImageCopy(image); }
+  void on(const records::FeatureUsed& use) override {
+    used.push_back({use.image_sequence, use.image_valid_at, use.fresh, {}});
+    for (const records::FeatureObject& object : use.objects) used.back().objects.push_back(object.image);
+  }
+};
+
+}  // namespace ttf::testing_support
