@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Sets everything up on a fresh Debian 12, runs both of the paper's drives with all three strategies, and leaves the
-# pictures, logs and an index page in out/demo (or the folder given).
+# Sets everything up on a fresh Debian 12, runs both of the paper's drives with all three strategies, prints one comparison
+# table, and leaves the pictures, logs and an index page in out/demo (or the folder given).
 set -euo pipefail
 cd "$(dirname "$0")/.."
 out=${1:-out/demo}
@@ -8,18 +8,28 @@ tools/install_deps.sh
 echo "building (a few minutes the first time) ..."
 tools/build.sh release --target ttfusion
 mkdir -p "$out"
-for drive in paper_scenario1 paper_scenario2; do
-  echo
-  build/release/ttfusion run "scenarios/$drive.yaml" --out "$out/$drive"
+drives=(paper_scenario1 paper_scenario2)
+summaries=()
+for drive in "${drives[@]}"; do
+  build/release/ttfusion run "scenarios/$drive.yaml" --out "$out/$drive" >"$out/$drive.txt"
+  summaries+=("$out/$drive/summary.json")
 done
-cat > "$out/index.html" <<'HTML'
+tools/joint_table.py "${summaries[@]}" >"$out/comparison.txt"
+{
+  cat <<'HTML'
 <!doctype html><html lang="en"><meta charset="utf-8"><title>ttfusion: the paper's drives</title>
-<body style="font-family: sans-serif; max-width: 50em; margin: 2em auto">
+<body style="font-family: sans-serif; max-width: 80em; margin: 2em auto">
 <h1>The paper's drives</h1>
 <ul>
 <li><a href="paper_scenario1/index.html">Scenario 1: a car ahead accelerates</a></li>
 <li><a href="paper_scenario2/index.html">Scenario 2: a car approaches and turns</a></li>
-</ul></body></html>
+</ul>
+<pre>
 HTML
+  cat "$out/comparison.txt"
+  echo "</pre></body></html>"
+} >"$out/index.html"
+echo
+cat "$out/comparison.txt"
 echo
 echo "pictures, logs and tables: $out/index.html"

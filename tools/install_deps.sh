@@ -11,6 +11,7 @@ packages=(
   librsvg2-dev libcairo2-dev fonts-dejavu-core
   # tests
   libgtest-dev libgmock-dev libbenchmark-dev
+  nodejs npm   # the log's official reader
 )
 # The slower gates (.ci/run) also need a second compiler, sanitizers' runtime and the formatter.
 if [[ ${1:-} == --gates ]]; then
