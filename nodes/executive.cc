@@ -58,7 +58,7 @@ Executive::Executive(const ExecutiveConfig& config, std::vector<std::shared_ptr<
     flexray_ = std::make_unique<bus::FlexRayController>(cluster_, config.node, config.clock, *flexray,
                                                         static_cast<bus::ControllerEvents&>(*this));
   }
-  frame_duration_ = {wire::frame_duration_ps(cluster_.flexray, cluster_.flexray.gPayloadLengthStatic) / 1000};
+  frame_duration_ = wire::frame_duration(cluster_.flexray, cluster_.flexray.gPayloadLengthStatic);
   cans_.resize(cluster_.can_buses.size());
   for (std::size_t b = 0; b < cans_.size(); ++b)
     if (b < cans.size() && cans[b] != nullptr)

@@ -29,7 +29,7 @@ struct Scenario {
   std::string text;                 // the YAML as read, attached to logs
   std::uint64_t seed = 1;
   Duration duration{};              // of the drive, from the start of cycle 0
-  Duration evaluate_from{};         // measures and pictures start here; before it the tracker warms up
+  Duration evaluate_from{};         // likewise; measures and pictures start here, before it the tracker warms up
   std::string cluster_files[3];     // by StrategyKind, as paths that can be opened
   world::WorldConfig world;
   world::LaserConfig laser;

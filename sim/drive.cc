@@ -80,6 +80,9 @@ TrueTime drive_start(const schedules::Cluster& cluster) {
   return kFirstCycle + (first - GlobalTime{});
 }
 
+TrueTime evaluation_start(const nodes::Scenario& scenario) { return kFirstCycle + scenario.evaluate_from; }
+TrueTime drive_end(const nodes::Scenario& scenario) { return kFirstCycle + scenario.duration; }
+
 DriveOutcome run_drive(const DriveConfig& config, records::Sink& sink) {
   const schedules::Cluster& cluster = *config.cluster;
   const nodes::Scenario& scenario = *config.scenario;
@@ -113,15 +116,14 @@ DriveOutcome run_drive(const DriveConfig& config, records::Sink& sink) {
   simulation_config.replication = config.replication;
   simulation_config.make_steps = [&](NodeId node) { return nodes::make_steps(nodes, node); };
   ClusterSimulation simulation(simulation_config, tee);
-  simulation.run_until(kFirstCycle + scenario.duration);
+  simulation.run_until(drive_end(scenario));
 
   DriveOutcome outcome;
   outcome.precision = simulation.precision();
   outcome.counts = simulation.counts();
   outcome.frames_sent = simulation.frames_sent();
   const double elapsed = scenario.duration.seconds();
-  const double frame = 1e-12 * static_cast<double>(wire::frame_duration_ps(
-                                   cluster.flexray, cluster.flexray.gPayloadLengthStatic));
+  const double frame = wire::frame_duration(cluster.flexray, cluster.flexray.gPayloadLengthStatic).seconds();
   outcome.flexray_load = 0.5 * static_cast<double>(outcome.frames_sent) * frame / elapsed;
   for (std::size_t b = 0; b < cluster.can_buses.size(); ++b)
     outcome.can_load.push_back(simulation.can_busy(b).seconds() / elapsed);

@@ -42,4 +42,9 @@ DriveOutcome run_drive(const DriveConfig& config, records::Sink& sink);
 // True time at which the drive (world or recording) starts in this cluster.
 TrueTime drive_start(const schedules::Cluster& cluster);
 
+// From `evaluation_start` to `drive_end` the drive is judged and drawn: both the scenario's evaluate_from and its duration
+// count from the start of cycle 0, whenever a recording begins.
+TrueTime evaluation_start(const nodes::Scenario& scenario);
+TrueTime drive_end(const nodes::Scenario& scenario);
+
 }  // namespace ttf::sim

@@ -12,11 +12,8 @@ namespace ttf::sim {
 FlexRayMedium::FlexRayMedium(const schedules::Cluster& cluster, MediumQueue& queue, FramePool& pool)
     : queue_(queue),
       pool_(pool),
-      position_(cluster.nodes.size(), -1),
-      min_delay_ps_(cluster.flexray.gdMinPropagationDelay_ps),
-      max_delay_ps_(cluster.flexray.gdMaxPropagationDelay_ps),
-      bit_ps_(cluster.flexray.gdBit_ps),
-      tss_bits_(cluster.flexray.gdTSSTransmitter) {
+      flexray_(cluster.flexray),
+      position_(cluster.nodes.size(), -1) {
   for (std::size_t n = 0; n < cluster.nodes.size(); ++n)
     if (cluster.nodes[n].flexray) {
       position_[n] = static_cast<int>(nodes_.size());
@@ -28,7 +25,8 @@ Duration FlexRayMedium::delay(NodeId from, NodeId to) const {
   const int hops = position_[index_of(from)] - position_[index_of(to)];
   const auto ends = static_cast<std::int64_t>(nodes_.size()) - 1;
   if (ends == 0) return {};
-  const std::int64_t ps = min_delay_ps_ + (max_delay_ps_ - min_delay_ps_) * (hops < 0 ? -hops : hops) / ends;
+  const std::int64_t least = flexray_.gdMinPropagationDelay_ps, most = flexray_.gdMaxPropagationDelay_ps;
+  const std::int64_t ps = least + (most - least) * (hops < 0 ? -hops : hops) / ends;
   return {(ps + 999) / 1000};
 }
 
@@ -36,9 +34,7 @@ void FlexRayMedium::transmit(NodeId sender, schedules::Channel channel, TrueTime
                              std::span<const std::byte> bytes) {
   if (nodes_.size() < 2) return;
   const std::uint32_t frame = pool_.put(bytes, static_cast<int>(nodes_.size()) - 1);
-  // TSS, FSS, ten bits per byte, FES.
-  const std::int64_t bits = tss_bits_ + 1 + 10 * static_cast<std::int64_t>(bytes.size()) + 2;
-  const Duration length{(bits * bit_ps_ + 999) / 1000};
+  const Duration length = wire::frame_duration(flexray_, wire::words_in_frame(bytes.size()));
   for (const NodeId node : nodes_) {
     if (node == sender) continue;
     MediumEvent event;

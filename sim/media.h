@@ -46,11 +46,9 @@ class FlexRayMedium {
  private:
   MediumQueue& queue_;
   FramePool& pool_;
+  const schedules::GlobalParameters& flexray_;
   std::vector<NodeId> nodes_;     // on FlexRay, in bus order
   std::vector<int> position_;     // by NodeId, -1 off the bus
-  std::int64_t min_delay_ps_, max_delay_ps_;
-  std::int64_t bit_ps_;
-  int tss_bits_;
 };
 
 class CanMedium {
@@ -60,7 +58,7 @@ class CanMedium {
   void send(NodeId sender, TrueTime now, const bus::CanFrame& frame);
   // The bus is idle: the pending frame that wins is sent.
   void arbitrate(TrueTime now);
-  // Share of the time in which the bus was busy so far.
+  // How long the bus has carried frames, the one on it included to its end.
   Duration busy() const { return busy_; }
 
  private:

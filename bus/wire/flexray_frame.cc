@@ -71,4 +71,8 @@ std::int64_t frame_duration_ps(const schedules::GlobalParameters& flexray, int p
   return frame_bits(flexray, payload_words) * flexray.gdBit_ps;
 }
 
+Duration frame_duration(const schedules::GlobalParameters& flexray, int payload_words) {
+  return {(frame_duration_ps(flexray, payload_words) + 999) / 1000};
+}
+
 }  // namespace ttf::wire

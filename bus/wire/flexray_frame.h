@@ -41,7 +41,12 @@ DecodedFrame decode_frame(schedules::Channel channel, std::span<const std::byte>
 
 // Bits on the wire from the first TSS bit to the last FES bit of a static frame.
 int frame_bits(const schedules::GlobalParameters& flexray, int payload_words);
-// Its duration, in picoseconds.
+// Its duration, in picoseconds; and in whole nanoseconds, rounded up: a frame is there when its last bit is.
 std::int64_t frame_duration_ps(const schedules::GlobalParameters& flexray, int payload_words);
+Duration frame_duration(const schedules::GlobalParameters& flexray, int payload_words);
+// Words of payload in a frame of that many bytes, header and trailer included.
+constexpr int words_in_frame(std::size_t frame_bytes) {
+  return static_cast<int>((frame_bytes - kHeaderBytes - kTrailerBytes) / 2);
+}
 
 }  // namespace ttf::wire

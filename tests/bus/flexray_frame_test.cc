@@ -228,6 +228,11 @@ TEST(Frame, LengthOnTheWire) {
   flexray.gdBit_ps = 100'000;
   EXPECT_EQ(frame_bits(flexray, 28), 9 + 1 + 80 + 560 + 2);
   EXPECT_EQ(frame_duration_ps(flexray, 28), 65'200'000);
+  EXPECT_EQ(frame_duration(flexray, 28), Duration{65'200});
+  EXPECT_EQ(words_in_frame(kHeaderBytes + 56 + kTrailerBytes), 28);
+  flexray.gdBit_ps = 12'345;   // no bit rate of the standard, but one that does not end on a whole nanosecond
+  EXPECT_EQ(frame_duration_ps(flexray, 28), 652 * 12'345);
+  EXPECT_EQ(frame_duration(flexray, 28), Duration{8'049}) << "8048.94 ns";
   EXPECT_EQ(frame_bits(flexray, 127), 9 + 1 + 80 + 2540 + 2);
 }
 

@@ -113,7 +113,7 @@ TEST_P(Crowd, TwentyFiveObjectsForAMinute) {
   EXPECT_LT(from, sim::kFirstCycle + Duration::milliseconds(1000));
   Coverage coverage(from);
   Memory memory;
-  experiments::DriveMeasures measures(sim::kFirstCycle + drive.scenario.evaluate_from);
+  experiments::DriveMeasures measures(sim::evaluation_start(drive.scenario));
   records::Tee tee({&coverage, &memory, &measures});
   const sim::DriveOutcome outcome = drive.run(tee);
   coverage.finish();

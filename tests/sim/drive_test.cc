@@ -55,7 +55,7 @@ TEST(Drive, ShippedDrivesHaveOutOfSequenceArrivalsAndTheStrategiesDiffer) {
   std::vector<Images> images(3);
   for (const StrategyKind strategy : kStrategies) {
     const Drive drive("scenarios/paper_scenario1.yaml", strategy);
-    experiments::DriveMeasures measures(sim::kFirstCycle + drive.scenario.evaluate_from);
+    experiments::DriveMeasures measures(sim::evaluation_start(drive.scenario));
     records::Tee tee({&measures, &images[static_cast<std::size_t>(strategy)]});
     drive.run(tee);
     const experiments::DriveSummary summary = measures.finish();
