@@ -1,10 +1,13 @@
 // What a simulated drive costs, with and without its log, against a yardstick measured in the same run.
 #include <benchmark/benchmark.h>
 
-#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <stdexcept>
 #include <string>
 
 #include "recording/log_writer.h"
+#include "tests/bench/yardstick.h"
 #include "tests/sim/drive_fixture.h"
 
 namespace ttf {
@@ -12,15 +15,23 @@ namespace {
 
 using testing_support::Drive;
 
-// The yardstick: a second of work everybody has, an in-order chain of multiplications.
-void Yardstick(benchmark::State& state) {
-  for (auto _ : state) {
-    std::uint64_t x = 1;
-    for (int i = 0; i < 1'000'000; ++i) x = x * 6364136223846793005u + 1442695040888963407u;
-    benchmark::DoNotOptimize(x);
+// A folder of this program's own, gone with it.
+class ScratchFolder {
+ public:
+  ScratchFolder() : path_((std::filesystem::temp_directory_path() / "ttfusion_drive_bench_XXXXXX").string()) {
+    if (::mkdtemp(path_.data()) == nullptr) throw std::runtime_error(path_ + ": cannot be created");
   }
-}
-BENCHMARK(Yardstick)->Unit(benchmark::kMillisecond);
+  ~ScratchFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  std::string file(const std::string& name) const { return path_ + "/" + name; }
+
+ private:
+  std::string path_;
+};
 
 void DriveWithoutLog(benchmark::State& state) {
   const Drive drive("scenarios/paper_scenario1.yaml", static_cast<fusion::StrategyKind>(state.range(0)));
@@ -37,13 +48,13 @@ BENCHMARK(DriveWithoutLog)->Arg(0)->Arg(1)->Arg(2)->ArgName("strategy")->Unit(be
 
 void DriveWithLog(benchmark::State& state) {
   const Drive drive("scenarios/paper_scenario1.yaml", fusion::StrategyKind::kTt);
-  const std::string path = "/tmp/ttfusion_drive_bench.mcap";
+  const ScratchFolder scratch;
+  const std::string path = scratch.file("drive.mcap");
   for (auto _ : state) {
     recording::LogWriter log(path, {});
     drive.run(log);
     log.close();
   }
-  std::remove(path.c_str());
 }
 BENCHMARK(DriveWithLog)->Unit(benchmark::kMillisecond);
 

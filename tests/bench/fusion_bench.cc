@@ -1,13 +1,14 @@
 // What one fusion cycle costs with 25 objects. The paper's budget is 10 ms; the aim here is 100 microseconds.
 //
 // Each measured step starts from a strategy that has tracked the 25 objects for as long as its history
-// reaches. Every benchmark also counts the allocations of its measured part, which must be zero.
+// reaches. Every benchmark also counts the allocations of its measured part: with any it is an error, not a result.
 #include <benchmark/benchmark.h>
 
 #include <memory>
 #include <vector>
 
 #include "fusion/strategy.h"
+#include "tests/bench/yardstick.h"
 #include "tests/fusion/scenes.h"
 #include "tests/support/allocation_counter.h"
 
@@ -48,6 +49,11 @@ const Scene& scene() {
 
 constexpr std::uint32_t kWarm = 40;  // cycles: 80 scans, more than the history holds
 
+void report_allocations(benchmark::State& state, std::int64_t allocations) {
+  state.counters["allocations"] = static_cast<double>(allocations);
+  if (allocations != 0) state.SkipWithError("the measured part allocates");
+}
+
 // Lists of 25 + 25 observations in, image out.
 void Cycle(benchmark::State& state) {
   const auto kind = static_cast<StrategyKind>(state.range(0));
@@ -72,7 +78,7 @@ void Cycle(benchmark::State& state) {
     ++k;
   }
   if (image.size() != 25) state.SkipWithError("not all 25 objects are tracked");
-  state.counters["allocations"] = static_cast<double>(allocations);
+  report_allocations(state, allocations);
 }
 BENCHMARK(Cycle)->Arg(0)->Arg(1)->Arg(2)->ArgName("strategy")->Unit(benchmark::kMicrosecond);
 
@@ -109,7 +115,7 @@ void LateScan(benchmark::State& state) {
     if (k + scans >= kCycles) k = kCycles;
     state.ResumeTiming();
   }
-  state.counters["allocations"] = static_cast<double>(allocations);
+  report_allocations(state, allocations);
 }
 BENCHMARK(LateScan)->Arg(1)->Arg(2)->Arg(8)->ArgName("scans_late")->Unit(benchmark::kMicrosecond);
 
@@ -122,7 +128,7 @@ void Image(benchmark::State& state) {
     strategy->image(strategy->newest_measured() + Duration::milliseconds(100), image);
     benchmark::DoNotOptimize(image.data());
   }
-  state.counters["allocations"] = static_cast<double>(support::allocations() - before_all);
+  report_allocations(state, support::allocations() - before_all);
 }
 BENCHMARK(Image)->Unit(benchmark::kMicrosecond);
 

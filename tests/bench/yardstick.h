@@ -1,0 +1,23 @@
+// What every benchmark here is read against: a chain of multiplications of which each waits for the one before, so that it
+// takes the same number of cycles on every processor of the class, whatever else it is good at.
+#pragma once
+
+#include <benchmark/benchmark.h>
+
+#include <cstdint>
+
+namespace ttf::bench {
+
+inline constexpr int kYardstickSteps = 100'000;
+
+inline void Yardstick(benchmark::State& state) {
+  std::uint64_t x = 1;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(x);   // where it starts is nothing the compiler knows
+    for (int i = 0; i < kYardstickSteps; ++i) x = x * 6364136223846793005u + 1442695040888963407u;
+    benchmark::DoNotOptimize(x);
+  }
+}
+BENCHMARK(Yardstick)->Unit(benchmark::kMicrosecond);
+
+}  // namespace ttf::bench
