@@ -5,6 +5,7 @@
 #include <exception>
 
 #include "cli/commands.h"
+#include "cli/output.h"
 #include "core/errors.h"
 
 int main(int argc, char** argv) {
@@ -23,7 +24,9 @@ int main(int argc, char** argv) {
     return code == 0 ? 0 : 2;
   }
   try {
-    return action();
+    const int code = action();
+    ttf::cli::finish_standard_output();
+    return code;
   } catch (const ttf::InputError& error) {
     for (const ttf::Finding& finding : error.findings())
       fmt::print(stderr, "error: {}\n", finding.sentence());

@@ -3,11 +3,11 @@
 #include <array>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <optional>
 
 #include "cli/commands.h"
+#include "cli/output.h"
 #include "cli/run_outputs.h"
 #include "core/errors.h"
 #include "nodes/catalog.h"
@@ -79,8 +79,7 @@ StrategyResult run_strategy(const Options& options, const nodes::Scenario& scena
   StrategyResult result;
   result.strategy = strategy;
   result.cluster = checked_cluster(scenario.cluster_files[static_cast<std::size_t>(strategy)]);
-  const TrueTime from = sim::kFirstCycle + scenario.evaluate_from;
-  experiments::DriveMeasures measures(from);
+  experiments::DriveMeasures measures(sim::evaluation_start(scenario));
   std::vector<records::Sink*> sinks{&measures};
   std::unique_ptr<recording::LogWriter> log;
   if (!options.no_log) {
@@ -121,7 +120,7 @@ int run(const Options& options) {
   }
   if (!options.no_pictures && !options.no_log) write_pictures(scenario, results, folder);
   const nlohmann::ordered_json json = to_json(scenario, seed, results);
-  std::ofstream(folder + "/summary.json") << json.dump(2) << '\n';
+  write_file(folder + "/summary.json", json.dump(2) + '\n');
   if (options.json)
     fmt::print("{}\n", json.dump(2));
   else

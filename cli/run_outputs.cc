@@ -81,9 +81,8 @@ nlohmann::ordered_json ages(const experiments::AgeStatistics& statistics) {
 report::PositionOptions position_options(const nodes::Scenario& scenario, const StrategyResult& result) {
   report::PositionOptions options;
   options.title = fmt::format("{}, {}", scenario.name, nodes::name_of(result.strategy));
-  const TrueTime start = sim::drive_start(result.cluster);
-  options.from = start + scenario.evaluate_from;
-  options.to = start + scenario.duration;
+  options.from = sim::evaluation_start(scenario);
+  options.to = sim::drive_end(scenario);
   for (std::size_t o = 0; o < scenario.world.objects.size(); ++o)
     if (scenario.world.objects[o].reference) options.object = static_cast<ObjectId>(o);
   return options;
@@ -174,7 +173,7 @@ void write_pictures(const nodes::Scenario& scenario, const std::vector<StrategyR
     const report::Names names = report::names_of(result.cluster);
     const std::string strategy(nodes::name_of(result.strategy));
     // The timing diagram shows 160 ms, four images, from where the drive is judged.
-    const TrueTime from = sim::kFirstCycle + scenario.evaluate_from;
+    const TrueTime from = sim::evaluation_start(scenario);
     report::TimingDiagram timing(names, result.cluster.cycle(), from, from + Duration::milliseconds(160));
     plots.push_back(std::make_unique<report::PositionPlots>(names, position_options(scenario, result)));
     records::Tee tee({&timing, plots.back().get()});

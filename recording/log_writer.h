@@ -18,8 +18,8 @@ namespace ttf::recording {
 
 class LogWriter final : public records::Sink {
  public:
-  // Opens `path` and writes manifest, schemas and channels. Throws InputError when the file cannot be
-  // created.
+  // Opens `path` and writes manifest, schemas and channels. Throws std::runtime_error when the file
+  // cannot be created.
   LogWriter(const std::string& path, const LogManifest& manifest);
   ~LogWriter() override;  // closes; a failure then is lost: call close() to hear of it
   LogWriter(const LogWriter&) = delete;

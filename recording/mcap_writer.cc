@@ -10,7 +10,6 @@
 #include <stdexcept>
 
 #include "core/check.h"
-#include "core/errors.h"
 #include "recording/mcap_bytes.h"
 
 namespace ttf::recording {
@@ -66,7 +65,7 @@ McapWriter::McapWriter(const std::string& path, std::string_view profile, std::s
   impl_->path = path;
   impl_->file = std::fopen(path.c_str(), "wb");
   if (impl_->file == nullptr)
-    throw InputError({path, 0, "", "", std::string("cannot be created: ") + std::strerror(errno)});
+    throw std::runtime_error(path + ": cannot be created: " + std::strerror(errno));
   impl_->zstd = ZSTD_createCCtx();
   impl_->chunk.reserve(2 * kChunkBytes);
   impl_->compressed.resize(ZSTD_compressBound(2 * kChunkBytes));

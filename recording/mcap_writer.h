@@ -24,7 +24,7 @@ class McapWriter {
 
   using Entries = std::vector<std::pair<std::string, std::string>>;
 
-  // Throws InputError if `path` cannot be created. `profile` and `library` go into the header record.
+  // Throws std::runtime_error if `path` cannot be created. `profile` and `library` go into the header record.
   McapWriter(const std::string& path, std::string_view profile, std::string_view library);
   ~McapWriter();  // abandons what is not closed: the file reads as torn
   McapWriter(const McapWriter&) = delete;

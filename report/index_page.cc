@@ -4,7 +4,6 @@
 
 #include <fstream>
 
-#include "core/errors.h"
 #include "report/svg.h"
 
 namespace ttf::report {
@@ -60,7 +59,7 @@ void write_index(const std::string& dir, std::string_view title, std::span<const
   std::ofstream out(path, std::ios::binary);
   out << index_html(title, entries);
   out.close();
-  if (!out) throw InputError(Finding{path, 0, "", "", "cannot be written"});
+  if (!out) throw std::runtime_error(path + ": cannot be written");
 }
 
 }  // namespace ttf::report

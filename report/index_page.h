@@ -18,7 +18,7 @@ struct IndexEntry {
   std::vector<std::string> more;
 };
 
-// Writes `dir`/index.html. Throws InputError if it cannot.
+// Writes `dir`/index.html. Throws std::runtime_error if it cannot.
 void write_index(const std::string& dir, std::string_view title, std::span<const IndexEntry> entries);
 // The same page as a string.
 std::string index_html(std::string_view title, std::span<const IndexEntry> entries);

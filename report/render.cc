@@ -6,6 +6,7 @@
 
 #include <fstream>
 #include <memory>
+#include <stdexcept>
 
 #include "core/errors.h"
 
@@ -32,6 +33,11 @@ enum class Format { kSvg, kPng, kPdf };
 
 [[noreturn]] void fail(const std::string& path, std::string key, std::string value, std::string expected) {
   throw InputError(Finding{path, 0, std::move(key), std::move(value), std::move(expected)});
+}
+
+// Not the user's input is at fault here.
+[[noreturn]] void fail_to_write(const std::string& path, const std::string& reason = "") {
+  throw std::runtime_error(path + ": cannot be written" + (reason.empty() ? "" : ": " + reason));
 }
 
 Format format_of(const std::string& path) {
@@ -63,7 +69,7 @@ void draw(RsvgHandle* handle, cairo_surface_t* surface, double scale, double wid
   cairo_surface_finish(surface);
   // What remains at this point is the disk: the drawing itself succeeded.
   if (const cairo_status_t status = cairo_surface_status(surface); status != CAIRO_STATUS_SUCCESS)
-    fail(path, "", "", std::string("cannot be written: ") + cairo_status_to_string(status));
+    fail_to_write(path, cairo_status_to_string(status));
 }
 
 }  // namespace
@@ -76,7 +82,7 @@ void write_picture(const std::string& svg, const std::string& path) {
     std::ofstream out(path, std::ios::binary);
     out << svg;
     out.close();
-    if (!out) fail(path, "", "", "cannot be written");
+    if (!out) fail_to_write(path);
     return;
   }
   GError* error = nullptr;
@@ -99,14 +105,15 @@ void write_picture(const std::string& svg, const std::string& path) {
     const RsvgRectangle viewport{0, 0, width, height};
     if (rsvg_handle_render_document(handle.get(), cairo.get(), &viewport, &error) == 0)
       fail(path, "picture", "", "could not be drawn: " + take(error));
-    if (cairo_surface_write_to_png(surface.get(), path.c_str()) != CAIRO_STATUS_SUCCESS)
-      fail(path, "", "", "cannot be written");
+    if (const cairo_status_t status = cairo_surface_write_to_png(surface.get(), path.c_str());
+        status != CAIRO_STATUS_SUCCESS)
+      fail_to_write(path, cairo_status_to_string(status));
     return;
   }
   const Surface surface(
       cairo_pdf_surface_create(path.c_str(), width * kPointsPerPixel, height * kPointsPerPixel));
   if (const cairo_status_t status = cairo_surface_status(surface.get()); status != CAIRO_STATUS_SUCCESS)
-    fail(path, "", "", std::string("cannot be written: ") + cairo_status_to_string(status));
+    fail_to_write(path, cairo_status_to_string(status));
   // cairo would write today's date: a fixed one keeps equal pictures equal bytes.
   cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE, "2000-01-01T00:00:00Z");
   draw(handle.get(), surface.get(), kPointsPerPixel, width, height, path);

@@ -7,7 +7,7 @@ namespace ttf::report {
 
 // The extension of `path` chooses the format. PNG has two pixels per SVG unit up to 2600 units' width and one
 // beyond; PDF has one CSS pixel (1/96 inch) per SVG unit. Equal input gives equal bytes. Throws InputError
-// for an unknown extension, a path that cannot be written, or bytes that are no SVG.
+// for an unknown extension or bytes that are no SVG, std::runtime_error for a path that cannot be written.
 void write_picture(const std::string& svg, const std::string& path);
 
 // Throws InputError now rather than after a long computation if `path` names no known format.

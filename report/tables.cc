@@ -21,15 +21,6 @@ std::string padded(const std::string& s, std::size_t width, bool right) {
   return right ? blanks + s : s + blanks;
 }
 
-std::string markdown_cell(const std::string& s) {
-  std::string out;
-  for (const char c : s) {
-    if (c == '|') out += '\\';
-    out += c == '\n' ? ' ' : c;
-  }
-  return out;
-}
-
 bool is_number(const std::string& s) {
   if (s.empty() || s == "-") return true;
   char* end = nullptr;
@@ -50,19 +41,18 @@ bool Table::numeric(std::size_t column) const {
          std::ranges::all_of(rows_, [&](const auto& row) { return is_number(row[column]); });
 }
 
-std::vector<std::size_t> Table::widths(bool escaped) const {
+std::vector<std::size_t> Table::widths() const {
   std::vector<std::size_t> out;
   for (std::size_t c = 0; c < header_.size(); ++c) {
-    std::size_t width = shown_width(escaped ? markdown_cell(header_[c]) : header_[c]);
-    for (const auto& row : rows_)
-      width = std::max(width, shown_width(escaped ? markdown_cell(row[c]) : row[c]));
+    std::size_t width = shown_width(header_[c]);
+    for (const auto& row : rows_) width = std::max(width, shown_width(row[c]));
     out.push_back(width);
   }
   return out;
 }
 
 std::string Table::text() const {
-  const std::vector<std::size_t> width = widths(false);
+  const std::vector<std::size_t> width = widths();
   std::string out;
   const auto line = [&](const std::vector<std::string>& cells) {
     std::string s;
@@ -75,23 +65,6 @@ std::string Table::text() const {
   std::string rule;
   for (std::size_t c = 0; c < width.size(); ++c) rule += (c > 0 ? "  " : "") + std::string(width[c], '-');
   out += rule + "\n";
-  for (const auto& row : rows_) line(row);
-  return out;
-}
-
-std::string Table::markdown() const {
-  std::vector<std::size_t> width = widths(true);
-  for (std::size_t& w : width) w = std::max<std::size_t>(w, 3);
-  std::string out;
-  const auto line = [&](const std::vector<std::string>& cells) {
-    for (std::size_t c = 0; c < cells.size(); ++c)
-      out += "| " + padded(markdown_cell(cells[c]), width[c], numeric(c)) + " ";
-    out += "|\n";
-  };
-  line(header_);
-  for (std::size_t c = 0; c < width.size(); ++c)
-    out += "| " + std::string(width[c] - 1, '-') + (numeric(c) ? ": " : "- ");
-  out += "|\n";
   for (const auto& row : rows_) line(row);
   return out;
 }

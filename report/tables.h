@@ -1,4 +1,4 @@
-// Tables for people: aligned text and Markdown from a header and rows.
+// Tables for people: aligned text from a header and rows.
 #pragma once
 
 #include <string>
@@ -15,11 +15,10 @@ class Table {
   void add(std::vector<std::string> row);
   std::size_t rows() const { return rows_.size(); }
   std::string text() const;
-  std::string markdown() const;
 
  private:
   bool numeric(std::size_t column) const;
-  std::vector<std::size_t> widths(bool escaped) const;
+  std::vector<std::size_t> widths() const;
 
   std::vector<std::string> header_;
   std::vector<std::vector<std::string>> rows_;

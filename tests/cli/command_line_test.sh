@@ -78,6 +78,37 @@ done
   python3 -c 'import json,sys; s=json.load(sys.stdin)["strategies"][0]; assert s["rmse_truth"]["position_m"] < 0.5, s; assert s["precision_us"] > 0' ||
   fail "--json is not the documented JSON"
 
+# Where nothing was compared (nothing is judged before the end) there is a dash and a null, and no perfect zero.
+sed -e 's/^evaluate_from: .*/evaluate_from: 3 s/' "$source/scenarios/paper_scenario1.yaml" >"$work/scenarios/unjudged.yaml"
+expect 0 'position RMSE against truth \[m\] +-$' run "$work/scenarios/unjudged.yaml" --strategy tt --no-log --out "$work/u"
+expect 0 '  95 % band +-$' run "$work/scenarios/unjudged.yaml" --strategy tt --no-log --out "$work/u"
+python3 - "$work/u/summary.json" <<'PY' || fail "where nothing was compared, the JSON has no null"
+import json, sys
+s = json.load(open(sys.argv[1]))["strategies"][0]
+assert s["objects"]["compared"] == 0, s
+assert set(s["rmse_truth"].values()) == {None}, s
+assert s["rmse_reference"] == {"position_m": None, "velocity_mps": None, "compared": 0}, s
+assert s["nees"]["mean"] is None and s["nees"]["band_95"] == [None, None], s
+assert s["age_when_used"] == {"count": 0, "mean_ms": None, "worst_ms": None}, s
+PY
+
+# What cannot be written is said, and the run has failed.
+mkdir -p "$work/w1/summary.json" "$work/w2/tt.mcap" "$work/w3/index.html" "$work/w4/tt_timing.png" "$work/picture.svg"
+tt=(run "$source/scenarios/paper_scenario2.yaml" --strategy tt)
+expect 1 'error: .*/w1/summary.json: cannot be written: Is a directory' "${tt[@]}" --no-log --out "$work/w1"
+expect 1 'error: .*/w2/tt.mcap: cannot be created: Is a directory' "${tt[@]}" --out "$work/w2"
+expect 1 'error: .*/w3/index.html: cannot be written' "${tt[@]}" --out "$work/w3"
+expect 1 'error: .*/w4/tt_timing.png: cannot be written' "${tt[@]}" --out "$work/w4"
+expect 1 'error: .*/picture.svg: cannot be written' diagram "$work/a/tt.mcap" -o "$work/picture.svg"
+if [[ -c /dev/full ]]; then
+  for command in "run $source/scenarios/paper_scenario2.yaml --strategy tt --no-log --out $work/w5" \
+                 "schedule show $source/schedules/paper_synchronised.yaml"; do
+    output=$("$program" $command 2>&1 >/dev/full)
+    [[ $? -eq 1 ]] || fail "$command to a full device does not exit with 1"
+    grep -q '^error: .*No space left on device' <<<"$output" || fail "$command to a full device says: $output"
+  done
+fi
+
 # Diagrams from logs, whole and cut off.
 expect 0 '' diagram "$work/a/tt.mcap" --from 1.5 --to 1.6 -o "$work/timing.pdf"
 expect 2 'command line: --from = 1e.300: must be 0..1000000000 s' \

@@ -162,6 +162,8 @@ std::string message_of(const std::string& svg, const std::string& path) {
   try {
     write_picture(svg, path);
   } catch (const InputError& e) {
+    return std::string("bad input: ") + e.what();
+  } catch (const std::runtime_error& e) {
     return e.what();
   }
   return "no error";
@@ -178,10 +180,13 @@ TEST(Render, NamesTheExtensionsItKnows) {
 
 TEST(Render, SaysWhatCannotBeWrittenOrDrawn) {
   const std::string svg = Svg(10, 10, "p").str();
-  for (const std::string extension : {"svg", "png", "pdf"})
-    EXPECT_NE(message_of(svg, "/no/such/folder/a." + extension).find("cannot be written"), std::string::npos)
-        << extension;
-  EXPECT_NE(message_of("<svg", scratch("broken.png")).find("not valid SVG"), std::string::npos);
+  for (const std::string extension : {"svg", "png", "pdf"}) {
+    const std::string path = "/no/such/folder/a." + extension;
+    EXPECT_EQ(message_of(svg, path).find(path + ": cannot be written"), 0u) << message_of(svg, path);
+  }
+  const std::string message = message_of("<svg", scratch("broken.png"));
+  EXPECT_EQ(message.find("bad input: "), 0u) << message;
+  EXPECT_NE(message.find("not valid SVG"), std::string::npos);
 }
 
 TEST(Tables, AlignNumbersRightAndWordsLeft) {
@@ -192,9 +197,6 @@ TEST(Tables, AlignNumbersRightAndWordsLeft) {
   EXPECT_EQ(
       t.text(),
       "strategy  rmse [m]\n--------  --------\nBUFF          0.25\nADVA          12.5\nTT               -\n");
-  EXPECT_EQ(t.markdown(),
-            "| strategy | rmse [m] |\n| -------- | -------: |\n| BUFF     |     0.25 |\n| ADVA     |     "
-            "12.5 |\n| TT       |        - |\n");
 }
 
 TEST(Tables, CountCharactersAndFillShortRows) {
@@ -202,7 +204,6 @@ TEST(Tables, CountCharactersAndFillShortRows) {
   t.add({"\xc2\xb5s"});
   t.add({"x|y", "z"});
   EXPECT_EQ(t.text(), "a    b\n---  -\n\xc2\xb5s\nx|y  z\n");
-  EXPECT_NE(t.markdown().find("x\\|y"), std::string::npos);
   EXPECT_EQ(cell(1.2345, 2), "1.23");
   EXPECT_EQ(cell(std::numeric_limits<double>::quiet_NaN(), 2), "-");
 }
@@ -220,7 +221,7 @@ TEST(IndexPage, ListsPicturesAndTables) {
     EXPECT_NE(html.find(part), std::string::npos) << part;
   EXPECT_EQ(html.find("http"), std::string::npos) << "nothing from a network";
   std::filesystem::remove_all(dir);
-  EXPECT_THROW(write_index(dir, "gone", entries), InputError);
+  EXPECT_THROW(write_index(dir, "gone", entries), std::runtime_error);
 }
 
 TEST(BoxesPicture, DrawsEveryPointAndBox) {

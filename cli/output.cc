@@ -1,0 +1,30 @@
+#include "cli/output.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <stdexcept>
+
+namespace ttf::cli {
+namespace {
+
+[[noreturn]] void fail(const std::string& where) {
+  throw std::runtime_error(where + ": cannot be written: " + std::strerror(errno));
+}
+
+}  // namespace
+
+void write_file(const std::string& path, std::string_view text) {
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "wb"), &std::fclose);
+  if (file == nullptr || std::fwrite(text.data(), 1, text.size(), file.get()) != text.size()) fail(path);
+  // What is still buffered may fail as well.
+  if (std::fclose(file.release()) != 0) fail(path);
+}
+
+void finish_standard_output() {
+  // An error of an earlier, implicit flush is kept in the stream.
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) fail("standard output");
+}
+
+}  // namespace ttf::cli

@@ -1,0 +1,15 @@
+// Where results go: files and standard output. What cannot be written is no input of the user's: the run failed, exit code 1.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace ttf::cli {
+
+// Writes the whole file. Throws std::runtime_error with path and reason where it cannot.
+void write_file(const std::string& path, std::string_view text);
+
+// Hands what was printed to the system. Throws std::runtime_error with the reason where it is not taken (disk full, closed).
+void finish_standard_output();
+
+}  // namespace ttf::cli
