@@ -1,11 +1,13 @@
 // What is written is read again; the same records give the same bytes; the hash follows the records.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <numeric>
 #include <set>
 
 #include "core/errors.h"
+#include "recording/log_codec.h"
 #include "recording/log_reader.h"
 #include "recording/log_writer.h"
 #include "tests/recording/allocations.h"
@@ -186,6 +188,30 @@ TEST(Log, WhatIsNoLogIsInvalidInput) {
   EXPECT_THROW(read_log("no/such/file.mcap", read), InputError);
   EXPECT_THROW(read_log(std::filesystem::temp_directory_path().string(), read), InputError);
   EXPECT_TRUE(read.lines.empty());
+}
+
+// A receiver that gives no velocity, or a log from before it was recorded: there is none, rather than one of zero.
+TEST(Log, AReferenceWithoutVelocityHasNone) {
+  struct Fixes final : records::Sink {
+    using records::Sink::on;
+    std::vector<records::ReferenceFix> all;
+    void on(const records::ReferenceFix& fix) override { all.push_back(fix); }
+  } fixes;
+  records::ReferenceFix fix;
+  fix.x = 3.0;
+  Payloads payloads;
+  encode(fix, payloads);
+  Decoder decoder;
+  ASSERT_TRUE(decoder.decode(RecordKind::kReference, payloads.reference.SerializeAsString(), fixes));
+  payloads.reference.clear_vx();
+  payloads.reference.clear_vy();
+  payloads.reference.clear_sigma_velocity();
+  ASSERT_TRUE(decoder.decode(RecordKind::kReference, payloads.reference.SerializeAsString(), fixes));
+  ASSERT_EQ(fixes.all.size(), 2u);
+  EXPECT_EQ(fixes.all[0].vx, 0.0);
+  EXPECT_EQ(fixes.all[1].x, 3.0);
+  for (const double value : {fixes.all[1].vx, fixes.all[1].vy, fixes.all[1].sigma_velocity})
+    EXPECT_TRUE(std::isnan(value)) << value;
 }
 
 TEST(Log, WhatCannotBeWrittenIsSaid) {

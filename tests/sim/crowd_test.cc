@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <tuple>
 
 #include "experiments/pairing.h"
 #include "schedules/ages.h"
@@ -105,17 +106,17 @@ struct Memory final : records::Sink {
   }
 };
 
-class Crowd : public testing::TestWithParam<fusion::StrategyKind> {};
+class Crowd : public testing::TestWithParam<std::tuple<fusion::StrategyKind, std::uint64_t>> {};   // strategy, seed
 
 TEST_P(Crowd, TwentyFiveObjectsForAMinute) {
-  const Drive drive("scenarios/crowd_25.yaml", GetParam());
+  const Drive drive("scenarios/crowd_25.yaml", std::get<fusion::StrategyKind>(GetParam()));
   const TrueTime from = confirmation_time(drive);
   EXPECT_LT(from, sim::kFirstCycle + Duration::milliseconds(1000));
   Coverage coverage(from);
   Memory memory;
   experiments::DriveMeasures measures(sim::evaluation_start(drive.scenario));
   records::Tee tee({&coverage, &memory, &measures});
-  const sim::DriveOutcome outcome = drive.run(tee);
+  const sim::DriveOutcome outcome = drive.run(tee, std::get<std::uint64_t>(GetParam()));
   coverage.finish();
   ASSERT_EQ(coverage.objects.size(), 25u);
   for (const auto& [id, object] : coverage.objects) {
@@ -133,8 +134,13 @@ TEST_P(Crowd, TwentyFiveObjectsForAMinute) {
   EXPECT_LT(memory.largest_kib - memory.after_warm_up_kib, 512);
 }
 
-INSTANTIATE_TEST_SUITE_P(EveryStrategy, Crowd, testing::ValuesIn(testing_support::kStrategies),
-                         [](const auto& strategy) { return std::string(nodes::name_of(strategy.param)); });
+INSTANTIATE_TEST_SUITE_P(EveryStrategy, Crowd,
+                         testing::Combine(testing::ValuesIn(testing_support::kStrategies),
+                                          testing::Values(std::uint64_t{1}, std::uint64_t{2})),
+                         [](const auto& run) {
+                           return std::string(nodes::name_of(std::get<fusion::StrategyKind>(run.param))) + "_" +
+                                  std::to_string(std::get<std::uint64_t>(run.param));
+                         });
 
 }  // namespace
 }  // namespace ttf
