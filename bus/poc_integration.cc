@@ -1,0 +1,262 @@
+// The paths of those who take their schedule from somebody else: the following coldstart node (SPNU563A 26.2.6.7.4) and
+// any other node (26.2.6.7.5).
+#include "bus/poc_states.h"
+
+namespace ttf::bus::poc {
+namespace {
+
+// Listening with leave to coldstart is coldstart listen's.
+PocStep allow_coldstart_listening(const Now& now) {
+  const PocStep step = allow_coldstart(now);
+  const PocStep listening = listen_with(now.parameters, step);
+  return listening.consequence == PocReason::kMayColdstart ? listening : step;
+}
+
+}  // namespace
+
+PocStep in_integration_listen(const Now& now) {
+  switch (now.event.kind) {
+    case PocEventKind::kPowerOn: return power_on(now);
+    case PocEventKind::kFreeze: return freeze(now, PocReason::kFreezeCommand);
+    case PocEventKind::kFatalError: return freeze(now, PocReason::kFatalError);
+    case PocEventKind::kReady: return ready(now, PocReason::kReadyCommand);
+    case PocEventKind::kAllowColdstart: return allow_coldstart_listening(now);
+    case PocEventKind::kStartupFrame: return derive_schedule(now);
+    case PocEventKind::kConfig:
+    case PocEventKind::kConfigComplete:
+    case PocEventKind::kRun:
+    case PocEventKind::kWakeup:
+    case PocEventKind::kAllSlots:
+    case PocEventKind::kHalt: return ignore(now, PocReason::kCommandNotAccepted);
+    case PocEventKind::kChannelActive:
+    case PocEventKind::kChannelsIdle: return ignore(now, PocReason::kNoTimerOnChannel);
+    case PocEventKind::kCasReceived: return ignore(now, PocReason::kSymbolWithoutMeaning);
+    case PocEventKind::kWakeupPatternReceived: return ignore(now, PocReason::kNoWakeupWanted);
+    case PocEventKind::kHeaderReceived: return ignore(now, PocReason::kHeaderWithoutMeaning);
+    case PocEventKind::kListenTimeout:
+    case PocEventKind::kNoiseTimeout: return ignore(now, PocReason::kNoTimerRunning);
+    case PocEventKind::kWakeupSent:
+    case PocEventKind::kWakeupCollision: return ignore(now, PocReason::kNotSendingWakeup);
+    case PocEventKind::kScheduleNotDerived: return ignore(now, PocReason::kNotDerivingSchedule);
+    case PocEventKind::kClockCorrected:
+    case PocEventKind::kCycleStarted: return ignore(now, PocReason::kNoSchedule);
+  }
+  return {};
+}
+
+namespace {
+
+PocStep second_frame(const Now& now) {
+  if (now.event.frame_id != now.state.reference || now.event.cycle % 2 == 0)
+    return ignore(now, PocReason::kOddFrameAwaited);
+  return enter(now, now.parameters.pKeySlotUsedForStartup ? PocKind::kIntegrationColdstartCheck
+                                                          : PocKind::kIntegrationConsistencyCheck,
+               PocReason::kScheduleDerived);
+}
+
+}  // namespace
+
+PocStep in_initialise_schedule(const Now& now) {
+  switch (now.event.kind) {
+    case PocEventKind::kPowerOn: return power_on(now);
+    case PocEventKind::kFreeze: return freeze(now, PocReason::kFreezeCommand);
+    case PocEventKind::kFatalError: return freeze(now, PocReason::kFatalError);
+    case PocEventKind::kReady: return ready(now, PocReason::kReadyCommand);
+    case PocEventKind::kAllowColdstart: return allow_coldstart(now);
+    case PocEventKind::kStartupFrame: return second_frame(now);
+    case PocEventKind::kScheduleNotDerived: return listen(now, PocReason::kScheduleNotDerived);
+    case PocEventKind::kConfig:
+    case PocEventKind::kConfigComplete:
+    case PocEventKind::kRun:
+    case PocEventKind::kWakeup:
+    case PocEventKind::kAllSlots:
+    case PocEventKind::kHalt: return ignore(now, PocReason::kCommandNotAccepted);
+    case PocEventKind::kChannelActive:
+    case PocEventKind::kChannelsIdle: return ignore(now, PocReason::kNoTimerOnChannel);
+    case PocEventKind::kCasReceived: return ignore(now, PocReason::kSymbolWithoutMeaning);
+    case PocEventKind::kWakeupPatternReceived: return ignore(now, PocReason::kNoWakeupWanted);
+    case PocEventKind::kHeaderReceived: return ignore(now, PocReason::kHeaderWithoutMeaning);
+    case PocEventKind::kListenTimeout:
+    case PocEventKind::kNoiseTimeout: return ignore(now, PocReason::kNoTimerRunning);
+    case PocEventKind::kWakeupSent:
+    case PocEventKind::kWakeupCollision: return ignore(now, PocReason::kNotSendingWakeup);
+    case PocEventKind::kClockCorrected:
+    case PocEventKind::kCycleStarted: return ignore(now, PocReason::kNotYetWholeCycle);
+  }
+  return {};
+}
+
+namespace {
+
+PocStep next_cycle(const Now& now, PocReason why) {
+  PocStep step = stay(now, why);
+  ++step.next.cycles;
+  return step;
+}
+
+// The rest of the cycle in which the schedule was derived is not judged: checks begin with the next even cycle.
+PocStep note_clock_of_whole_cycles(const Now& now) {
+  return now.state.cycles == 0 ? ignore(now, PocReason::kNotYetWholeCycle) : note_clock(now);
+}
+
+PocStep begin_check(const Now& now) {
+  if (now.event.cycle % 2 != 0) return ignore(now, PocReason::kNotYetWholeCycle);
+  return next_cycle(now, PocReason::kFirstWholeCycle);
+}
+
+bool enough_frames(const StartupFramesSeen& seen) { return seen.reference_frame || seen.frames >= 2; }
+bool enough_pairs(const StartupFramesSeen& seen) { return seen.reference_pair || seen.pairs >= 2; }
+
+PocStep coldstart_check_cycle(const Now& now) {
+  const StartupFramesSeen& ended = now.event.ended;
+  if (now.state.cycles == 0) return begin_check(now);
+  if (now.state.cycles == 1)   // the even cycle has ended
+    return enough_frames(ended) ? next_cycle(now, PocReason::kReferenceFrameSeen)
+                                : listen(now, PocReason::kReferenceFrameLost);
+  if (!enough_pairs(ended)) return listen(now, PocReason::kReferencePairLost);
+  if (const PocReason objection = clock_objection(now.state); objection != PocReason::kNone)
+    return listen(now, objection);
+  PocStep step = enter(now, PocKind::kColdstartJoin, PocReason::kReferenceConfirmed);
+  step.next.cycles = 1;
+  return step;
+}
+
+}  // namespace
+
+PocStep in_integration_coldstart_check(const Now& now) {
+  switch (now.event.kind) {
+    case PocEventKind::kPowerOn: return power_on(now);
+    case PocEventKind::kFreeze: return freeze(now, PocReason::kFreezeCommand);
+    case PocEventKind::kFatalError: return freeze(now, PocReason::kFatalError);
+    case PocEventKind::kReady: return ready(now, PocReason::kReadyCommand);
+    case PocEventKind::kAllowColdstart: return allow_coldstart(now);
+    case PocEventKind::kCycleStarted: return coldstart_check_cycle(now);
+    case PocEventKind::kClockCorrected: return note_clock_of_whole_cycles(now);
+    case PocEventKind::kConfig:
+    case PocEventKind::kConfigComplete:
+    case PocEventKind::kRun:
+    case PocEventKind::kWakeup:
+    case PocEventKind::kAllSlots:
+    case PocEventKind::kHalt: return ignore(now, PocReason::kCommandNotAccepted);
+    case PocEventKind::kChannelActive:
+    case PocEventKind::kChannelsIdle: return ignore(now, PocReason::kNoTimerOnChannel);
+    case PocEventKind::kCasReceived: return ignore(now, PocReason::kSymbolWithoutMeaning);
+    case PocEventKind::kWakeupPatternReceived: return ignore(now, PocReason::kNoWakeupWanted);
+    case PocEventKind::kHeaderReceived:
+    case PocEventKind::kStartupFrame: return ignore(now, PocReason::kJudgedAtCycleEnd);
+    case PocEventKind::kListenTimeout:
+    case PocEventKind::kNoiseTimeout: return ignore(now, PocReason::kNoTimerRunning);
+    case PocEventKind::kWakeupSent:
+    case PocEventKind::kWakeupCollision: return ignore(now, PocReason::kNotSendingWakeup);
+    case PocEventKind::kScheduleNotDerived: return ignore(now, PocReason::kNotDerivingSchedule);
+  }
+  return {};
+}
+
+namespace {
+
+// Its own frame does not count: the leading node's at least is there. Cycles 4, 5, 6 are 1, 2, 3 here.
+PocStep join_cycle(const Now& now) {
+  const StartupFramesSeen& ended = now.event.ended;
+  if (now.state.cycles == 2) {   // a double cycle has ended
+    if (ended.pairs == 0) return listen(now, PocReason::kJoinedAlone);
+    if (const PocReason objection = clock_objection(now.state); objection != PocReason::kNone)
+      return listen(now, objection);
+    return next_cycle(now, PocReason::kJoinGoesOn);
+  }
+  if (ended.frames == 0) return listen(now, PocReason::kJoinedAlone);
+  if (now.state.cycles == 1) return next_cycle(now, PocReason::kJoinGoesOn);
+  return enter(now, PocKind::kNormalActive, PocReason::kJoined);
+}
+
+}  // namespace
+
+PocStep in_join(const Now& now) {
+  switch (now.event.kind) {
+    case PocEventKind::kPowerOn: return power_on(now);
+    case PocEventKind::kFreeze: return freeze(now, PocReason::kFreezeCommand);
+    case PocEventKind::kFatalError: return freeze(now, PocReason::kFatalError);
+    case PocEventKind::kReady: return ready(now, PocReason::kReadyCommand);
+    case PocEventKind::kAllowColdstart: return allow_coldstart(now);
+    case PocEventKind::kCycleStarted: return join_cycle(now);
+    case PocEventKind::kClockCorrected: return note_clock(now);
+    case PocEventKind::kConfig:
+    case PocEventKind::kConfigComplete:
+    case PocEventKind::kRun:
+    case PocEventKind::kWakeup:
+    case PocEventKind::kAllSlots:
+    case PocEventKind::kHalt: return ignore(now, PocReason::kCommandNotAccepted);
+    case PocEventKind::kChannelActive:
+    case PocEventKind::kChannelsIdle: return ignore(now, PocReason::kNoTimerOnChannel);
+    case PocEventKind::kCasReceived: return ignore(now, PocReason::kSymbolWithoutMeaning);
+    case PocEventKind::kWakeupPatternReceived: return ignore(now, PocReason::kNoWakeupWanted);
+    case PocEventKind::kHeaderReceived:
+    case PocEventKind::kStartupFrame: return ignore(now, PocReason::kJudgedAtCycleEnd);
+    case PocEventKind::kListenTimeout:
+    case PocEventKind::kNoiseTimeout: return ignore(now, PocReason::kNoTimerRunning);
+    case PocEventKind::kWakeupSent:
+    case PocEventKind::kWakeupCollision: return ignore(now, PocReason::kNotSendingWakeup);
+    case PocEventKind::kScheduleNotDerived: return ignore(now, PocReason::kNotDerivingSchedule);
+  }
+  return {};
+}
+
+namespace {
+
+constexpr int kGoodDoubleCycles = 2;
+
+// In the first double cycle there may be the leading node alone; it just does not count as a good one then.
+PocStep integration_cycle(const Now& now) {
+  const StartupFramesSeen& ended = now.event.ended;
+  if (now.state.cycles == 0) return begin_check(now);
+  const bool first = now.state.cycles <= 2;
+  const bool even_ended = now.state.cycles % 2 != 0;
+  if (even_ended) {
+    if (first && !enough_frames(ended)) return listen(now, PocReason::kReferenceFrameLost);
+    if (!first && ended.frames < 2) return listen(now, PocReason::kTooFewStartupFrames);
+    return next_cycle(now, PocReason::kConsistencyGoesOn);
+  }
+  if (first && !enough_pairs(ended)) return listen(now, PocReason::kReferencePairLost);
+  if (!first && ended.pairs < 2) return listen(now, PocReason::kTooFewStartupPairs);
+  if (const PocReason objection = clock_objection(now.state); objection != PocReason::kNone)
+    return listen(now, objection);
+  PocStep step = next_cycle(now, PocReason::kConsistencyGoesOn);
+  step.next.clock = ClockVerdict::kNone;
+  step.next.good_double_cycles = ended.pairs >= 2 ? now.state.good_double_cycles + 1 : 0;
+  if (step.next.good_double_cycles < kGoodDoubleCycles) return step;
+  return enter(now, PocKind::kNormalActive, PocReason::kIntegrated);
+}
+
+}  // namespace
+
+PocStep in_integration_consistency_check(const Now& now) {
+  switch (now.event.kind) {
+    case PocEventKind::kPowerOn: return power_on(now);
+    case PocEventKind::kFreeze: return freeze(now, PocReason::kFreezeCommand);
+    case PocEventKind::kFatalError: return freeze(now, PocReason::kFatalError);
+    case PocEventKind::kReady: return ready(now, PocReason::kReadyCommand);
+    case PocEventKind::kAllowColdstart: return allow_coldstart(now);
+    case PocEventKind::kCycleStarted: return integration_cycle(now);
+    case PocEventKind::kClockCorrected: return note_clock_of_whole_cycles(now);
+    case PocEventKind::kConfig:
+    case PocEventKind::kConfigComplete:
+    case PocEventKind::kRun:
+    case PocEventKind::kWakeup:
+    case PocEventKind::kAllSlots:
+    case PocEventKind::kHalt: return ignore(now, PocReason::kCommandNotAccepted);
+    case PocEventKind::kChannelActive:
+    case PocEventKind::kChannelsIdle: return ignore(now, PocReason::kNoTimerOnChannel);
+    case PocEventKind::kCasReceived: return ignore(now, PocReason::kSymbolWithoutMeaning);
+    case PocEventKind::kWakeupPatternReceived: return ignore(now, PocReason::kNoWakeupWanted);
+    case PocEventKind::kHeaderReceived:
+    case PocEventKind::kStartupFrame: return ignore(now, PocReason::kJudgedAtCycleEnd);
+    case PocEventKind::kListenTimeout:
+    case PocEventKind::kNoiseTimeout: return ignore(now, PocReason::kNoTimerRunning);
+    case PocEventKind::kWakeupSent:
+    case PocEventKind::kWakeupCollision: return ignore(now, PocReason::kNotSendingWakeup);
+    case PocEventKind::kScheduleNotDerived: return ignore(now, PocReason::kNotDerivingSchedule);
+  }
+  return {};
+}
+
+}  // namespace ttf::bus::poc

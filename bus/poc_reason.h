@@ -1,0 +1,123 @@
+// Why a step of protocol operation control did what it did: a reason for every (state, event) pair, one sentence each.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace ttf::bus {
+
+enum class PocReason : std::uint8_t {
+  kNone,
+
+  // Host, supply, errors.
+  kPowerOn,
+  kConfigCommand,
+  kLeftHalt,
+  kConfigured,
+  kRunCommand,
+  kReadyCommand,
+  kReadyRequested,
+  kReadyAtCycleEnd,
+  kHaltRequested,
+  kHaltAtCycleEnd,
+  kFreezeCommand,
+  kFatalError,
+  kColdstartAllowed,
+  kAllSlotsRequested,
+
+  // Wake-up.
+  kWakeupCommand,
+  kWakeupAfterSilence,
+  kWakeupAfterNoise,
+  kWakeupPatternHeard,
+  kWakeupHeaderHeard,
+  kWakeupSent,
+  kWakeupCollision,
+  kCollisionWithPattern,
+  kCollisionWithHeader,
+  kCollisionUnexplained,
+
+  // Which way start-up goes (PocStep::consequence).
+  kMayColdstart,
+  kNotAColdstartNode,
+  kColdstartInhibited,
+  kAttemptsExhausted,
+
+  // Listening.
+  kListenTimerStopped,
+  kListenTimerRestarted,
+  kNoiseTimerRestarted,
+  kStartupFrameHeard,
+
+  // Leading coldstart node.
+  kColdstartAfterSilence,
+  kColdstartAfterNoise,
+  kCollisionResolutionGoesOn,
+  kCollisionCas,
+  kCollisionHeader,
+  kAloneForFourCycles,
+  kSomebodyJoined,
+  kNobodyJoined,
+  kGapCas,
+  kGapHeader,
+  kGapOver,
+  kNoStartupPair,
+  kClusterStarted,
+
+  // Following and integrating nodes.
+  kScheduleDerived,
+  kScheduleNotDerived,
+  kFirstWholeCycle,
+  kReferenceFrameSeen,
+  kReferenceFrameLost,
+  kReferencePairLost,
+  kReferenceConfirmed,
+  kJoinGoesOn,
+  kJoinedAlone,
+  kJoined,
+  kConsistencyGoesOn,
+  kTooFewStartupFrames,
+  kTooFewStartupPairs,
+  kIntegrated,
+
+  // Clock correction.
+  kClockInOrder,
+  kClockTermMissing,
+  kClockLimitExceeded,
+  kStartupClockTermMissing,
+  kStartupClockLimitExceeded,
+  kPassiveByMissingTerms,
+  kPassiveByLimit,
+  kHaltByMissingTerms,
+  kHaltByLimit,
+  kBackToActive,
+  kCycleGoesOn,
+  kStaysPassive,
+
+  // Nothing happens, and why.
+  kCommandNotAccepted,
+  kAlreadyFrozen,
+  kReceiverOff,
+  kNoTimerRunning,
+  kNoTimerOnChannel,
+  kNotDerivingSchedule,
+  kNotSendingWakeup,
+  kNoSchedule,
+  kNoWakeupWanted,
+  kSymbolWithoutMeaning,
+  kHeaderWithoutMeaning,
+  kEvenFrameAwaited,
+  kOddFrameAwaited,
+  kHeaderCameFirst,
+  kJudgedAtCycleEnd,
+  kOwnClockOnly,
+  kNotYetWholeCycle,
+};
+
+// One sentence without the final stop, for the log; empty for kNone.
+std::string_view to_text(PocReason reason);
+
+// Whether the reason says that nothing happened: same state, same data, no action.
+constexpr bool is_ignored(PocReason reason) { return reason >= PocReason::kCommandNotAccepted; }
+
+}  // namespace ttf::bus
