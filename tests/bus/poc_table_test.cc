@@ -1,6 +1,7 @@
 // Protocol operation control: every pair of state and event has its listed next state.
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <set>
 #include <sstream>
 
