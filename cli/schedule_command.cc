@@ -27,8 +27,7 @@ struct Options {
 double ms(Duration d) { return static_cast<double>(d.ns) * 1e-6; }
 
 int check(const Options& options) {
-  const schedules::Cluster cluster = schedules::load_cluster(options.file);
-  if (auto findings = schedules::check(cluster); !findings.empty()) throw InputError(std::move(findings));
+  const schedules::Cluster cluster = schedules::load_checked_cluster(options.file);
   schedules::bind_ports(cluster, nodes::step_ports());
   if (!options.json) {
     fmt::print("{}: consistent\n{}", cluster.name, schedules::ages_text(cluster));
@@ -55,7 +54,7 @@ int check(const Options& options) {
 
 int show(const Options& options) {
   if (!options.out.empty()) report::check_picture_path(options.out);
-  const schedules::Cluster cluster = schedules::load_cluster(options.file);
+  const schedules::Cluster cluster = schedules::load_checked_cluster(options.file);
   if (options.out.empty())
     fmt::print("{}", schedules::show_text(cluster));
   else

@@ -17,6 +17,7 @@ namespace ttf {
 struct YamlMap::Content {
   std::string file;
   YAML::Node node;  // a map, or undefined for a missing one
+  int line = 0;     // of a missing one: where it should stand, the mapping around it
   std::set<std::string, std::less<>> asked;
 };
 
@@ -146,7 +147,7 @@ bool YamlMap::has(std::string_view key) const {
 int YamlMap::line(std::string_view key) const {
   if (!key.empty())
     if (const YAML::Node node = child(content_->node, key); node.IsDefined()) return line_of(node);
-  return line_of(content_->node);
+  return content_->node.IsDefined() ? line_of(content_->node) : content_->line;
 }
 
 void YamlMap::fail(std::string_view key, std::string expected) {
@@ -302,6 +303,7 @@ YamlMap YamlMap::map(std::string_view key) {
   if (node.IsDefined() && !node.IsMap()) fail(key, "must be a mapping");
   auto content = std::make_shared<Content>();
   content->file = content_->file;
+  content->line = line(key);
   if (node.IsDefined() && node.IsMap()) content->node.reset(node);
   return YamlMap(std::move(content), key_path(key), findings_);
 }

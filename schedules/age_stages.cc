@@ -77,7 +77,10 @@ class Builder {
     Path path;
     NodeId node = cluster_.sensor(sensor).device;
     const Task* task = measuring_task(node, sensor);
+    std::size_t hops = 0, tasks = 0;
+    for (const Node& any : cluster_.nodes) tasks += any.tasks.size();
     while (task != nullptr) {
+      TTF_CHECK(++hops <= tasks, "the lists of {} go round in a ring", cluster_.sensor(sensor).name);
       const PortBinding* out = written(*task, sensor);
       if (out == nullptr) break;
       execution(path, node, *task);

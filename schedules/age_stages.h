@@ -33,7 +33,7 @@ struct Path {
   CycleInstant use{0, 0, {}};      // of that reader; repetition 0 where time does not activate it
 };
 
-// Nothing of a path for a sensor whose lists reach no fusing task: stages is empty.
+// Nothing of a path for a sensor whose lists reach no fusing task: stages is empty. The cluster must have passed check().
 Path path_of(const Cluster& cluster, SensorId sensor);
 
 // Instants after stages first..last-1 of the path, entered at `start` (nanoseconds of global time): the latest

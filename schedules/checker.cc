@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <iterator>
 
 #include "core/int128.h"
 
@@ -26,7 +27,25 @@ std::int64_t around_action_points(const GlobalParameters& g, std::int64_t bits, 
   return 2 * g.gdActionPointOffset + ceil_div(time, static_cast<Int128>(g.gdMacrotick_ps) * (kWhole - kDeviation));
 }
 
-std::string us(std::int64_t ps) { return fmt::format("{} us", static_cast<double>(ps) * 1e-6); }
+// What an offset correction can take from the macroticks behind gOffsetCorrectionStart, in the shortest cycle that rate
+// correction makes, and still leave each of them a microtick.
+std::int64_t offset_correction_room(const GlobalParameters& g, const NodeParameters& p) {
+  const std::int64_t macroticks = g.gMacroPerCycle - g.gOffsetCorrectionStart;
+  return macroticks * (p.pMicroPerCycle - p.pRateCorrectionOut) / g.gMacroPerCycle - macroticks;
+}
+
+template <std::size_t N>
+bool is_one_of(const std::int64_t (&allowed)[N], std::int64_t value) {
+  return std::find(std::begin(allowed), std::end(allowed), value) != std::end(allowed);
+}
+
+// FlexRay 2.1A: 10, 5 and 2.5 Mbit/s; the sample clock is an eighth of a bit, and a microtick 1, 2 or 4 samples.
+constexpr std::int64_t kBits_ps[] = {100'000, 200'000, 400'000};
+constexpr std::int64_t kMicroticks_ps[] = {12'500, 25'000, 50'000};
+constexpr std::int64_t kSamples[] = {1, 2, 4};
+
+std::string us(std::int64_t ps) { return fmt::format("{} us", static_cast<double>(ps) / 1e6); }
+std::string ns(std::int64_t ps) { return fmt::format("{} ns", static_cast<double>(ps) / 1e3); }
 
 }  // namespace
 
@@ -37,6 +56,10 @@ void ClusterFindings::parameter(const std::string& path, const std::string& valu
 
 void ClusterFindings::at(int line, const std::string& key, const std::string& value, const std::string& expected) {
   list_.push_back({cluster_.file, line, key, value, expected});
+}
+
+std::string task_path(const Node& node, const Task& task) {
+  return fmt::format("nodes.{}.tasks.{}", node.name, task.name);
 }
 
 std::int64_t assumed_precision_ps(const GlobalParameters& g) {
@@ -69,6 +92,10 @@ void check_cycle(const Cluster& cluster, ClusterFindings& findings) {
   if (g.cycle_ps() != g.gdCycle_ps)
     findings.parameter("flexray.gdCycle", us(g.gdCycle_ps),
                        fmt::format("must be gMacroPerCycle * gdMacrotick = {}", us(g.cycle_ps())));
+  if (g.cycle_ps() % 1000 != 0)
+    findings.parameter("flexray.gdCycle", us(g.cycle_ps()), "must be a whole number of nanoseconds");
+  if (!is_one_of(kBits_ps, g.gdBit_ps))
+    findings.parameter("flexray.gdBit", us(g.gdBit_ps), "must be one of 0.1, 0.2, 0.4 us");
   if (const auto needed = shortest_static_slot(g); g.gdStaticSlot < needed)
     wrong("gdStaticSlot", g.gdStaticSlot,
           fmt::format("must be at least {} macroticks to hold a frame of {} words between its action points", needed,
@@ -121,9 +148,9 @@ void check_clocks(const Cluster& cluster, ClusterFindings& findings) {
   for (std::size_t n = 0; n < cluster.nodes.size(); ++n) {
     const Node& node = cluster.nodes[n];
     if (node.drift_ppb && std::abs(*node.drift_ppb) > node.max_drift_ppb)
-      findings.at(node.line, fmt::format("nodes.{}.drift_ppm", node.name),
-                  fmt::format("{}", static_cast<double>(*node.drift_ppb) * 1e-3),
-                  fmt::format("must be within +-max_drift_ppm = {}", static_cast<double>(node.max_drift_ppb) * 1e-3));
+      findings.parameter(fmt::format("nodes.{}.drift_ppm", node.name),
+                         fmt::format("{}", static_cast<double>(*node.drift_ppb) / 1e3),
+                         fmt::format("must be within +-max_drift_ppm = {}", static_cast<double>(node.max_drift_ppb) / 1e3));
     if (!node.flexray) continue;
     const NodeParameters& p = *node.flexray;
     const auto wrong = [&](const char* name, const std::string& value, const std::string& expected) {
@@ -132,15 +159,18 @@ void check_clocks(const Cluster& cluster, ClusterFindings& findings) {
     const auto text = [](std::int64_t value) { return fmt::format("{}", value); };
     if (static_cast<Int128>(p.pMicroPerCycle) * p.pdMicrotick_ps != g.gdCycle_ps)
       wrong("pMicroPerCycle", text(p.pMicroPerCycle),
-            fmt::format("must make gdCycle = {} out of microticks of {} ns", us(g.gdCycle_ps),
-                        static_cast<double>(p.pdMicrotick_ps) * 1e-3));
+            fmt::format("must make gdCycle = {} out of microticks of {}", us(g.gdCycle_ps), ns(p.pdMicrotick_ps)));
     if (p.pdMicrotick_ps > g.gdMaxMicrotick_ps)
-      wrong("pdMicrotick", text(p.pdMicrotick_ps) + " ps",
-            fmt::format("must be at most gdMaxMicrotick = {} ps", g.gdMaxMicrotick_ps));
-    if (8 * p.pdMicrotick_ps != p.pSamplesPerMicrotick * g.gdBit_ps)
+      wrong("pdMicrotick", ns(p.pdMicrotick_ps),
+            fmt::format("must be at most gdMaxMicrotick = {}", ns(g.gdMaxMicrotick_ps)));
+    if (!is_one_of(kMicroticks_ps, p.pdMicrotick_ps))
+      wrong("pdMicrotick", ns(p.pdMicrotick_ps), "must be one of 12.5, 25, 50 ns");
+    if (!is_one_of(kSamples, p.pSamplesPerMicrotick))
+      wrong("pSamplesPerMicrotick", text(p.pSamplesPerMicrotick), "must be one of 1, 2, 4");
+    else if (8 * p.pdMicrotick_ps != p.pSamplesPerMicrotick * g.gdBit_ps)
       wrong("pSamplesPerMicrotick", text(p.pSamplesPerMicrotick),
-            fmt::format("must be 1, 2 or 4 samples of gdBit / 8 that make pdMicrotick = {} ns",
-                        static_cast<double>(p.pdMicrotick_ps) * 1e-3));
+            fmt::format("must be as many samples of gdBit / 8 = {} as make pdMicrotick = {}", ns(g.gdBit_ps / 8),
+                        ns(p.pdMicrotick_ps)));
     // Against the node that is farthest off to the other side, counted in own microticks.
     const std::int64_t own = node.drift_ppb ? std::abs(*node.drift_ppb) : node.max_drift_ppb;
     const std::int64_t rate = ceil_div(static_cast<Int128>(p.pMicroPerCycle) * (own + worst_drift),
@@ -149,11 +179,11 @@ void check_clocks(const Cluster& cluster, ClusterFindings& findings) {
       wrong("pRateCorrectionOut", text(p.pRateCorrectionOut),
             fmt::format("must be at least {} microticks to follow the worst drift between two nodes", rate));
     const std::int64_t offset = ceil_div(assumed_precision_ps(g), p.pdMicrotick_ps);
-    const std::int64_t room = (g.gMacroPerCycle - g.gOffsetCorrectionStart) * g.gdMacrotick_ps / p.pdMicrotick_ps;
-    if (p.pOffsetCorrectionOut < offset || p.pOffsetCorrectionOut >= room)
+    const std::int64_t room = offset_correction_room(g, p);
+    if (p.pOffsetCorrectionOut < offset || p.pOffsetCorrectionOut > room)
       wrong("pOffsetCorrectionOut", text(p.pOffsetCorrectionOut),
             fmt::format("must be {}..{} microticks: from the assumed precision to what fits behind "
-                        "gOffsetCorrectionStart", offset, room - 1));
+                        "gOffsetCorrectionStart at the fastest rate", offset, room));
     if (static_cast<std::int64_t>(p.pClusterDriftDamping) * p.pdMicrotick_ps >
         static_cast<std::int64_t>(g.gClusterDriftDamping) * g.gdMaxMicrotick_ps)
       wrong("pClusterDriftDamping", text(p.pClusterDriftDamping),
@@ -163,6 +193,9 @@ void check_clocks(const Cluster& cluster, ClusterFindings& findings) {
             fmt::format("must be at most gNumberOfMinislots = {}", g.gNumberOfMinislots));
     if (p.pKeySlotUsedForStartup && !p.pKeySlotUsedForSync)
       wrong("pKeySlotUsedForStartup", "true", "needs pKeySlotUsedForSync: a startup frame is a sync frame");
+    // Single-slot mode ends with a host's command after start-up, and nodes begin as if started up.
+    if (p.pKeySlotOnlyEnabled)
+      wrong("pKeySlotOnlyEnabled", "true", "must be false: nodes send in all their slots from the first cycle on");
     const bool owns = std::any_of(cluster.frames.begin(), cluster.frames.end(), [&](const FrameSlot& frame) {
       return frame.slot == p.pKeySlotId && frame.sender == static_cast<NodeId>(n) && frame.repetition == 1 &&
              frame.channels == Channels::kAB;
@@ -172,15 +205,15 @@ void check_clocks(const Cluster& cluster, ClusterFindings& findings) {
             fmt::format("must be a slot that {} owns on both channels in every cycle", node.name));
   }
   if (controllers < 2)
-    findings.at(0, "nodes", fmt::format("{}", controllers), "must have at least 2 nodes on FlexRay");
+    findings.parameter("nodes", fmt::format("{}", controllers), "must have at least 2 nodes on FlexRay");
   if (sync < 2 || sync > g.gSyncNodeMax)
     findings.parameter("flexray.gSyncNodeMax", fmt::format("{}", g.gSyncNodeMax),
                        fmt::format("must allow the nodes with pKeySlotUsedForSync, which must be at least 2: there are {}",
                                    sync));
   const int needed = std::min(controllers, 3);
   if (startup < std::max(needed, 2))
-    findings.at(0, "nodes", fmt::format("{}", startup),
-                fmt::format("must have at least {} nodes with pKeySlotUsedForStartup", std::max(needed, 2)));
+    findings.parameter("nodes", fmt::format("{}", startup),
+                       fmt::format("must have at least {} nodes with pKeySlotUsedForStartup", std::max(needed, 2)));
 }
 
 std::vector<Finding> check(const Cluster& cluster) {

@@ -6,10 +6,13 @@
 //   clocks       sync and startup nodes, key slots, correction limits against the drifts the file allows
 //   slots        nobody owns a slot another owns in the same cycle and channel; payload fits; a PDU's fragments complete
 //   CAN          frames fit, identifiers are unique, worst-case load (schedules/can_load.h)
-//   tasks        no overlap, deadlines, every reader has a writer and the other way round, sensors have their tasks
+//   tasks        no overlap, deadlines
+//   flow         every reader has a writer and the other way round, sensors have their tasks, no list goes in a ring
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/errors.h"
@@ -33,6 +36,9 @@ class ClusterFindings {
   const Cluster& cluster_;
   std::vector<Finding> list_;
 };
+
+// "nodes.fusion.tasks.fuse"
+std::string task_path(const Node& node, const Task& task);
 
 void check_cycle(const Cluster& cluster, ClusterFindings& findings);
 void check_clocks(const Cluster& cluster, ClusterFindings& findings);

@@ -5,6 +5,8 @@
 #include <map>
 #include <set>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include "schedules/can_load.h"
 #include "schedules/checker.h"
@@ -26,10 +28,45 @@ bool share_a_channel(const FrameSlot& a, const FrameSlot& b) {
   return (static_cast<unsigned>(a.channels) & static_cast<unsigned>(b.channels)) != 0;
 }
 
+// The frames of one list in the cycles of one base and repetition, by slot.
+using Group = std::vector<const FrameSlot*>;
+using Groups = std::map<std::pair<int, int>, Group>;
+
+std::string cycles_text(const FrameSlot& frame) {
+  return fmt::format("base cycle {}, repetition {}", frame.base_cycle, frame.repetition);
+}
+
+// Each fragment once, in ascending order, and a list once in a cycle: a receiver takes a list from the beginning.
+void check_order(const PduLayout& layout, const Groups& groups, ClusterFindings& findings) {
+  const auto wrong = [&](const FrameSlot& frame, const std::string& expected) {
+    findings.at(frame.line, fmt::format("frames.slot {}", frame.slot),
+                fmt::format("{}, fragment {}", layout.name, frame.fragment), expected);
+  };
+  for (auto group = groups.begin(); group != groups.end(); ++group) {
+    const Group& frames = group->second;
+    for (std::size_t i = 1; i < frames.size(); ++i) {
+      const FrameSlot &before = *frames[i - 1], &frame = *frames[i];
+      // One slot may be given channel by channel.
+      const bool rises = frame.slot == before.slot ? frame.fragment == before.fragment : frame.fragment > before.fragment;
+      if (rises) continue;
+      wrong(frame, fmt::format("must be above fragment {} of slot {} (line {}): a list's fragments are sent once each and in "
+                               "ascending order",
+                               before.fragment, before.slot, before.line));
+      break;
+    }
+    for (auto other = groups.begin(); other != group; ++other) {
+      const FrameSlot &frame = *frames.front(), &earlier = *other->second.front();
+      if (!share_a_cycle(earlier, frame)) continue;
+      wrong(frame, fmt::format("is sent twice in some of the same cycles: slot {} begins the list too ({}; line {})",
+                               earlier.slot, cycles_text(earlier), earlier.line));
+      break;
+    }
+  }
+}
+
 void check_list(const Cluster& cluster, PduId pdu, ClusterFindings& findings) {
   const PduLayout& layout = cluster.pdu(pdu);
-  // Cycles in which a list is sent -> its fragments there.
-  std::map<std::pair<int, int>, std::set<int>> groups;
+  Groups groups;
   int line = 0;
   const NodeId* sender = nullptr;
   for (const FrameSlot& frame : cluster.frames) {
@@ -45,9 +82,12 @@ void check_list(const Cluster& cluster, PduId pdu, ClusterFindings& findings) {
                   fmt::format("must be {}: all fragments of {} have one sender", cluster.node(*sender).name,
                               layout.name));
     if (!sender) sender = &frame.sender;
-    groups[{frame.base_cycle, frame.repetition}].insert(frame.fragment);
+    groups[{frame.base_cycle, frame.repetition}].push_back(&frame);
   }
-  for (const auto& [cycles, fragments] : groups)
+  check_order(layout, groups, findings);
+  for (const auto& [cycles, frames] : groups) {
+    std::set<int> fragments;
+    for (const FrameSlot* frame : frames) fragments.insert(frame->fragment);
     for (int f = 0; f < layout.max_fragments(); ++f)
       if (!fragments.contains(f)) {
         findings.at(line, fmt::format("frames.{}", layout.name), "",
@@ -56,6 +96,7 @@ void check_list(const Cluster& cluster, PduId pdu, ClusterFindings& findings) {
                                 layout.max_fragments(), f, cycles.first, cycles.second));
         break;
       }
+  }
 }
 
 }  // namespace

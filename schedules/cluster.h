@@ -141,7 +141,7 @@ struct Cluster {
   std::vector<FrameSlot> frames; // ordered by slot, then base cycle
   std::vector<CanBus> can_buses;
   std::vector<Sensor> sensors;
-  std::map<std::string, int, std::less<>> parameter_lines;   // "flexray.gdNIT", "nodes.fusion.flexray.pKeySlotId"
+  std::map<std::string, int, std::less<>> parameter_lines;   // "nodes", "flexray.gdNIT", "nodes.fusion.flexray.pKeySlotId"
 
   const Node& node(NodeId id) const { return nodes[index_of(id)]; }
   const PduLayout& pdu(PduId id) const { return pdus[index_of(id)]; }

@@ -56,10 +56,10 @@ struct NodeParameters {
   std::int64_t pdMicrotick_ps = 25'000;
   int pSamplesPerMicrotick = 2;
   int pMicroPerCycle = 200'000;         // [uT] nominal, before rate correction
-  int pKeySlotId = 0;                   // 0: none
+  int pKeySlotId = 0;                   // 1..; every controller has a key slot (0, none, is of 3.0.1)
   bool pKeySlotUsedForStartup = false;
   bool pKeySlotUsedForSync = false;
-  bool pKeySlotOnlyEnabled = false;
+  bool pKeySlotOnlyEnabled = false;     // single-slot mode, before a host's ALL_SLOTS command; refused for now
   int pClusterDriftDamping = 2;         // [uT]
   int pOffsetCorrectionOut = 0;         // [uT]
   int pRateCorrectionOut = 0;           // [uT]

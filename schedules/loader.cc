@@ -19,6 +19,8 @@ constexpr Duration kLongest = Duration::milliseconds(10'000);
 constexpr Range<Duration> kExecution{Duration::microseconds(1), kLongest};
 constexpr int kLastSlot = 1023;           // cStaticSlotIDMax
 constexpr std::size_t kMostNamed = 200;   // ids are bytes, one value means none
+constexpr std::size_t kMostCans = 127;    // a record's bus is a signed byte, below zero for FlexRay
+constexpr int kMostFragments = 256;       // a fragment's number is a byte in records
 
 class Loader {
  public:
@@ -37,10 +39,11 @@ class Loader {
     auto sensors = root_.named_maps("sensors");
     auto pdus = root_.named_maps("pdus");
     auto cans = root_.named_maps("can");
-    limit("nodes", nodes.size());
-    limit("sensors", sensors.size());
-    limit("pdus", pdus.size());
-    limit("can", cans.size());
+    limit("nodes", nodes.size(), kMostNamed);
+    limit("sensors", sensors.size(), kMostNamed);
+    limit("pdus", pdus.size(), kMostNamed);
+    limit("can", cans.size(), kMostCans);
+    remember(root_, "nodes");
     // Names first: everything may refer to everything.
     for (auto& [name, map] : nodes) cluster_.nodes.emplace_back().name = name;
     for (auto& [name, map] : sensors) cluster_.sensors.emplace_back().name = name;
@@ -60,8 +63,8 @@ class Loader {
   }
 
  private:
-  void limit(std::string_view key, std::size_t count) {
-    if (count > kMostNamed) root_.fail(key, fmt::format("must have at most {} entries", kMostNamed));
+  void limit(std::string_view key, std::size_t count, std::size_t most) {
+    if (count > most) root_.fail(key, fmt::format("must have at most {} entries; it has {}", most, count));
   }
 
   template <class Id>
@@ -94,7 +97,7 @@ class Loader {
   }
 
   void remember(const YamlMap& map, std::string_view key) {
-    cluster_.parameter_lines[fmt::format("{}.{}", map.path(), key)] = map.line(key);
+    cluster_.parameter_lines[map.path().empty() ? std::string(key) : fmt::format("{}.{}", map.path(), key)] = map.line(key);
   }
 
   // A node's own value, or else the one shared by all nodes.
@@ -156,6 +159,10 @@ class Loader {
       else if (largest >= std::int64_t{1} << layout.header[*found].bits)
         map.fail("header", fmt::format("must give {} enough bits for {}", name, largest));
     };
+    if (layout.max_fragments() > kMostFragments)
+      map.fail("max_elements", fmt::format("must be at most {}: {} fragments of {} elements",
+                                           kMostFragments * layout.elements_per_fragment, kMostFragments,
+                                           layout.elements_per_fragment));
     // Two sequence numbers must differ by less than half the range to be told apart.
     needs("sequence", 4);
     needs("fragment", layout.max_fragments() - 1);
@@ -295,6 +302,7 @@ class Loader {
     constexpr std::int64_t kMostDrift = 1'500'000;   // cClockDeviationMax
     item.max_drift_ppb = map.scaled("max_drift_ppm", 1'000, {0, kMostDrift}, "ppm");
     if (map.has("drift_ppm")) item.drift_ppb = map.scaled("drift_ppm", 1'000, {-kMostDrift, kMostDrift}, "ppm");
+    remember(map, "drift_ppm");
     auto tasks = map.named_maps("tasks");
     if (tasks.size() > 16) map.fail("tasks", "must have at most 16 entries");
     for (auto& [name, entry] : tasks) {

@@ -27,8 +27,13 @@ void bind_direction(const Cluster& cluster, const std::string& path, const Task&
   for (const PortBinding& binding : direction.bound) {
     const bool known = std::find(direction.needed.begin(), direction.needed.end(), binding.port) !=
                        direction.needed.end();
-    if (known || (direction.any && cluster.find_sensor(binding.port))) continue;
-    findings.add({cluster.file, binding.line, fmt::format("{}.{}.{}", path, direction.key, binding.port), "",
+    const auto sensor = direction.any ? cluster.find_sensor(binding.port) : std::nullopt;
+    const std::string key = fmt::format("{}.{}.{}", path, direction.key, binding.port);
+    if (sensor && !known && cluster.pdu(binding.pdu).sensor != *sensor)
+      findings.add({cluster.file, binding.line, key, cluster.pdu(binding.pdu).name,
+                    fmt::format("must be a PDU of the sensor {}, as its port is called", binding.port)});
+    if (known || sensor) continue;
+    findings.add({cluster.file, binding.line, key, "",
                   fmt::format("is not a port of step {} (ports: {}{})", task.step,
                               fmt::join(direction.needed, ", "),
                               direction.any ? std::string("the sensors' names") : std::string())});

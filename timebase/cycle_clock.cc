@@ -21,6 +21,14 @@ CycleClock::CycleClock(CycleGeometry geometry, Microticks start, int rate)
 
 Microticks CycleClock::cycle_end() const { return start_ + Microticks{geometry_.micro_per_cycle + rate_ + offset_}; }
 
+std::int64_t CycleClock::correction_phase() const {
+  const std::int64_t length = geometry_.micro_per_cycle + rate_;
+  const std::int64_t before = ceil_div(geometry_.offset_correction_start * length, geometry_.macro_per_cycle);
+  const std::int64_t rest = length + offset_ - before;
+  TTF_CHECK(rest > 0, "a correction by {} leaves {} of {} microticks behind the first {}", offset_, rest, length, before);
+  return rest;
+}
+
 Microticks CycleClock::start_of(Macroticks m) const {
   TTF_CHECK(m.value >= 0 && m.value <= geometry_.macro_per_cycle, "macrotick {}", m.value);
   const std::int64_t length = geometry_.micro_per_cycle + rate_;
@@ -29,8 +37,7 @@ Microticks CycleClock::start_of(Macroticks m) const {
     return start_ + Microticks{ceil_div(m.value * length, geometry_.macro_per_cycle)};
   // The rest of the cycle absorbs the offset correction evenly.
   const std::int64_t before = ceil_div(correction_start * length, geometry_.macro_per_cycle);
-  const std::int64_t rest = length + offset_ - before;
-  return start_ + Microticks{before + ceil_div((m.value - correction_start) * rest,
+  return start_ + Microticks{before + ceil_div((m.value - correction_start) * correction_phase(),
                                                geometry_.macro_per_cycle - correction_start)};
 }
 
@@ -48,10 +55,9 @@ GlobalTime CycleClock::global_time(Microticks t) const {
     const Int128 at_correction = static_cast<Int128>(correction_start) * geometry_.macrotick_ps;
     if (elapsed_ps > at_correction) elapsed_ps = at_correction;   // `before` is rounded up
   } else {
-    const std::int64_t rest = length + offset_ - before;
     elapsed_ps = static_cast<Int128>(correction_start) * geometry_.macrotick_ps +
                  static_cast<Int128>(into - before) * (geometry_.macro_per_cycle - correction_start) *
-                     geometry_.macrotick_ps / rest;
+                     geometry_.macrotick_ps / correction_phase();
   }
   const Int128 cycle_ps = static_cast<Int128>(geometry_.macro_per_cycle) * geometry_.macrotick_ps;
   // Rounded down, also for instants just before cycle 0.

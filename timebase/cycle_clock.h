@@ -38,12 +38,15 @@ class CycleClock {
   // First microtick of this cycle at which global_time is at or after `time`; the cycle's end where it is later.
   Microticks when(GlobalTime time) const;
 
-  // To be applied in this cycle's correction phase; must be set before start_of(offset_correction_start).
+  // To be applied in this cycle's correction phase, which it must not use up; must be set before
+  // start_of(offset_correction_start).
   void set_offset_correction(int microticks) { offset_ = microticks; }
   // Goes to the next cycle; `rate` is in force from there on. The offset correction is used up.
   void next_cycle(int rate);
 
  private:
+  std::int64_t correction_phase() const;   // its microticks, the correction included
+
   CycleGeometry geometry_;
   std::int64_t cycle_ = 0;
   Microticks start_{0};

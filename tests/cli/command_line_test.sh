@@ -61,6 +61,9 @@ expect 2 'lazer_preprocessing' schedule check "$cluster"
 expect 0 'laser_objects' schedule show "$source/schedules/paper_synchronised.yaml"
 expect 0 '' schedule show "$source/schedules/paper_synchronised.yaml" -o "$work/schedule.svg"
 [[ -s $work/schedule.svg ]] || fail "schedule show -o writes no picture"
+mutate schedules/paper_unsynchronised.yaml 's/fragment_bytes: 8$/fragment_bytes: 12/' "$cluster"
+expect 2 'broken.yaml:[0-9]+: can.camera_can.messages.camera_frame = 12 bytes: must fit a frame of this CAN, at most 8 bytes' \
+  schedule show "$cluster"
 expect 2 'png' schedule show "$source/schedules/paper_synchronised.yaml" -o "$work/schedule.bmp"
 
 # A run, twice: the same bytes; another seed: other bytes.

@@ -81,6 +81,17 @@ TEST(CycleRules, SecondExampleNeedsAtLeast33MacroticksPerSlot) {
   EXPECT_EQ(about(findings, "gMacroPerCycle"), nullptr);
 }
 
+TEST(CycleRules, ACycleIsWholeNanoseconds) {
+  GlobalParameters g = fibex_example();
+  EXPECT_EQ(about(findings_of_cycle(g), "gdCycle"), nullptr);   // 3636 * 1.375 us = 4999.5 us
+  g.gdMacrotick_ps = 1'375'001;
+  g.gdCycle_ps = 3636 * g.gdMacrotick_ps;
+  const auto findings = findings_of_cycle(g);
+  ASSERT_NE(about(findings, "gdCycle"), nullptr);
+  EXPECT_EQ(about(findings, "gdCycle")->value, "4999.503636 us");
+  EXPECT_EQ(about(findings, "gdCycle")->expected, "must be a whole number of nanoseconds");
+}
+
 // 5 ms layout of the facts: (34 + 20 * 2) * 25 ns + 2 * 2.5 us = 6.85 us, action point 7, slot 84.
 TEST(CycleRules, PaperLayoutIsTheTightestThatHolds) {
   GlobalParameters g;

@@ -12,9 +12,14 @@ namespace {
 Cluster small() {
   Cluster cluster;
   cluster.file = "small.yaml";
-  cluster.pdus.resize(1);
-  cluster.sensors.resize(1);
+  cluster.pdus.resize(2);
+  cluster.pdus[0].name = "laser_objects";
+  cluster.pdus[0].sensor = SensorId{0};
+  cluster.pdus[1].name = "camera_objects";
+  cluster.pdus[1].sensor = SensorId{1};
+  cluster.sensors.resize(2);
   cluster.sensors[0].name = "laser";
+  cluster.sensors[1].name = "camera";
   Task task;
   task.name = "fuse";
   task.step = "fusion";
@@ -63,6 +68,16 @@ TEST(Ports, PortTheCodeNeedsIsMissingAndPortItDoesNotHaveIsThere) {
   EXPECT_NE(findings[0].expected.find("must bind the port out"), std::string::npos);
   EXPECT_EQ(findings[1].line, 14);
   EXPECT_NE(findings[1].expected.find("is not a port"), std::string::npos);
+}
+
+TEST(Ports, ASensorsPortLeadsToAPduOfThatSensor) {
+  Cluster cluster = small();
+  cluster.nodes[0].tasks[0].reads = {{"camera", PduId{1}, std::nullopt, 8}, {"laser", PduId{1}, std::nullopt, 9}};
+  const auto findings = findings_of(cluster);
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].sentence(),
+            "small.yaml:9: nodes.all.tasks.fuse.reads.laser = camera_objects: must be a PDU of the sensor laser, as its port "
+            "is called");
 }
 
 TEST(Ports, FusionReadsSensorsOnlyAndAtLeastOne) {

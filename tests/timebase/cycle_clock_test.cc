@@ -82,6 +82,17 @@ TEST(CycleClock, OffsetCorrectionTouchesTheCorrectionPhaseOnly) {
   EXPECT_EQ(corrected.cycle_end() - plain.cycle_end(), Microticks{400});
 }
 
+// 100 of 5000 macroticks of (200000 - 601) microticks: 3987, of which one must be left.
+TEST(CycleClock, ACorrectionMustLeaveSomethingOfItsPhase) {
+  CycleClock clock(kEven, {0}, -601);
+  clock.set_offset_correction(-3986);
+  EXPECT_EQ(clock.start_of({5000}).value - clock.start_of({4900}).value, 1);
+  clock.set_offset_correction(-3987);
+  EXPECT_EQ(clock.start_of({4900}).value, 195'412);   // before the phase nothing changes
+  EXPECT_DEATH(clock.start_of({4901}), "a correction by -3987 leaves 0 of 199399 microticks behind the first 195412");
+  EXPECT_DEATH(clock.global_time({195'413}), "leaves 0 of 199399");
+}
+
 TEST(CycleClock, GlobalTimeIsMonotoneAcrossTheCyclesCorners) {
   for_drawn_cycles(3, [](const CycleGeometry& g, const CycleClock& clock, RandomStream&) {
     for (const std::int64_t corner : {clock.start_of({1}).value, clock.start_of({g.offset_correction_start}).value,
