@@ -16,7 +16,7 @@ namespace ttf {
 
 struct YamlMap::Content {
   std::string file;
-  YAML::Node node;  // a map, or undefined for a missing one
+  YAML::Node node;  // a map, or null for a missing one
   int line = 0;     // of a missing one: where it should stand, the mapping around it
   std::set<std::string, std::less<>> asked;
 };
@@ -147,7 +147,7 @@ bool YamlMap::has(std::string_view key) const {
 int YamlMap::line(std::string_view key) const {
   if (!key.empty())
     if (const YAML::Node node = child(content_->node, key); node.IsDefined()) return line_of(node);
-  return content_->node.IsDefined() ? line_of(content_->node) : content_->line;
+  return content_->node.IsMap() ? line_of(content_->node) : content_->line;
 }
 
 void YamlMap::fail(std::string_view key, std::string expected) {

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
-#include <map>
+#include <utility>
 
 #include "core/check.h"
 #include "schedules/can_load.h"
-#include "schedules/checker.h"
+#include "schedules/responses.h"
+#include "schedules/slot_groups.h"
 
 namespace ttf::schedules {
 namespace {
@@ -18,34 +18,6 @@ constexpr std::int64_t kCycles = 64;
 constexpr std::int64_t kGranularity_ns = 100;
 // The intermission belongs to a frame's duration, but the list is there before it.
 constexpr std::int64_t kIntermissionBits = 3;
-
-// The slots of one list in the cycles of one base and repetition.
-struct SlotGroup {
-  int base_cycle, repetition;
-  int first, last;       // slots
-  int first_fragment;    // slot of fragment 0
-};
-
-std::vector<SlotGroup> slot_groups(const Cluster& cluster, PduId pdu) {
-  std::map<std::pair<int, int>, SlotGroup> groups;
-  for (const FrameSlot& frame : cluster.frames) {
-    if (frame.pdu != pdu) continue;
-    const auto [entry, fresh] = groups.try_emplace({frame.base_cycle, frame.repetition},
-                                                   SlotGroup{frame.base_cycle, frame.repetition, frame.slot, frame.slot,
-                                                             frame.slot});
-    SlotGroup& group = entry->second;
-    group.first = std::min(group.first, frame.slot);
-    group.last = std::max(group.last, frame.slot);
-    if (frame.fragment == 0) group.first_fragment = frame.slot;
-  }
-  std::vector<SlotGroup> list;
-  for (const auto& [cycles, group] : groups) list.push_back(group);
-  return list;
-}
-
-Macroticks slot_start(const GlobalParameters& g, int slot) {
-  return {static_cast<std::int64_t>(slot - 1) * g.gdStaticSlot};
-}
 
 // When the controller takes the list for a cycle: at its first slot's action point, at the earliest the slot's start.
 CycleInstant latch(const GlobalParameters& g, const SlotGroup& group, bool latest) {
@@ -58,8 +30,8 @@ std::int64_t transmitted(const Cluster& cluster, PduId pdu, std::int64_t from, b
   std::int64_t end = INT64_MAX;
   for (const SlotGroup& group : slot_groups(cluster, pdu)) {
     const Occurrence sent = next_occurrence(g, latch(g, group, latest), GlobalTime{from});
-    // A full list to the end of its last slot; or a list of one fragment, TSS, FSS, bytes and FES of its frame.
-    const std::int64_t bits = g.gdTSSTransmitter + 1 + 80 + 20 * g.gPayloadLengthStatic + 2;
+    // A full list to the end of its last slot; or a list of one fragment to the end of its frame.
+    const std::int64_t bits = frame_bits(g, g.gPayloadLengthStatic);
     const std::int64_t done =
         latest ? time_of(g, sent.cycle, slot_start(g, group.last + 1)).ns
                : time_of(g, sent.cycle, slot_start(g, group.first_fragment) + Macroticks{g.gdActionPointOffset}).ns +
@@ -98,13 +70,10 @@ class Builder {
 
  private:
   void span(Path& path, std::string name, Duration best, Duration worst) {
-    // Two oscillators: the one it runs on and the one it is judged by.
-    const auto drift = [&](Duration d) { return d.ns / 1'000'000'000 * 2 * clocks_.drift_ppb +
-                                                d.ns % 1'000'000'000 * 2 * clocks_.drift_ppb / 1'000'000'000 + 1; };
     Stage stage;
     stage.name = std::move(name);
-    stage.best = {std::max<std::int64_t>(0, best.ns - drift(best) - kGranularity_ns)};
-    stage.worst = {worst.ns + drift(worst) + kGranularity_ns};
+    stage.best = {std::max<std::int64_t>(0, best.ns - clocks_.drift_ns(best.ns) - kGranularity_ns)};
+    stage.worst = {worst.ns + clocks_.drift_ns(worst.ns) + kGranularity_ns};
     path.stages.push_back(std::move(stage));
   }
 
@@ -170,16 +139,16 @@ class Builder {
     if (task.activation.kind == ActivationKind::kTime) {
       instant(path, who, task.activation.at);
     } else if (task.activation.kind == ActivationKind::kCompletion) {
-      // It reads at its own start, whatever set off its chain: up to a period of the first task and all executions.
+      // It reads at its own start, whatever set off its chain: up to a period of the first task and all responses.
       Duration worst{};
       const Task* before = task_called(node, task.activation.after);
       for (; before->activation.kind == ActivationKind::kCompletion;
            before = task_called(node, before->activation.after))
-        worst += before->worst_case;
-      worst += before->worst_case + longest_period(*before);
+        worst += response(id, *before);
+      worst += response(id, *before) + longest_period(*before);
       span(path, who + " is waited for", {}, worst);
     }
-    queue(path, node, task);
+    queue(path, id, task);
   }
 
   Duration longest_period(const Task& task) const {
@@ -197,14 +166,17 @@ class Builder {
     path.stages.push_back(std::move(stage));
   }
 
-  void queue(Path& path, const Node& node, const Task& task) {
-    // Tasks activated by time do not overlap each other; everything else may be in the way once.
-    const bool timed = task.activation.kind == ActivationKind::kTime;
-    Duration others{};
-    for (const Task& other : node.tasks)
-      if (other.name != task.name && !(timed && other.activation.kind == ActivationKind::kTime))
-        others += other.worst_case;
-    if (others > Duration{}) span(path, fmt::format("{}.{} waits for other tasks", node.name, task.name), {}, others);
+  // First come, first served: what the bound on its response leaves besides its own execution.
+  void queue(Path& path, NodeId id, const Task& task) {
+    const Duration others = response(id, task) - task.worst_case;
+    if (others > Duration{})
+      span(path, fmt::format("{}.{} waits for other tasks", cluster_.node(id).name, task.name), {}, others);
+  }
+
+  Duration response(NodeId id, const Task& task) const {
+    const auto responses = worst_responses(cluster_, id);
+    TTF_CHECK(responses.has_value(), "{} may be busy without end", cluster_.node(id).name);
+    return (*responses)[static_cast<std::size_t>(&task - cluster_.node(id).tasks.data())].worst;
   }
 
   // From the fusing task's start to the start of the image's reader.
@@ -225,7 +197,7 @@ class Builder {
       if (!follows && publisher->activation.kind != ActivationKind::kTime) return;
       execution(path, id, fusing);
       if (!follows) instant(path, fmt::format("{}.{}", node.name, publisher->name), publisher->activation.at);
-      queue(path, node, *publisher);
+      queue(path, id, *publisher);
     }
     execution(path, id, *publisher);
     transfer(path, *image);
@@ -242,14 +214,6 @@ class Builder {
 };
 
 }  // namespace
-
-ClockBounds clock_bounds(const Cluster& cluster) {
-  ClockBounds bounds;
-  bounds.apart_ns = (assumed_precision_ps(cluster.flexray) + cluster.flexray.gdMacrotick_ps + 999) / 1000;
-  for (const Node& node : cluster.nodes)
-    bounds.drift_ppb = std::max(bounds.drift_ppb, node.drift_ppb ? std::abs(*node.drift_ppb) : node.max_drift_ppb);
-  return bounds;
-}
 
 Path path_of(const Cluster& cluster, SensorId sensor) { return Builder(cluster).build(sensor); }
 

@@ -5,16 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "schedules/clock_bounds.h"
 #include "schedules/cluster.h"
 
 namespace ttf::schedules {
-
-// How far apart clocks may be.
-struct ClockBounds {
-  std::int64_t apart_ns = 0;       // any two nodes' global times
-  std::int64_t drift_ppb = 0;      // any oscillator against true time
-};
-ClockBounds clock_bounds(const Cluster& cluster);
 
 struct Stage {
   enum class Kind : std::uint8_t { kSpan, kActivation, kSlots };

@@ -68,7 +68,7 @@ class Ages {
       if (path.used != 0) used = std::max(used, instants.back() - measured);
     }
     const auto with_clocks = [&](std::int64_t sum) {
-      return Duration{sum + clocks_.apart_ns + drift(sum)};
+      return Duration{sum + clocks_.apart_ns + clocks_.drift_ns(sum)};
     };
     ages.buffered_fused_worst = with_clocks(fused);
     if (path.used == 0) return;
@@ -81,13 +81,11 @@ class Ages {
   // before that, a use period earlier, is the last that still shows this measurement as the newest.
   Duration until_next_newest(const Path& path, SensorId id) const {
     const Sensor& sensor = cluster_.sensor(id);
-    const std::int64_t period = sensor.period.ns + (sensor.scheduled ? 0 : drift(sensor.period.ns));
+    const std::int64_t period = sensor.period.ns + (sensor.scheduled ? 0 : clocks_.drift_ns(sensor.period.ns));
     const std::int64_t between_uses =
         path.use.repetition > 0 ? cluster_.cycle().ns * path.use.repetition - clocks_.apart_ns : 0;
     return {std::max<std::int64_t>(0, period - between_uses)};
   }
-
-  std::int64_t drift(std::int64_t ns) const { return ns / 1000 * 2 * clocks_.drift_ppb / 1'000'000 + 1; }
 
   Extreme extreme(const Path& path, const Sensor& sensor, std::size_t last, bool latest) const {
     Extreme found;
@@ -129,8 +127,8 @@ class Ages {
               std::vector<Contribution>* contributions) const {
     const Sensor& sensor = cluster_.sensor(id);
     const Extreme low = extreme(path, sensor, last, false), high = extreme(path, sensor, last, true);
-    const std::int64_t clocks_low = std::min(low.sum, clocks_.apart_ns + drift(low.sum));
-    const std::int64_t clocks_high = clocks_.apart_ns + drift(high.sum);
+    const std::int64_t clocks_low = std::min(low.sum, clocks_.apart_ns + clocks_.drift_ns(low.sum));
+    const std::int64_t clocks_high = clocks_.apart_ns + clocks_.drift_ns(high.sum);
     best = {low.sum - clocks_low};
     worst = {high.sum + clocks_high};
     if (contributions == nullptr) return;

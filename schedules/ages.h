@@ -14,7 +14,7 @@
 //   A2  the cluster's clocks agree to gAssumedPrecision plus one macrotick; unsynchronised spans run on oscillators that
 //       drift as far as the nodes may, and so does global time against true time. So the bounds hold on any clock.
 //   A3  a measurement is fused as soon as the fusion node has it (ADVA, TT); BUFF's waiting is bounded separately
-//   A4  one processor per node without preemption: a waiting task waits for each other task of its node at most once
+//   A4  one processor per node without preemption, first come first served: schedules/responses.h bounds the wait
 //   A5  a free-running sensor has any phase against the cycle, so the wait at the first stage on the cycle's grid is
 //       anything up to its period; from there on the grid is fixed and waits are exact. A scheduled sensor is on the
 //       grid from the start. All 64 cycles are gone through.

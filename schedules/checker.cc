@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "core/int128.h"
+#include "schedules/clock_bounds.h"
 
 namespace ttf::schedules {
 namespace {
@@ -62,15 +63,15 @@ std::string task_path(const Node& node, const Task& task) {
   return fmt::format("nodes.{}.tasks.{}", node.name, task.name);
 }
 
+std::string ms(Duration duration) { return fmt::format("{} ms", static_cast<double>(duration.ns) / 1e6); }
+
 std::int64_t assumed_precision_ps(const GlobalParameters& g) {
   return (34 + 20 * static_cast<std::int64_t>(g.gClusterDriftDamping)) * g.gdMaxMicrotick_ps +
          2 * g.gdMaxPropagationDelay_ps;
 }
 
 std::int64_t shortest_static_slot(const GlobalParameters& g) {
-  // TSS, FSS, 8 bytes of header and trailer and the payload at 10 bits each, FES, idle delimiter.
-  const std::int64_t bits = g.gdTSSTransmitter + 1 + 80 + 20 * g.gPayloadLengthStatic + 2 + kIdleDelimiterBits;
-  return around_action_points(g, bits, 0);
+  return around_action_points(g, frame_bits(g, g.gPayloadLengthStatic) + kIdleDelimiterBits, 0);
 }
 
 void check_cycle(const Cluster& cluster, ClusterFindings& findings) {
@@ -140,7 +141,7 @@ void check_clocks(const Cluster& cluster, ClusterFindings& findings) {
   int sync = 0, startup = 0, controllers = 0;
   for (const Node& node : cluster.nodes)
     if (node.flexray) {
-      worst_drift = std::max(worst_drift, node.drift_ppb ? std::abs(*node.drift_ppb) : node.max_drift_ppb);
+      worst_drift = std::max(worst_drift, worst_drift_ppb(node));
       ++controllers;
       sync += node.flexray->pKeySlotUsedForSync ? 1 : 0;
       startup += node.flexray->pKeySlotUsedForStartup ? 1 : 0;
@@ -172,8 +173,7 @@ void check_clocks(const Cluster& cluster, ClusterFindings& findings) {
             fmt::format("must be as many samples of gdBit / 8 = {} as make pdMicrotick = {}", ns(g.gdBit_ps / 8),
                         ns(p.pdMicrotick_ps)));
     // Against the node that is farthest off to the other side, counted in own microticks.
-    const std::int64_t own = node.drift_ppb ? std::abs(*node.drift_ppb) : node.max_drift_ppb;
-    const std::int64_t rate = ceil_div(static_cast<Int128>(p.pMicroPerCycle) * (own + worst_drift),
+    const std::int64_t rate = ceil_div(static_cast<Int128>(p.pMicroPerCycle) * (worst_drift_ppb(node) + worst_drift),
                                        1'000'000'000 - worst_drift);
     if (p.pRateCorrectionOut < rate)
       wrong("pRateCorrectionOut", text(p.pRateCorrectionOut),

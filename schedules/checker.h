@@ -6,16 +6,20 @@
 //   clocks       sync and startup nodes, key slots, correction limits against the drifts the file allows
 //   slots        nobody owns a slot another owns in the same cycle and channel; payload fits; a PDU's fragments complete
 //   CAN          frames fit, identifiers are unique, worst-case load (schedules/can_load.h)
-//   tasks        no overlap, deadlines
+//   tasks        no overlap, deadlines with every wait for other tasks, an end before the next activation
+//                (schedules/responses.h)
 //   flow         every reader has a writer and the other way round, sensors have their tasks, no list goes in a ring
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/errors.h"
+#include "core/ids.h"
+#include "core/time.h"
 #include "schedules/cluster.h"
 
 namespace ttf::schedules {
@@ -30,6 +34,7 @@ class ClusterFindings {
   // About a parameter of the file, by its path ("flexray.gdNIT"): its line is looked up.
   void parameter(const std::string& path, const std::string& value, const std::string& expected);
   void at(int line, const std::string& key, const std::string& value, const std::string& expected);
+  std::size_t size() const { return list_.size(); }
   std::vector<Finding> take() { return std::move(list_); }
 
  private:
@@ -39,12 +44,16 @@ class ClusterFindings {
 
 // "nodes.fusion.tasks.fuse"
 std::string task_path(const Node& node, const Task& task);
+// "2.5 ms"
+std::string ms(Duration duration);
 
 void check_cycle(const Cluster& cluster, ClusterFindings& findings);
 void check_clocks(const Cluster& cluster, ClusterFindings& findings);
 void check_slots(const Cluster& cluster, ClusterFindings& findings);
 void check_can(const Cluster& cluster, ClusterFindings& findings);
 void check_tasks(const Cluster& cluster, ClusterFindings& findings);
+// A node whose tasks passed check_tasks(): deadlines with other tasks' turns, and what its lists promise on CANs.
+void check_responses(const Cluster& cluster, NodeId node, ClusterFindings& findings);
 void check_flow(const Cluster& cluster, ClusterFindings& findings);   // readers, writers, sensors
 
 // gAssumedPrecision = (34 + 20 gClusterDriftDamping) gdMaxMicrotick + 2 gdMaxPropagationDelay, in picoseconds.

@@ -14,10 +14,6 @@
 namespace ttf::schedules {
 namespace {
 
-std::string_view channels_text(Channels channels) {
-  return channels == Channels::kA ? "A" : channels == Channels::kB ? "B" : "AB";
-}
-
 bool share_a_cycle(const FrameSlot& a, const FrameSlot& b) {
   // Repetitions are powers of two, so the longer one is a multiple of the shorter.
   const int shorter = std::min(a.repetition, b.repetition);
@@ -154,17 +150,20 @@ void check_can(const Cluster& cluster, ClusterFindings& findings) {
                     "must be unique on its CAN: arbitration needs it");
       if (!pdus.insert(message.pdu).second)
         findings.at(message.line, key, layout.name, "must be sent by one message of its CAN only");
-      if (layout.sensor == kNoSensor) continue;
-      const Sensor& sensor = cluster.sensor(layout.sensor);
-      if (message.shortest_period > sensor.period)
-        findings.at(message.line, key, fmt::format("shortest_period {} ns", message.shortest_period.ns),
-                    fmt::format("must be at most the period of the sensor {}, {} ns", sensor.name, sensor.period.ns));
     }
     if (!all_fit) continue;   // no load without lengths
     const double load = can_worst_load(cluster, bus);
     if (load > kCanLoadLimit)
       findings.at(bus.line, path, fmt::format("worst-case load {:.1f} %", 100.0 * load),
                   fmt::format("must be at most {:.0f} %, other_load included", 100.0 * kCanLoadLimit));
+    for (const CanMessage& message : bus.messages) {
+      // What makes the response a bound: no second list of the message while the first is on its way.
+      const auto response = can_worst_response(cluster, bus, message);
+      if (response && *response > message.shortest_period)
+        findings.at(message.line, fmt::format("{}.messages.{}.shortest_period", path, cluster.pdu(message.pdu).name),
+                    ms(message.shortest_period),
+                    fmt::format("must be at least {}: from queueing a full list to its last frame's end", ms(*response)));
+    }
   }
 }
 

@@ -7,11 +7,10 @@
 #include <utility>
 
 #include "schedules/checker.h"
+#include "schedules/slot_groups.h"
 
 namespace ttf::schedules {
 namespace {
-
-std::string ms(Duration d) { return fmt::format("{} ms", static_cast<double>(d.ns) * 1e-6); }
 
 // Do two periodic intervals, each shorter than its period, meet? Their starts differ by `distance` modulo the shorter
 // period: repetitions are powers of two.
@@ -32,10 +31,8 @@ Duration shortest_period(const Cluster& cluster, const PortBinding& binding) {
       if (message.pdu == binding.pdu) return message.shortest_period;
     return {};
   }
-  int repetition = 64;
-  for (const FrameSlot& frame : cluster.frames)
-    if (frame.pdu == binding.pdu) repetition = std::min(repetition, frame.repetition);
-  return cluster.cycle() * repetition;
+  const auto slots = shortest_slot_gap(cluster, binding.pdu);
+  return slots ? slots->gap : Duration{};
 }
 
 void check_activation(const Cluster& cluster, NodeId id, const Task& task, ClusterFindings& findings) {
@@ -44,14 +41,14 @@ void check_activation(const Cluster& cluster, NodeId id, const Task& task, Clust
   switch (task.activation.kind) {
     case ActivationKind::kTime: {
       if (!node.flexray)
-        findings.at(task.line, path + ".activation", "time", "needs a node on FlexRay: there is no global time elsewhere");
+        findings.parameter(path + ".activation", "time", "needs a node on FlexRay: there is no global time elsewhere");
       const Duration period = cluster.cycle() * task.activation.at.repetition;
       if (task.deadline > period)
-        findings.at(task.line, path + ".deadline", ms(task.deadline),
-                    fmt::format("must be at most the task's period, {}", ms(period)));
+        findings.parameter(path + ".deadline", ms(task.deadline),
+                           fmt::format("must be at most the task's period, {}", ms(period)));
       if (task.worst_case > period)
-        findings.at(task.line, path + ".worst_case", ms(task.worst_case),
-                    fmt::format("must be at most the task's period, {}: it overlaps itself", ms(period)));
+        findings.parameter(path + ".worst_case", ms(task.worst_case),
+                           fmt::format("must be at most the task's period, {}: it overlaps itself", ms(period)));
       break;
     }
     case ActivationKind::kMessage: {
@@ -59,20 +56,26 @@ void check_activation(const Cluster& cluster, NodeId id, const Task& task, Clust
         return binding.port == task.activation.port;
       });
       if (read == task.reads.end()) {
-        findings.at(task.line, path + ".activation.port", task.activation.port, "must be one of the ports the task reads");
+        findings.parameter(path + ".activation.port", task.activation.port, "must be one of the ports the task reads");
         break;
       }
       const Duration period = shortest_period(cluster, *read);
       if (period > Duration{} && task.worst_case > period)
-        findings.at(task.line, path + ".worst_case", ms(task.worst_case),
-                    fmt::format("must be at most the shortest period of {}, {}", cluster.pdu(read->pdu).name, ms(period)));
+        findings.parameter(path + ".worst_case", ms(task.worst_case),
+                           fmt::format("must be at most the shortest period of {}, {}", cluster.pdu(read->pdu).name,
+                                       ms(period)));
       break;
     }
-    case ActivationKind::kSensor:
-      if (cluster.sensor(task.activation.sensor).device != id)
-        findings.at(task.line, path + ".activation.sensor", cluster.sensor(task.activation.sensor).name,
-                    fmt::format("must be a sensor whose device is {}", node.name));
+    case ActivationKind::kSensor: {
+      const Sensor& sensor = cluster.sensor(task.activation.sensor);
+      if (task.worst_case > sensor.period)
+        findings.parameter(path + ".worst_case", ms(task.worst_case),
+                           fmt::format("must be at most the period of the sensor {}, {}", sensor.name, ms(sensor.period)));
+      if (sensor.device != id)
+        findings.parameter(path + ".activation.sensor", sensor.name,
+                           fmt::format("must be a sensor whose device is {}", node.name));
       break;
+    }
     case ActivationKind::kCompletion: {
       // Followed to its beginning, a chain of completions must end at another kind of activation.
       const Task* at = &task;
@@ -81,8 +84,8 @@ void check_activation(const Cluster& cluster, NodeId id, const Task& task, Clust
           return candidate.name == at->activation.after;
         });
         if (before == node.tasks.end() || steps > node.tasks.size()) {
-          findings.at(task.line, path + ".activation.after", task.activation.after,
-                      "must lead back to a task of this node that time, a message or a sensor activates");
+          findings.parameter(path + ".activation.after", task.activation.after,
+                             "must lead back to a task of this node that time, a message or a sensor activates");
           break;
         }
         at = &*before;
@@ -97,12 +100,13 @@ void check_activation(const Cluster& cluster, NodeId id, const Task& task, Clust
 void check_tasks(const Cluster& cluster, ClusterFindings& findings) {
   for (std::size_t n = 0; n < cluster.nodes.size(); ++n) {
     const Node& node = cluster.nodes[n];
+    const std::size_t before = findings.size();
     for (std::size_t t = 0; t < node.tasks.size(); ++t) {
       const Task& task = node.tasks[t];
       const std::string path = task_path(node, task);
       if (task.worst_case > task.deadline)
-        findings.at(task.line, path + ".worst_case", ms(task.worst_case),
-                    fmt::format("must be at most the deadline, {}", ms(task.deadline)));
+        findings.parameter(path + ".worst_case", ms(task.worst_case),
+                           fmt::format("must be at most the deadline, {}", ms(task.deadline)));
       check_activation(cluster, static_cast<NodeId>(n), task, findings);
       std::set<std::string> ports;
       for (const auto* bindings : {&task.reads, &task.writes})
@@ -113,10 +117,11 @@ void check_tasks(const Cluster& cluster, ClusterFindings& findings) {
       for (std::size_t other = 0; other < t; ++other)
         if (node.tasks[other].activation.kind == ActivationKind::kTime &&
             meet(cluster.flexray, node.tasks[other], task))
-          findings.at(task.line, path + ".activation", task.name,
-                      fmt::format("overlaps {} of the same node (line {})", node.tasks[other].name,
-                                  node.tasks[other].line));
+          findings.parameter(path + ".activation", task.name,
+                             fmt::format("overlaps {} of the same node (line {})", node.tasks[other].name,
+                                         node.tasks[other].line));
     }
+    if (findings.size() == before) check_responses(cluster, static_cast<NodeId>(n), findings);
   }
 }
 

@@ -18,6 +18,10 @@ std::optional<Id> find_named(const std::vector<Item>& items, std::string_view na
 
 }  // namespace
 
+std::string_view channels_text(Channels channels) {
+  return channels == Channels::kA ? "A" : channels == Channels::kB ? "B" : "AB";
+}
+
 std::optional<NodeId> Cluster::find_node(std::string_view node_name) const {
   return find_named<NodeId>(nodes, node_name);
 }

@@ -24,6 +24,8 @@ constexpr bool includes(Channels set, Channel one) {
   return (static_cast<unsigned>(set) >> static_cast<unsigned>(one)) & 1u;
 }
 
+std::string_view channels_text(Channels channels);   // "A", "B", "AB"
+
 // A periodic instant in global time: macrotick `offset` of every cycle c with c mod repetition == base_cycle.
 struct CycleInstant {
   int base_cycle = 0;
@@ -48,7 +50,7 @@ struct CanMessage {
   PduId pdu{};
   std::uint32_t identifier = 0;   // 11 bits
   NodeId sender{};
-  Duration shortest_period{};     // between two lists, for the load check
+  Duration shortest_period{};     // in true time, between two lists' queueing; proved by schedules/checker.h
   int line = 0;
 };
 

@@ -272,6 +272,7 @@ class Loader {
       case ActivationKind::kSensor: activation.sensor = sensor(map, "sensor"); break;
       case ActivationKind::kCompletion: activation.after = map.text("after"); break;
     }
+    for (const char* key : {"port", "sensor", "after"}) remember(map, key);
     map.finish();
     return activation;
   }
@@ -288,6 +289,7 @@ class Loader {
     task.deadline = map.duration("deadline", kExecution);
     task.reads = load_ports(map, "reads");
     task.writes = load_ports(map, "writes");
+    for (const char* key : {"activation", "worst_case", "deadline"}) remember(map, key);
     map.finish();
   }
 

@@ -9,10 +9,6 @@
 namespace ttf::schedules {
 namespace {
 
-std::string_view channels_text(Channels channels) {
-  return channels == Channels::kA ? "A" : channels == Channels::kB ? "B" : "AB";
-}
-
 std::string cycles_text(int base_cycle, int repetition) {
   if (repetition == 1) return "every cycle";
   return fmt::format("cycles {} + n*{}", base_cycle, repetition);

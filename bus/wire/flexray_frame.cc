@@ -62,13 +62,8 @@ DecodedFrame decode_frame(schedules::Channel channel, std::span<const std::byte>
   return decoded;
 }
 
-int frame_bits(const schedules::GlobalParameters& flexray, int payload_words) {
-  // TSS, FSS, ten bits (with their byte start sequence) for each of 8 header and trailer bytes and the payload, FES.
-  return flexray.gdTSSTransmitter + 1 + 80 + 20 * payload_words + 2;
-}
-
 std::int64_t frame_duration_ps(const schedules::GlobalParameters& flexray, int payload_words) {
-  return frame_bits(flexray, payload_words) * flexray.gdBit_ps;
+  return schedules::frame_bits(flexray, payload_words) * flexray.gdBit_ps;
 }
 
 Duration frame_duration(const schedules::GlobalParameters& flexray, int payload_words) {

@@ -39,9 +39,8 @@ struct DecodedFrame {
 };
 DecodedFrame decode_frame(schedules::Channel channel, std::span<const std::byte> frame);
 
-// Bits on the wire from the first TSS bit to the last FES bit of a static frame.
-int frame_bits(const schedules::GlobalParameters& flexray, int payload_words);
-// Its duration, in picoseconds; and in whole nanoseconds, rounded up: a frame is there when its last bit is.
+// Of a static frame on the wire (schedules::frame_bits), in picoseconds; and in whole nanoseconds, rounded up: a frame is
+// there when its last bit is.
 std::int64_t frame_duration_ps(const schedules::GlobalParameters& flexray, int payload_words);
 Duration frame_duration(const schedules::GlobalParameters& flexray, int payload_words);
 // Words of payload in a frame of that many bytes, header and trailer included.

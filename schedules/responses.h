@@ -1,0 +1,42 @@
+// How long a node's tasks take at worst from their activation to their end, other tasks' turns included, and how soon they
+// may be activated again.
+//
+// One processor per node, no preemption, first come first served. Whatever runs before a job was activated after the last
+// instant at which the node was idle, and at or before the job; so a job activated a after that instant ends at the latest
+//   W(a) - a
+// after its activation, W(a) being the work activated in a closed window of length a (J. Y. Le Boudec, P. Thiran: Network
+// Calculus, Springer 2001, section 1.4: the horizontal distance for a FIFO server of rate one). The bound is the largest over
+// all a up to the longest busy time, the smallest A with W(A) <= A. In W:
+//   by time      the exact instants of 64 cycles, at the distances that the node's corrections can shrink them to
+//   by messages  at most floor((a + J) / T) + 1 in a window, T the shortest time between two lists where they are sent and J
+//   and sensors  by how much their way may differ from one to the next
+//   after other  with the task they follow: a chain's work comes at its beginning at the earliest
+// A task that follows another starts its own account when that one ends. What may then be before it was activated since the
+// other's activation; of every task at most one activation is pending, which is what the checker demands of all (an end
+// before the next activation) and what makes these bounds hold one after the other.
+// Durations are the node's own time, in which executions and deadlines are counted.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/ids.h"
+#include "core/time.h"
+#include "schedules/cluster.h"
+
+namespace ttf::schedules {
+
+struct TaskResponse {
+  Duration worst{};                  // from activation to end
+  std::optional<Duration> gap;       // shortest between two activations; nothing where nothing is known of them
+  std::optional<Duration> written;   // shortest between two ends
+};
+
+// By task, in file order; nothing for a node that may be busy without end. Tasks' activations must be in order (chains lead
+// back to a beginning, no two tasks that time activates overlap), as the checker demands first.
+std::optional<std::vector<TaskResponse>> worst_responses(const Cluster& cluster, NodeId node);
+
+// The longest time a node may be busy without a break that worst_responses() looks into.
+Duration longest_busy_time(const Cluster& cluster, const Node& node);
+
+}  // namespace ttf::schedules

@@ -1,0 +1,63 @@
+// Every rule has a mistake that breaks it: one change to a shipped file, and the finding it must lead to.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <regex>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/schedules/cluster_file.h"
+
+namespace ttf::schedules {
+
+struct Wanted {
+  std::string line;     // the file's line it points to contains this,
+  std::string key;      // its key and value are these,
+  std::string value;
+  std::string words;    // and what it expects contains this
+};
+
+struct Mutation {
+  std::string name;
+  std::string pattern;        // its first match in paper_unsynchronised.yaml ...
+  std::string replacement;    // ... becomes this
+  Wanted wanted;              // of some finding
+};
+
+// The header of a node or task, up to a key inside it.
+inline std::string inside(const std::string& outer, const std::string& key) {
+  return "(\n *" + outer + ":[^~]*?" + key + ": )";
+}
+
+inline std::string line_of(const std::string& text, int number) {
+  std::istringstream lines(text);
+  std::string line;
+  for (int n = 0; n < number; ++n)
+    if (!std::getline(lines, line)) return "";
+  return line;
+}
+
+inline void expect_named(const std::vector<Mutation>& mutations) {
+  const std::string original = shipped_text("paper_unsynchronised");
+  ASSERT_TRUE(findings_of(original).empty()) << sentences(findings_of(original));
+  for (const Mutation& mutation : mutations) {
+    SCOPED_TRACE(mutation.name);
+    const std::string text = std::regex_replace(original, std::regex(mutation.pattern), mutation.replacement,
+                                                std::regex_constants::format_first_only);
+    ASSERT_NE(text, original) << "the pattern does not occur in the file";
+    const Wanted& wanted = mutation.wanted;
+    const auto findings = findings_of(text);
+    const bool named = std::any_of(findings.begin(), findings.end(), [&](const Finding& finding) {
+      return finding.file == "cluster.yaml" && finding.line > 0 && finding.key == wanted.key &&
+             finding.value == wanted.value && finding.expected.find(wanted.words) != std::string::npos &&
+             line_of(text, finding.line).find(wanted.line) != std::string::npos;
+    });
+    EXPECT_TRUE(named) << "wanted " << wanted.key << " = " << wanted.value << ": " << wanted.words << " at "
+                       << wanted.line << sentences(findings);
+  }
+}
+
+}  // namespace ttf::schedules
