@@ -347,6 +347,7 @@ std::vector<std::pair<std::string, YamlMap>> YamlMap::named_maps(std::string_vie
   for (const auto& entry : outer.content_->node) {
     const std::string name = entry.first.IsScalar() ? entry.first.Scalar() : "";
     const std::string path = outer.key_path(name);
+    outer.content_->asked.insert(name);
     if (!entry.second.IsMap()) {
       findings_->add({content_->file, line_of(entry.first), path, "", "must be a mapping"});
       continue;
@@ -354,7 +355,6 @@ std::vector<std::pair<std::string, YamlMap>> YamlMap::named_maps(std::string_vie
     auto content = std::make_shared<Content>();
     content->file = content_->file;
     content->node.reset(entry.second);
-    outer.content_->asked.insert(name);
     list.emplace_back(name, YamlMap(std::move(content), path, findings_));
   }
   outer.finish();

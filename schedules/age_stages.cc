@@ -60,7 +60,7 @@ class Builder {
       path.available = path.stages.size();
       task = reader(*out, node);
       if (task == nullptr) return {};
-      activation(path, node, *task);
+      activation(path, node, *task, *out);
     }
     if (task == nullptr || path.stages.empty()) return {};
     path.fused = path.stages.size();
@@ -133,7 +133,7 @@ class Builder {
   }
 
   // From the list's arrival to the task's start.
-  void activation(Path& path, NodeId id, const Task& task) {
+  void activation(Path& path, NodeId id, const Task& task, const PortBinding& list) {
     const Node& node = cluster_.node(id);
     const std::string who = fmt::format("{}.{}", node.name, task.name);
     if (task.activation.kind == ActivationKind::kTime) {
@@ -147,10 +147,21 @@ class Builder {
         worst += response(id, *before);
       worst += response(id, *before) + longest_period(*before);
       span(path, who + " is waited for", {}, worst);
+    } else if (!activates(list, task)) {
+      span(path, who + " is waited for", {}, longest_period(task));
     }
     queue(path, id, task);
   }
 
+  // Does this list's arrival set the task off, rather than another list's?
+  bool activates(const PortBinding& list, const Task& task) const {
+    return std::any_of(task.reads.begin(), task.reads.end(), [&](const PortBinding& in) {
+      return in.port == task.activation.port && in.pdu == list.pdu && in.can_bus == list.can_bus;
+    });
+  }
+
+  // What is not activated by time is activated by lists of some sensor, each of which comes (A1): at the latest when the next
+  // period is over too.
   Duration longest_period(const Task& task) const {
     Duration longest{};
     if (task.activation.kind == ActivationKind::kTime) return cluster_.cycle() * task.activation.at.repetition;
@@ -204,7 +215,7 @@ class Builder {
     NodeId at = id;
     const Task* user = reader(*image, at);
     if (user == nullptr) return;
-    activation(path, at, *user);
+    activation(path, at, *user, *image);
     path.used = path.stages.size();
     if (user->activation.kind == ActivationKind::kTime) path.use = user->activation.at;
   }

@@ -6,7 +6,8 @@
 //   span         an execution, a CAN transfer, waiting for a busy processor: between best and worst, at any phase.
 //                A CAN transfer takes at best one frame without stuff bits, at worst a full list with maximal stuffing
 //                behind one frame of lower priority and all traffic of higher priority (schedules/can_load.h).
-//   activation   waiting for the next instant of a task that time activates
+//   activation   waiting for the next instant of a task that time activates (a reader that another list or another task sets
+//                off is a span: up to two periods of the slowest sensor, or one of its chain's beginning and all responses)
 //   slots        waiting for the first of the list's slots, then its transmission. A list written after that slot has
 //                begun waits for the next cycle of its frames, which is what the controller does (whole lists only).
 // Assumptions:

@@ -51,8 +51,8 @@ struct GlobalParameters {
   std::int64_t cycle_ps() const { return gMacroPerCycle * gdMacrotick_ps; }
 };
 
-// Bits on the bus from the first TSS bit to the last FES bit of a static frame, header and trailer among its `bytes`: TSS, FSS,
-// ten bits (byte start sequence and data) for each byte, FES. The idle delimiter behind it is not in it.
+// Bits on the bus from the first TSS bit to the last FES bit of a static frame, header and trailer among its `bytes`: TSS,
+// FSS, ten bits (byte start sequence and data) for each byte, FES. The idle delimiter behind it is not in it.
 constexpr int frame_bits_of_bytes(const GlobalParameters& flexray, int bytes) {
   return flexray.gdTSSTransmitter + 1 + 10 * bytes + 2;
 }

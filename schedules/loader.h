@@ -6,13 +6,22 @@
 //   flexray: {gColdStartAttempts: 8, ...}       global parameters; times in us, gdMaxMicrotick in ns
 //   node_parameters: {pSamplesPerMicrotick: 2, ...}   what holds in every node that does not say otherwise
 //   pdus:   {NAME: {sensor, fragment_bytes, max_elements, elements_per_fragment, header: [...], element: [...]}}
-//   sensors: {NAME: {kind, device, host, measurement: free|scheduled, ...}}
+//             of signals {name, unit, bits, low, high, resolution}, all but name and bits optional
+//   sensors: {NAME: {kind: laser|camera|radar, device, host, measurement: free, period, phase}}   phase is optional
+//         or {NAME: {kind, device, host, measurement: scheduled, base_cycle, repetition, offset}}
 //   nodes:  {NAME: {flexray: {pKeySlotId: 1, ...}, drift_ppm, max_drift_ppm, tasks: {NAME: {...}}}}
-//   frames: [{slot, channels, sender, base_cycle, repetition, pdu, fragments}]
-//   can:    {NAME: {flexible_data_rate, nominal_bit_rate, data_bit_rate, other_load, messages: [...]}}
+//           off FlexRay `microtick` in ns instead of `flexray`; without drift_ppm it is drawn within max_drift_ppm
+//   frames: [{slot, channels: A|B|AB, sender, base_cycle, repetition, pdu, fragments, first_fragment}]
+//   can:    {NAME: {flexible_data_rate, nominal_bit_rate, data_bit_rate, other_load, messages:
+//            [{pdu, identifier, sender, shortest_period}]}}   data_bit_rate with flexible_data_rate only
 //
-// A frame entry with `fragments: n` stands for n consecutive slots with the fragments 0..n-1. Ports are bound as
-// `port: PDU on flexray` or `port: PDU on NAME_OF_A_CAN`.
+// A task is {step, activation, best_case, worst_case, draw: uniform|worst, deadline, reads: {...}, writes: {...}}; its
+// activation one of {kind: time, base_cycle, repetition, offset}, {kind: message, port}, {kind: sensor, sensor} and
+// {kind: completion, after}. Ports are bound as `port: PDU on flexray` or `port: PDU on NAME_OF_A_CAN`. Times carry their unit
+// (`2.5 ms`), offsets are macroticks. A frame entry with `fragments: n` stands for n consecutive slots with the fragments
+// first_fragment (0 if absent) and on; without `pdu` it is a status frame.
+//
+// At most 200 nodes, sensors and PDUs, 127 CANs, 16 tasks per node and 256 fragments per list: what records can number.
 #pragma once
 
 #include <string>

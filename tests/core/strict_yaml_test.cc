@@ -3,6 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <string>
+#include <vector>
+
 namespace ttf {
 namespace {
 
@@ -117,6 +121,132 @@ TEST(StrictYaml, ScaledNumbersAreExact) {
   EXPECT_EQ(value("-0.000001"), -1);
   EXPECT_EQ(value("4999.999999"), 4'999'999'999);
   EXPECT_EQ(value("0.0000001"), -5'000'000'000) << "finer than the scale: a finding, and the lower bound";
+}
+
+// What each getter returns when it finds nothing usable, and what it says.
+struct Refusal {
+  const char* text;
+  std::function<void(YamlMap&)> read;
+  const char* sentence;
+};
+
+TEST(StrictYaml, EachGetterNamesWhatItWants) {
+  const Range<Duration> kTimes{Duration::microseconds(1), Duration::milliseconds(20)};
+  const std::vector<Refusal> refusals{
+      {"v: 3.0", [](YamlMap& m) { EXPECT_EQ(m.integer("v", {1, 5}), 1); }, "a.yaml:1: v = 3.0: must be a whole number 1..5"},
+      {"v: 99999999999999999999", [](YamlMap& m) { EXPECT_EQ(m.integer("v", {1, 5}), 1); },
+       "a.yaml:1: v = 99999999999999999999: must be a whole number 1..5"},
+      {"v: [1]", [](YamlMap& m) { EXPECT_EQ(m.integer("v", {1, 5}), 1); }, "a.yaml:1: v: must be a whole number 1..5"},
+      {"v: 6", [](YamlMap& m) { EXPECT_EQ(m.integer_or("v", 3, {1, 5}), 1); }, "a.yaml:1: v = 6: must be a whole number 1..5"},
+      {"v: nan", [](YamlMap& m) { EXPECT_EQ(m.number("v", {0.5, 1.5}, "m"), 0.5); },
+       "a.yaml:1: v = nan: must be a number 0.5..1.5 m"},
+      {"v: 1.5m", [](YamlMap& m) { EXPECT_EQ(m.number_or("v", 1.0, {0.5, 1.5}), 0.5); },
+       "a.yaml:1: v = 1.5m: must be a number 0.5..1.5"},
+      {"v: 12.50005", [](YamlMap& m) { EXPECT_EQ(m.scaled("v", 1000, {12'500, 50'000}, "ns"), 12'500); },
+       "a.yaml:1: v = 12.50005: must be a decimal number 12.5..50 ns, in steps of 0.001"},
+      {"v: 1e1", [](YamlMap& m) { EXPECT_EQ(m.scaled("v", 1000, {0, 50'000}), 0); },
+       "a.yaml:1: v = 1e1: must be a decimal number 0..50, in steps of 0.001"},
+      {"v: 1.2.3", [](YamlMap& m) { EXPECT_EQ(m.scaled("v", 1000, {0, 50'000}), 0); }, "in steps of 0.001"},
+      {"v: '-'", [](YamlMap& m) { EXPECT_EQ(m.scaled("v", 1000, {0, 50'000}), 0); }, "in steps of 0.001"},
+      {"v: 9223372036854775807", [](YamlMap& m) { EXPECT_EQ(m.scaled("v", 1000, {0, 50'000}), 0); }, "in steps of 0.001"},
+      {"v: yes", [](YamlMap& m) { EXPECT_FALSE(m.boolean("v")); }, "a.yaml:1: v = yes: must be true or false"},
+      {"v: ''", [](YamlMap& m) { EXPECT_EQ(m.text("v"), ""); }, "a.yaml:1: v: must be a text"},
+      {"v: {a: 1}", [](YamlMap& m) { EXPECT_EQ(m.text_or("v", "x"), ""); }, "a.yaml:1: v: must be a text"},
+      {"v: 5", [&](YamlMap& m) { EXPECT_EQ(m.duration("v", kTimes), kTimes.low); },
+       "a.yaml:1: v = 5: must be a time with its unit (ns, us, ms or s), 1 us..20 ms"},
+      {"v: 1.5 ns", [&](YamlMap& m) { EXPECT_EQ(m.duration("v", kTimes), kTimes.low); }, "v = 1.5 ns: must be a time"},
+      {"v: 21 ms", [&](YamlMap& m) { EXPECT_EQ(m.duration_or("v", kTimes.high, kTimes), kTimes.low); }, "v = 21 ms: must"},
+      {"v: medium", [](YamlMap& m) { EXPECT_EQ(m.choice<int>("v", {{"slow", 1}, {"fast", 2}}), 1); },
+       "a.yaml:1: v = medium: must be one of slow, fast"},
+      {"v: [1, 2]", [](YamlMap& m) { EXPECT_THAT(m.numbers("v", {0, 9}, {3, 4}), ElementsAre(0, 0, 0)); },
+       "a.yaml:1: v: must be a list of 3..4 numbers, each 0..9"},
+      {"v: [1, 10, 2]", [](YamlMap& m) { EXPECT_THAT(m.numbers("v", {0, 9}, {3, 4}), ElementsAre(0, 0, 0)); },
+       "each 0..9"},
+      {"v: [a, [b]]", [](YamlMap& m) { EXPECT_THAT(m.texts("v"), ElementsAre("a")); }, "a.yaml:1: v: must be a list of texts"},
+      {"v: 3", [](YamlMap& m) { m.map("v").finish(); }, "a.yaml:1: v = 3: must be a mapping"},
+      {"v: {a: 1}", [](YamlMap& m) { EXPECT_TRUE(m.maps("v").empty()); }, "a.yaml:1: v: must be a list of mappings"},
+      {"v:\n  - 7", [](YamlMap& m) { EXPECT_TRUE(m.maps_if("v").empty()); }, "a.yaml:2: v[0]: must be a mapping"},
+      {"v:\n  a: 7", [](YamlMap& m) { EXPECT_TRUE(m.named_maps("v").empty()); }, "a.yaml:2: v.a: must be a mapping"},
+      {"v:\n  a: {b: 1}", [](YamlMap& m) { EXPECT_TRUE(m.named_texts("v").empty()); }, "a.yaml:2: v.a: must be a text"},
+      {"v:\n  a: x\n  a: y", [](YamlMap& m) { EXPECT_EQ(m.named_texts("v").size(), 2u); },
+       "a.yaml:3: v.a: is given twice in one mapping"},
+      {"v: 1\n? [a, b]\n: 2", [](YamlMap& m) { EXPECT_EQ(m.integer("v", {0, 5}), 1); },
+       "a.yaml:2: has a key that is not a plain text"},
+  };
+  for (const Refusal& refusal : refusals) {
+    SCOPED_TRACE(refusal.text);
+    EXPECT_THAT(read(refusal.text, refusal.read), ElementsAre(HasSubstr(refusal.sentence)));
+  }
+}
+
+TEST(StrictYaml, WhatIsMissingIsSaidWithItsRange) {
+  EXPECT_THAT(read("other:\n  a: 1\n",
+                   [](YamlMap& map) {
+                     YamlMap other = map.map("other");
+                     EXPECT_EQ(other.integer("a", {0, 5}), 1);
+                     EXPECT_FALSE(other.boolean("b"));
+                     EXPECT_TRUE(other.texts("c").empty());
+                     EXPECT_THAT(other.numbers("d", {1, 9}, {2, 2}), ElementsAre(1, 1));
+                     EXPECT_TRUE(other.maps("e").empty());
+                     EXPECT_FALSE(other.map_if("f").has_value());
+                     EXPECT_TRUE(other.maps_if("g").empty());
+                     other.finish();
+                     // A mapping that is not there reads as empty; its keys are missing where it should stand.
+                     YamlMap gone = map.map("gone");
+                     EXPECT_EQ(gone.integer("x", {3, 5}), 3);
+                     EXPECT_EQ(gone.integer_or("y", 4, {3, 5}), 4);
+                     gone.finish();
+                   }),
+              ElementsAre("a.yaml:2: other.b: is missing: must be true or false",
+                          "a.yaml:2: other.c: is missing: must be a list of texts",
+                          "a.yaml:2: other.d: is missing: must be a list of 2..2 numbers, each 1..9",
+                          "a.yaml:2: other.e: is missing: must be a list of mappings",
+                          "a.yaml:1: gone: is missing: must be a mapping",
+                          "a.yaml:1: gone.x: is missing: must be a whole number 3..5"));
+}
+
+TEST(StrictYaml, FallbacksStandForWhatIsAbsentOnly) {
+  const auto sentences = read("n: 2\nx: 0.5\nflag: true\nname: a\nwait: 3 ms\nmode: fast\nlist: [{v: 1}, {v: 2}]\n"
+                              "named: {b: {v: 3}, a: {v: 4}}\n",
+                              [](YamlMap& map) {
+                                const Range<Duration> times{Duration{}, Duration::milliseconds(20)};
+                                EXPECT_EQ(map.integer_or("n", 1, {0, 5}), 2);
+                                EXPECT_EQ(map.number_or("x", 0.1, {0, 1}), 0.5);
+                                EXPECT_EQ(map.number_or("y", 0.1, {0, 1}), 0.1);
+                                EXPECT_TRUE(map.boolean_or("flag", false));
+                                EXPECT_TRUE(map.boolean_or("no_flag", true));
+                                EXPECT_EQ(map.text_or("name", "b"), "a");
+                                EXPECT_EQ(map.text_or("no_name", "b"), "b");
+                                EXPECT_EQ(map.duration_or("wait", {}, times), Duration::milliseconds(3));
+                                EXPECT_EQ(map.duration_or("no_wait", {}, times), Duration{});
+                                EXPECT_EQ(map.choice_or<int>("mode", 7, {{"slow", 1}, {"fast", 2}}), 2);
+                                EXPECT_EQ(map.choice_or<int>("no_mode", 7, {{"slow", 1}, {"fast", 2}}), 7);
+                                std::vector<std::int64_t> values;
+                                for (YamlMap& item : map.maps("list")) values.push_back(item.integer("v", {0, 9}));
+                                for (auto& [name, item] : map.named_maps("named")) {
+                                  values.push_back(item.integer("v", {0, 9}));
+                                  EXPECT_EQ(item.path(), "named." + name);
+                                }
+                                EXPECT_THAT(values, ElementsAre(1, 2, 3, 4));   // in file order
+                              });
+  EXPECT_TRUE(sentences.empty()) << testing::PrintToString(sentences);
+}
+
+TEST(StrictYaml, TimesAreExactToTheNanosecond) {
+  const auto value = [](const std::string& text) {
+    Duration result{};
+    read("v: " + text + "\n", [&](YamlMap& map) {
+      result = map.duration("v", {Duration{-1'000'000'000}, Duration{9'000'000'000'000'000'000}});
+    });
+    return result.ns;
+  };
+  EXPECT_EQ(value("100 ns"), 100);
+  EXPECT_EQ(value("2.001 us"), 2'001);
+  EXPECT_EQ(value("0.000001 ms"), 1);
+  EXPECT_EQ(value("1.000000001 s"), 1'000'000'001);
+  EXPECT_EQ(value("-0.5 s"), -500'000'000);
+  EXPECT_EQ(value("8999999999.999999999 s"), 8'999'999'999'999'999'999);
+  EXPECT_EQ(value("3 min"), -1'000'000'000) << "a finding, and the lower bound";
 }
 
 }  // namespace

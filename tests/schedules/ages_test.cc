@@ -79,6 +79,104 @@ TEST(Ages, OfHeldMeasurements) {
   EXPECT_EQ(ages[0].buffered_newest_worst - ages[0].buffered_use_worst, ages[0].newest_worst - ages[0].use_worst);
 }
 
+// The same with a CAN before the bus, and with tasks that messages and other tasks activate (classic CAN, 8 bytes at 1 Mbit/s:
+// 135 us at worst, 111 us less the intermission of 3 us at best):
+//
+//   device:  measure 1 ms -> CAN;  gateway: forward, on the list's arrival, 0.2 to 0.5 ms -> list in slot 3 of every cycle
+//   fusion:  fuse 2 ms at 1 ms of odd cycles; publish 0.1 ms when it ends -> image in slot 4 of every cycle
+//   user:    use, on the image's arrival
+Cluster over_can(bool scheduled) {
+  Cluster cluster = small(scheduled);
+  PduLayout raw;
+  raw.fragment_bytes = 8;
+  raw.max_elements = raw.elements_per_fragment = 1;
+  raw.sensor = SensorId{0};
+  cluster.pdus.push_back(raw);   // PduId 2
+  CanBus bus;
+  bus.name = "can";
+  bus.nominal_bit_rate = bus.data_bit_rate = 1'000'000;
+  bus.messages = {{PduId{2}, 100, NodeId{0}, Duration::milliseconds(9), 0}};
+  cluster.can_buses = {bus};
+  cluster.nodes[0].tasks[0].writes = {{"raw", PduId{2}, 0, 0}};
+  Task forward = timed("forward", {}, Duration::microseconds(500));
+  forward.activation.kind = ActivationKind::kMessage;
+  forward.activation.port = "in";
+  forward.best_case = Duration::microseconds(200);
+  forward.reads = {{"in", PduId{2}, 0, 0}};
+  forward.writes = {{"out", PduId{0}, std::nullopt, 0}};
+  cluster.nodes.push_back(cluster.nodes[0]);
+  cluster.nodes[3].tasks = {forward};
+  cluster.frames[0].sender = NodeId{3};
+  cluster.frames[1].base_cycle = 0;
+  cluster.frames[1].repetition = 1;
+  Task& publish = cluster.nodes[1].tasks[1];
+  publish.activation = {};
+  publish.activation.kind = ActivationKind::kCompletion;
+  publish.activation.after = "fuse";
+  Task& use = cluster.nodes[2].tasks[0];
+  use.activation = {};
+  use.activation.kind = ActivationKind::kMessage;
+  use.activation.port = "image";
+  return cluster;
+}
+
+TEST(Ages, OverACanAndATaskThatAMessageActivates) {
+  const auto ages = measurement_ages(over_can(false));
+  ASSERT_EQ(ages.size(), 1u);
+  // measure, CAN, forward, and the frame from its action point on; three stages are rounded.
+  EXPECT_EQ(ages[0].fusion_best.ns, 1'000'000 + 108'000 + 200'000 - 3 * kRounding + 65'200 - kClocks);
+  EXPECT_EQ(ages[0].fusion_worst.ns, 1'000'000 + 135'000 + 500'000 + 3 * kRounding + 5'084'000 - 1 + kClocks);
+  ASSERT_EQ(ages[0].to_fusion.size(), 5u);
+  EXPECT_EQ(ages[0].to_fusion[1].name, " on can");
+  EXPECT_EQ(ages[0].to_fusion[1].worst.ns, 135'000 + kRounding);
+}
+
+// Another message of lower priority: a frame of it has just begun.
+TEST(Ages, AFrameOfLowerPriorityOnTheCanIsWaitedFor) {
+  Cluster cluster = over_can(false);
+  cluster.pdus.push_back(cluster.pdus[2]);
+  cluster.pdus[3].sensor = kNoSensor;
+  cluster.can_buses[0].messages.push_back({PduId{3}, 200, NodeId{3}, Duration::milliseconds(9), 0});
+  const auto plain = measurement_ages(over_can(false)), delayed = measurement_ages(cluster);
+  EXPECT_EQ(delayed[0].fusion_best, plain[0].fusion_best);
+  EXPECT_EQ(delayed[0].fusion_worst.ns - plain[0].fusion_worst.ns, 135'000);
+}
+
+// Fused at 6 ms, ended at 8 ms, published at 8.1 ms, in slot 4 of the next cycle: 10.252 to 10.336 ms, used when it is there.
+TEST(Ages, PublishedWhenTheFusionEndsAndUsedWhenTheImageArrives) {
+  const auto ages = measurement_ages(over_can(true));
+  ASSERT_TRUE(ages[0].reaches_use);
+  EXPECT_EQ(ages[0].fused_worst.ns, 6'000'000 + kClocks);
+  EXPECT_EQ(ages[0].use_worst.ns, 10'336'000 + kClocks);
+  EXPECT_EQ(ages[0].use_best.ns, 10'252'000 + 7'000 + 65'200 - kClocks);
+}
+
+// Set off by the sensor's list instead: one of those comes within two periods of 10 ms.
+TEST(Ages, AListWaitsForTheOneThatActivatesItsReader) {
+  Cluster cluster = over_can(true);
+  Task& use = cluster.nodes[2].tasks[0];
+  use.reads.push_back({"tick", PduId{0}, std::nullopt, 0});
+  use.activation.port = "tick";
+  const auto ages = measurement_ages(cluster);
+  EXPECT_EQ(ages[0].use_worst.ns, 10'336'000 + 20'000'000 + kRounding + kClocks);
+  EXPECT_EQ(ages[0].use_best.ns, 10'252'000 + 7'000 + 65'200 - kClocks);
+}
+
+// The fusion itself follows a task of 0.3 ms that time activates every 10 ms: a list that just missed it waits for the
+// next one, a period and that task's end later.
+TEST(Ages, AListWaitsForTheBeginningOfAChain) {
+  Cluster cluster = small(true);
+  Task prepare = timed("prepare", {1, 2, Macroticks{1000}}, Duration::microseconds(300));
+  Task& fuse = cluster.nodes[1].tasks[0];
+  fuse.activation = {};
+  fuse.activation.kind = ActivationKind::kCompletion;
+  fuse.activation.after = "prepare";
+  cluster.nodes[1].tasks.insert(cluster.nodes[1].tasks.begin(), prepare);
+  const auto ages = measurement_ages(cluster);
+  EXPECT_EQ(ages[0].fused_best, ages[0].fusion_best);
+  EXPECT_EQ(ages[0].fused_worst.ns, 5'252'000 + 10'300'000 + kRounding + kClocks);
+}
+
 TEST(Ages, ASensorNobodyFusesIsLeftOut) {
   Cluster cluster = small(true);
   cluster.nodes[1].tasks[0].reads.clear();
