@@ -153,9 +153,11 @@ void check_can(const Cluster& cluster, ClusterFindings& findings) {
     }
     if (!all_fit) continue;   // no load without lengths
     const double load = can_worst_load(cluster, bus);
-    if (load > kCanLoadLimit)
+    if (load > kCanLoadLimit) {
       findings.at(bus.line, path, fmt::format("worst-case load {:.1f} %", 100.0 * load),
                   fmt::format("must be at most {:.0f} %, other_load included", 100.0 * kCanLoadLimit));
+      continue;   // responses may have no bound
+    }
     for (const CanMessage& message : bus.messages) {
       // What makes the response a bound: no second list of the message while the first is on its way.
       const auto response = can_worst_response(cluster, bus, message);

@@ -121,6 +121,7 @@ class NodeTasks {
   std::optional<Arrivals> arrivals(const CanBus& bus, PduId pdu) const {
     for (const CanMessage& other : bus.messages)
       if (!can_data_length(bus.flexible_data_rate, cluster_.pdu(other.pdu).fragment_bytes)) return std::nullopt;
+    if (can_worst_load(cluster_, bus) > kCanLoadLimit) return std::nullopt;
     for (const CanMessage& message : bus.messages) {
       if (message.pdu != pdu) continue;
       const auto worst = can_worst_response(cluster_, bus, message);
@@ -167,21 +168,22 @@ class NodeTasks {
     return list;
   }
 
+  // No more than twice what is looked into: enough to know that it never ends.
   std::int64_t sporadic(std::int64_t window) const {
-    std::int64_t work = 0;
+    Int128 work = 0;
     for (std::size_t t = 0; t < node_.tasks.size(); ++t) {
       if (before_[t] || by_time(t)) continue;
       const auto& from = arrivals_[t];
-      work += whole_[t] * (from ? (window + from->jitter) / from->period + 1 : 1);
+      work += static_cast<Int128>(whole_[t]) * (from ? (window + from->jitter) / from->period + 1 : 1);
     }
-    return work;
+    return static_cast<std::int64_t>(std::min<Int128>(work, 2 * kLongest_ns));
   }
 
   // The smallest A with W(A) <= A, from below.
   std::optional<std::int64_t> busy_time() const {
     const std::int64_t limit = longest_busy_time(cluster_, node_).ns;
     // Corrections that eat up cycles: not a clock to count on.
-    if (shrunk(round_) < round_ / 2) return std::nullopt;
+    if (!instants_.empty() && shrunk(round_) < round_ / 2) return std::nullopt;
     std::int64_t window = 0;
     for (int rounds = 0; rounds < kMostRounds; ++rounds) {
       std::int64_t timed = 0;

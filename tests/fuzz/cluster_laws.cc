@@ -49,9 +49,9 @@ recording::RecordedInput some_recording() {
 void check_cluster(const std::string& text) {
   schedules::Cluster cluster;
   if (!accepted(kFile, [&] { cluster = schedules::parse_cluster(text, kFile); })) return;
-  schedules::show_text(cluster);  // shows what is not consistent, too
   if (const auto findings = schedules::check(cluster); !findings.empty())
     return check_refusal(InputError(findings), kFile);
+  schedules::show_text(cluster);
   if (!accepted(kFile, [&] { schedules::bind_ports(cluster, nodes::step_ports()); })) return;
   for (const schedules::PduLayout& layout : cluster.pdus) {
     check_signals(layout, layout.header);
