@@ -5,7 +5,7 @@
 //                macrotick, microtick and bit against each other (FlexRay 2.1A, annex B)
 //   clocks       sync and startup nodes, key slots, correction limits against the drifts the file allows
 //   slots        nobody owns a slot another owns in the same cycle and channel; payload fits; a PDU's fragments complete
-//   CAN          frames fit, identifiers are unique, worst-case load (schedules/can_load.h)
+//   CAN          frames fit, identifiers are unique, worst-case load, responses within periods (schedules/can_load.h)
 //   tasks        no overlap, deadlines with every wait for other tasks, an end before the next activation
 //                (schedules/responses.h)
 //   flow         every reader has a writer and the other way round, sensors have their tasks, no list goes in a ring
