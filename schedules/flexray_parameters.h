@@ -51,14 +51,10 @@ struct GlobalParameters {
   std::int64_t cycle_ps() const { return gMacroPerCycle * gdMacrotick_ps; }
 };
 
-// Bits on the bus from the first TSS bit to the last FES bit of a static frame, header and trailer among its `bytes`: TSS,
-// FSS, ten bits (byte start sequence and data) for each byte, FES. The idle delimiter behind it is not in it.
-constexpr int frame_bits_of_bytes(const GlobalParameters& flexray, int bytes) {
-  return flexray.gdTSSTransmitter + 1 + 10 * bytes + 2;
-}
-// The same of a payload in two-byte words, with the 8 bytes around it.
+// Bits on the bus from the first TSS bit to the last FES bit of a static frame: TSS, FSS, ten bits (byte start sequence and
+// data) for each of 8 header and trailer bytes and of the payload, FES. The idle delimiter behind it is not in it.
 constexpr int frame_bits(const GlobalParameters& flexray, int payload_words) {
-  return frame_bits_of_bytes(flexray, 8 + 2 * payload_words);
+  return flexray.gdTSSTransmitter + 1 + 80 + 20 * payload_words + 2;
 }
 
 // Node parameters: of one controller.
