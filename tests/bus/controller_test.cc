@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "tests/bus/alone.h"
-#include "tests/recording/allocations.h"
+#include "tests/support/allocation_counter.h"
 
 namespace ttf::bus {
 namespace {
@@ -167,7 +167,7 @@ TEST(Controller, L4_NothingAllocatesAfterConstruction) {
     frames.push_back(frame.bytes());
   }
   const auto sync = Frame::status(1, 0).bytes();
-  const std::int64_t before = recording::allocations();
+  const std::int64_t before = support::allocations();
   controller.outgoing(kOddList).write(mine.view());
   controller.advance(Alone::at(0, 80));
   controller.receive({Channel::kA, Alone::at(0, 7), Alone::at(0, 33), sync});
@@ -179,7 +179,7 @@ TEST(Controller, L4_NothingAllocatesAfterConstruction) {
   }
   const bool complete = controller.incoming(kList).latest().has_value();
   controller.advance(Alone::at(50, 0));
-  EXPECT_EQ(recording::allocations(), before);
+  EXPECT_EQ(support::allocations(), before);
   EXPECT_TRUE(complete);
 }
 

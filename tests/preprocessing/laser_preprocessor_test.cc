@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/errors.h"
-#include "tests/preprocessing/allocations.h"
 #include "tests/preprocessing/emulated_scan.h"
+#include "tests/support/allocation_counter.h"
 
 namespace ttf::nodes {
 namespace {
@@ -71,9 +71,9 @@ TEST(LaserPreprocessor, DoesNotAllocateAfterTheFirstScans) {
   std::vector<LaserObject> objects;
   objects.reserve(25);
   preprocessor.process(scans[0], objects);
-  const std::int64_t before = allocations();
+  const std::int64_t before = support::allocations();
   for (const auto& scan : scans) preprocessor.process(scan, objects);
-  EXPECT_EQ(allocations(), before);
+  EXPECT_EQ(support::allocations(), before);
   EXPECT_GE(objects.size(), 10U);
 }
 

@@ -10,9 +10,9 @@
 #include "recording/log_codec.h"
 #include "recording/log_reader.h"
 #include "recording/log_writer.h"
-#include "tests/recording/allocations.h"
 #include "tests/recording/log_fixture.h"
 #include "tests/recording/record_text.h"
+#include "tests/support/allocation_counter.h"
 
 namespace ttf::recording {
 
@@ -235,7 +235,7 @@ TEST(Log, RecordingDoesNotAllocatePerRecord) {
   const std::array<double, 6> state{1};
   const std::array<double, 36> covariance{1};
   for (int second = 0; second < 4; ++second) {
-    const std::int64_t before = allocations();
+    const std::int64_t before = support::allocations();
     for (int i = 0; i < 1000; ++i) {
       const std::size_t objects = static_cast<std::size_t>(i) % 26;  // lists that grow and shrink
       records::Stamp stamp;
@@ -248,7 +248,7 @@ TEST(Log, RecordingDoesNotAllocatePerRecord) {
       writer.on(records::ImageWritten{stamp, 1, {}, {}, std::span(images).first(objects), newest});
       writer.on(records::FeatureUsed{stamp, 1, {}, true, std::span(features).first(objects)});
     }
-    counts.push_back(allocations() - before);
+    counts.push_back(support::allocations() - before);
   }
   EXPECT_LE(counts[1], 20) << "7000 records";
   EXPECT_LE(counts[2], 20) << "7000 records";
