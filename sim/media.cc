@@ -120,7 +120,9 @@ void CanMedium::report(const Pending& frame, TrueTime start, TrueTime end) {
   for (const schedules::CanMessage& message : cluster_.can_buses[bus_].messages) {
     if (message.identifier != frame.identifier) continue;
     const schedules::PduLayout& layout = cluster_.pdu(message.pdu);
-    const auto payload = sent.data.first(static_cast<std::size_t>(layout.fragment_bytes));
+    const auto bytes = static_cast<std::size_t>(layout.fragment_bytes);
+    if (sent.data.size() < bytes) break;   // a foreign frame: receivers ignore it too
+    const auto payload = sent.data.first(bytes);
     sent.pdu = message.pdu;
     sent.sequence = wire::read_header_raw(layout, payload, *schedules::find_signal(layout.header, "sequence"));
     sent.fragment = static_cast<std::uint8_t>(

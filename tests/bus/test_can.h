@@ -1,0 +1,71 @@
+// A CAN without time for tests of what is on it: frames go one after the other, whoever wins by the port's laws first.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "bus/can_port.h"
+
+namespace ttf::bus {
+
+class TestCan {
+ public:
+  // Called for each controller that a frame reaches.
+  using Hear = std::function<void(std::size_t controller, const CanFrame& frame)>;
+
+  TestCan(std::size_t controllers, Hear hear) : hear_(std::move(hear)) {
+    for (std::size_t c = 0; c < controllers; ++c) ports_.push_back(std::make_unique<Port>(*this, c));
+  }
+  std::size_t controllers() const { return ports_.size(); }
+  CanPort& port(std::size_t controller) { return *ports_[controller]; }
+
+  // Where the bus is idle, the next frame begins; nothing can displace it any more.
+  void begin() {
+    if (sending_ || waiting_.empty()) return;
+    // The oldest of equals, which is the order they were handed over in.
+    const auto winner = std::min_element(waiting_.begin(), waiting_.end(), [](const Frame& a, const Frame& b) {
+      return a.identifier != b.identifier ? a.identifier < b.identifier : a.sender < b.sender;
+    });
+    sending_ = std::move(*winner);
+    waiting_.erase(winner);
+  }
+  // The frame on the bus, if any, ends.
+  void end() {
+    if (!sending_) return;
+    const Frame frame = std::move(*sending_);
+    sending_.reset();   // the bus is idle before anybody hears the frame, so an answer takes part in the next arbitration
+    for (std::size_t c = 0; c < ports_.size(); ++c)
+      if (c != frame.sender) hear_(c, {frame.identifier, frame.flexible_data_rate, frame.data});
+  }
+  void run_until_idle() {
+    for (begin(); sending_; begin()) end();
+  }
+
+ private:
+  struct Frame {
+    std::size_t sender = 0;
+    std::uint32_t identifier = 0;
+    bool flexible_data_rate = false;
+    std::vector<std::byte> data;
+  };
+  struct Port final : CanPort {
+    TestCan& bus;
+    std::size_t controller;
+    Port(TestCan& b, std::size_t c) : bus(b), controller(c) {}
+    void send(const CanFrame& frame) override {
+      bus.waiting_.push_back(
+          {controller, frame.identifier, frame.flexible_data_rate, {frame.data.begin(), frame.data.end()}});
+    }
+  };
+
+  Hear hear_;
+  std::vector<std::unique_ptr<Port>> ports_;
+  std::vector<Frame> waiting_;
+  std::optional<Frame> sending_;
+};
+
+}  // namespace ttf::bus
