@@ -64,7 +64,7 @@ std::string boxes(const Options& options) {
     drawn.push_back({hit.range_m * std::cos(hit.azimuth_rad), hit.range_m * std::sin(hit.azimuth_rad)});
   }
   std::vector<nodes::LaserObject> objects;
-  nodes::LaserPreprocessor(nodes::LaserPreprocessingConfig{}).process(points, objects);
+  nodes::LaserPreprocessor(nodes::LaserPreprocessingConfig{}, points.size()).process(points, objects);
   std::vector<report::Box> rectangles;
   for (const nodes::LaserObject& object : objects)
     rectangles.push_back({object.x, object.y, object.heading, object.length, object.width, ""});

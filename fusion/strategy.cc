@@ -14,8 +14,11 @@ class TimelineStrategy : public Strategy {
  public:
   TimelineStrategy(const TrackerConfig& config, std::span<const SensorTiming> sensors)
       : config_(config), sensors_(sensors.begin(), sensors.end()), timeline_(config, kMaxObservations) {
-    pending_.resize(kMaxPending);
-    for (std::size_t i = 0; i < kMaxPending; ++i) free_.push_back(kMaxPending - 1 - i);
+    pending_.reserve(kMaxPending);
+    for (std::size_t i = 0; i < kMaxPending; ++i) {
+      pending_.emplace_back(kMaxObservations);
+      free_.push_back(kMaxPending - 1 - i);
+    }
     waiting_.reserve(kMaxPending);
     report_.reserve(4 * kMaxPending);
     between_.reserve(2 * kMaxPending);

@@ -6,13 +6,13 @@ namespace ttf::fusion {
 
 Timeline::Timeline(const TrackerConfig& config, std::size_t max_observations)
     : tracker_(config, max_observations), base_(tracker_.max_tracks()) {
-  entries_.resize(config.history_scans + 1);
-  for (std::size_t i = 0; i < entries_.size(); ++i) {
-    entries_[i].after = TrackSet(0);
-    entries_[i].after.tracks.reserve(tracker_.max_tracks());
-    free_.push_back(entries_.size() - 1 - i);
+  const std::size_t entries = config.history_scans + 1;
+  entries_.reserve(entries);
+  for (std::size_t i = 0; i < entries; ++i) {
+    entries_.emplace_back(max_observations, tracker_.max_tracks());
+    free_.push_back(entries - 1 - i);
   }
-  order_.reserve(entries_.size());
+  order_.reserve(entries);
 }
 
 const TrackSet& Timeline::current() const { return order_.empty() ? base_ : entries_[order_.back()].after; }

@@ -21,7 +21,7 @@ struct StoredScan {
   GlobalTime measured{};
   std::vector<Observation> observations;
 
-  StoredScan() { observations.reserve(64); }
+  explicit StoredScan(std::size_t most_observations) { observations.reserve(most_observations); }
   void assign(const Scan& scan) {
     id = scan.id;
     measured = scan.measured;
@@ -49,6 +49,7 @@ class Timeline {
   struct Entry {
     StoredScan scan;
     TrackSet after;
+    Entry(std::size_t most_observations, std::size_t most_tracks) : scan(most_observations), after(most_tracks) {}
   };
   void process(std::size_t position);
 

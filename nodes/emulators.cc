@@ -11,6 +11,10 @@ const schedules::PduLayout& raw_layout(const EmulatorConfig& config) {
   return config.cluster->pdu(binding_of(config.task->writes, "raw").pdu);
 }
 
+std::size_t most_elements(const EmulatorConfig& config) {
+  return static_cast<std::size_t>(raw_layout(config).max_elements);
+}
+
 void record_measurement(const StepContext& context, SensorId sensor, std::span<const ObjectId> truth) {
   records::Measured measured;
   measured.stamp = context.stamp;
@@ -24,14 +28,19 @@ void record_measurement(const StepContext& context, SensorId sensor, std::span<c
 LaserEmulator::LaserEmulator(const EmulatorConfig& config, const world::LaserConfig& laser)
     : config_(config),
       laser_(laser),
-      signals_(bind_element<3>(*config.cluster, raw_layout(config), {"layer", "azimuth", "range"})) {}
+      signals_(bind_element<3>(*config.cluster, raw_layout(config), {"layer", "azimuth", "range"})) {
+  laser_.max_hits = raw_layout(config).max_elements;
+  states_.reserve(config.scene->objects());
+  hits_.reserve(most_elements(config));
+  truth_.reserve(most_elements(config));
+}
 
 void LaserEmulator::run(StepContext& context) {
   config_.scene->states_at(context.stamp.true_time, states_);
   world::measure_laser(laser_, states_, config_.seed, config_.replication,
                        static_cast<std::uint16_t>(config_.sensor), context.measurement, hits_, truth_);
   Output& raw = context.outputs[0];
-  const int count = std::min(static_cast<int>(hits_.size()), raw.layout().max_elements);
+  const auto count = static_cast<int>(hits_.size());
   raw.begin(context.measurement, count, GlobalTime{});
   for (int i = 0; i < count; ++i) {
     const world::HitPoint& hit = hits_[static_cast<std::size_t>(i)];
@@ -45,14 +54,19 @@ void LaserEmulator::run(StepContext& context) {
 CameraEmulator::CameraEmulator(const EmulatorConfig& config, const world::CameraConfig& camera)
     : config_(config),
       camera_(camera),
-      signals_(bind_element<3>(*config.cluster, raw_layout(config), {"bearing", "disparity", "width"})) {}
+      signals_(bind_element<3>(*config.cluster, raw_layout(config), {"bearing", "disparity", "width"})) {
+  camera_.max_detections = raw_layout(config).max_elements;
+  states_.reserve(config.scene->objects());
+  detections_.reserve(most_elements(config));
+  truth_.reserve(most_elements(config));
+}
 
 void CameraEmulator::run(StepContext& context) {
   config_.scene->states_at(context.stamp.true_time, states_);
   world::measure_camera(camera_, states_, config_.seed, config_.replication,
                         static_cast<std::uint16_t>(config_.sensor), context.measurement, detections_, truth_);
   Output& raw = context.outputs[0];
-  const int count = std::min(static_cast<int>(detections_.size()), raw.layout().max_elements);
+  const auto count = static_cast<int>(detections_.size());
   raw.begin(context.measurement, count, GlobalTime{});
   for (int i = 0; i < count; ++i) {
     const world::CameraDetection& detection = detections_[static_cast<std::size_t>(i)];

@@ -51,7 +51,8 @@ std::vector<fusion::SensorTiming> sensor_timings(const schedules::Cluster& clust
 
 FusionHost::FusionHost(const schedules::Cluster& cluster, fusion::StrategyKind kind,
                        const fusion::TrackerConfig& tracker)
-    : strategy(fusion::make_strategy(kind, tracker, sensor_timings(cluster))) {}
+    : strategy(fusion::make_strategy(kind, tracker, sensor_timings(cluster))),
+      most_objects(static_cast<std::size_t>(tracker.max_objects)) {}
 
 FusionStep::FusionStep(const schedules::Cluster& cluster, const schedules::Task& task,
                        std::shared_ptr<FusionHost> host)
@@ -164,7 +165,7 @@ ImageOutput::ImageOutput(const schedules::Cluster& cluster, const schedules::Tas
   const PduId pdu = binding_of(task.writes, "image").pdu;
   use_ = image_use(cluster, pdu);
   signals_ = bind_image(cluster, cluster.pdu(pdu));
-  views_.reserve(256);
+  views_.reserve(host_->most_objects);
   objects_.reserve(static_cast<std::size_t>(cluster.pdu(pdu).max_elements));
 }
 

@@ -23,6 +23,7 @@ std::vector<fusion::SensorTiming> sensor_timings(const schedules::Cluster& clust
 struct FusionHost {
   FusionHost(const schedules::Cluster& cluster, fusion::StrategyKind kind, const fusion::TrackerConfig& tracker);
   std::unique_ptr<fusion::Strategy> strategy;
+  std::size_t most_objects;        // confirmed tracks there can be
   std::uint32_t step = 0;          // numbered fusion instants, from 1
 };
 

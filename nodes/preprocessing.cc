@@ -42,8 +42,9 @@ LaserPreprocessing::LaserPreprocessing(const schedules::Cluster& cluster, const 
       signals_(bind_element<12>(cluster, layout_of(cluster, task.writes, "objects"),
                                 {"x", "y", "heading", "length", "width", "sigma_x", "sigma_y", "correlation",
                                  "sigma_heading", "sigma_length", "sigma_width", "valid"})),
-      preprocessor_(config) {
+      preprocessor_(config, static_cast<std::size_t>(layout_of(cluster, task.reads, "raw").max_elements)) {
   points_.reserve(static_cast<std::size_t>(layout_of(cluster, task.reads, "raw").max_elements));
+  objects_.reserve(preprocessor_.most_objects());
 }
 
 void LaserPreprocessing::run(StepContext& context) {

@@ -43,6 +43,7 @@ class RecordedScene final : public Scene {
   // Recorded time 0 is at true time `start`.
   RecordedScene(const recording::RecordedInput& input, TrueTime start);
   void states_at(TrueTime at, std::vector<world::ObjectState>& out) const override;
+  std::size_t objects() const override { return 1; }
 
  private:
   std::vector<recording::RecordedTruth> rows_;

@@ -2,6 +2,7 @@
 // has it.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "core/time.h"
@@ -14,6 +15,8 @@ class Scene {
   virtual ~Scene() = default;
   // States of all objects at `at`, into `out` (which keeps its capacity).
   virtual void states_at(TrueTime at, std::vector<world::ObjectState>& out) const = 0;
+  // How many there are.
+  virtual std::size_t objects() const = 0;
 };
 
 // The scenario's simulated world; drives start at `start`.
@@ -24,6 +27,7 @@ class WorldScene final : public Scene {
   void states_at(TrueTime at, std::vector<world::ObjectState>& out) const override {
     world_.states_at(TrueTime{} + (at - start_), out);
   }
+  std::size_t objects() const override { return world_.size(); }
   const world::World& world() const { return world_; }
 
  private:

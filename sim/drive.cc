@@ -14,7 +14,9 @@ namespace {
 // Adds what nobody in the cluster knows to the records of the run.
 class Observer final : public records::Sink {
  public:
-  Observer(const nodes::Scene& scene, records::Sink& out) : scene_(scene), out_(out) {}
+  Observer(const nodes::Scene& scene, records::Sink& out) : scene_(scene), out_(out) {
+    states_.reserve(scene.objects());
+  }
 
   void follow(const world::Reference* reference, const world::World* world, TrueTime start) {
     reference_ = reference;

@@ -24,9 +24,10 @@ LaserPreprocessingConfig load_laser_preprocessing(YamlMap& yaml) {
   return c;
 }
 
-LaserPreprocessor::LaserPreprocessor(const LaserPreprocessingConfig& config) : config_(config) {
-  points_.reserve(4096);
-  segments_.reserve(1024);
+LaserPreprocessor::LaserPreprocessor(const LaserPreprocessingConfig& config, std::size_t most_points)
+    : config_(config), most_points_(most_points) {
+  points_.reserve(most_points);
+  segments_.reserve(most_points);
 }
 
 void LaserPreprocessor::process(std::span<const ScanPoint> scan, std::vector<LaserObject>& out) {

@@ -1,6 +1,7 @@
 // From a scan to vehicles: segmentation, then a rectangle per segment.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -20,12 +21,15 @@ LaserPreprocessingConfig load_laser_preprocessing(YamlMap& yaml);
 
 class LaserPreprocessor {
  public:
-  explicit LaserPreprocessor(const LaserPreprocessingConfig& config);
-  // Objects in order of azimuth, right to left. Buffers are reused: no allocation after the first scans.
+  // `most_points`: of a scan. Room for them is taken here, and there are never more segments than points.
+  LaserPreprocessor(const LaserPreprocessingConfig& config, std::size_t most_points);
+  // Objects in order of azimuth, right to left; nothing allocates where `out` has room for most_objects().
   void process(std::span<const ScanPoint> scan, std::vector<LaserObject>& out);
+  std::size_t most_objects() const { return most_points_ / static_cast<std::size_t>(config_.fewest_points); }
 
  private:
   LaserPreprocessingConfig config_;
+  std::size_t most_points_;
   std::vector<PlanePoint> points_;
   std::vector<Segment> segments_;
 };

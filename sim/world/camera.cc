@@ -78,7 +78,7 @@ void measure_camera(const CameraConfig& config, std::span<const ObjectState> obj
       const auto distance = ray_to(other, seen->bearing);
       return distance && *distance < range;
     });
-    if (hidden) continue;
+    if (hidden || static_cast<int>(detections.size()) == config.max_detections) continue;
     const double width_px = config.focal_px * seen->silhouette / std::cos(seen->bearing);
     detections.push_back({seen->bearing + config.bearing_sigma_rad * bearing_noise,
                           config.focal_px * config.baseline_m / seen->depth + config.disparity_sigma_px * disparity_noise,
@@ -88,7 +88,9 @@ void measure_camera(const CameraConfig& config, std::span<const ObjectState> obj
   for (int n = poisson(clutter, config.clutter_per_frame); n > 0; --n) {
     const double bearing = clutter.uniform(-config.half_field_rad, config.half_field_rad);
     const double depth = clutter.uniform(5.0, config.max_range_m);
-    detections.push_back({bearing, config.focal_px * config.baseline_m / depth, clutter.uniform(10.0, 200.0)});
+    const double width_px = clutter.uniform(10.0, 200.0);
+    if (static_cast<int>(detections.size()) == config.max_detections) break;
+    detections.push_back({bearing, config.focal_px * config.baseline_m / depth, width_px});
     truth.push_back(ObjectId{0xffff});
   }
 }

@@ -25,6 +25,7 @@ struct CameraConfig {
   double max_range_m = 90.0;
   double miss_probability = 0.05;
   double clutter_per_frame = 0.1;      // mean number of false detections
+  int max_detections = 40;             // what one raw list carries; of more, the first are kept
 };
 CameraConfig load_camera(YamlMap& yaml);
 

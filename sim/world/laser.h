@@ -24,7 +24,7 @@ struct LaserConfig {
   double miss_at_100m = 0.3;               // probability that a ray's echo is lost at 100 m; grows with the range squared
   double range_bias_m = 0.0;               // systematic errors, none unless stated
   double azimuth_bias_rad = 0.0;
-  int max_hits = 1300;                     // what one raw list carries
+  int max_hits = 1300;                     // what one raw list carries; of more, the first are kept
 };
 LaserConfig load_laser(YamlMap& yaml);
 

@@ -71,7 +71,7 @@ void check_scans(const std::string& text) {
       points.push_back({0, hit.azimuth_rad, hit.range_m});
     }
     std::vector<nodes::LaserObject> objects;
-    nodes::LaserPreprocessor(nodes::LaserPreprocessingConfig{}).process(points, objects);
+    nodes::LaserPreprocessor(nodes::LaserPreprocessingConfig{}, points.size()).process(points, objects);
     for (const nodes::LaserObject& o : objects)
       TTF_CHECK(std::isfinite(o.x) && std::isfinite(o.y) && std::isfinite(o.heading) && std::isfinite(o.length) &&
                     std::isfinite(o.width) && o.sxx > 0 && o.syy > 0 && o.sxy * o.sxy < o.sxx * o.syy,

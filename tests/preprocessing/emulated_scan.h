@@ -9,6 +9,8 @@
 
 namespace ttf::nodes {
 
+inline constexpr std::size_t kMostPoints = 1300;   // four layers of 325 beams
+
 inline world::ObjectState car_at(double x, double y, double heading, double length = 4.4, double width = 1.8,
                                  std::uint16_t id = 0) {
   world::ObjectState state;

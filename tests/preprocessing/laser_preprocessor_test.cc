@@ -24,7 +24,7 @@ std::vector<world::ObjectState> fan() {
 }
 
 TEST(LaserPreprocessor, FindsEachCarOnce) {
-  LaserPreprocessor preprocessor({});
+  LaserPreprocessor preprocessor({}, kMostPoints);
   const std::vector<world::ObjectState> cars = {car_at(20.0, -6.0, 0.0), car_at(35.0, 0.0, 0.3, 4.4, 1.8, 1),
                                                 car_at(15.0, 6.0, M_PI / 2, 4.4, 1.8, 2)};
   std::vector<LaserObject> objects;
@@ -38,7 +38,7 @@ TEST(LaserPreprocessor, FindsEachCarOnce) {
 }
 
 TEST(LaserPreprocessor, WallsAndSpecksAreNoObjects) {
-  LaserPreprocessor preprocessor({});
+  LaserPreprocessor preprocessor({}, kMostPoints);
   std::vector<LaserObject> objects(3);
   const std::vector<ScanPoint> specks = {{0, -0.3, 30.0}, {1, -0.3, 30.05}, {2, 0.2, 12.0}};
   preprocessor.process(specks, objects);
@@ -50,7 +50,7 @@ TEST(LaserPreprocessor, WallsAndSpecksAreNoObjects) {
 }
 
 TEST(LaserPreprocessor, SameScanSameBits) {
-  LaserPreprocessor used({}), fresh({});
+  LaserPreprocessor used({}, kMostPoints), fresh({}, kMostPoints);
   std::vector<LaserObject> first, second;
   for (std::uint32_t sequence = 0; sequence < 5; ++sequence)
     used.process(emulated_scan({}, fan(), sequence), first);
@@ -63,18 +63,33 @@ TEST(LaserPreprocessor, SameScanSameBits) {
   }
 }
 
-TEST(LaserPreprocessor, DoesNotAllocateAfterTheFirstScans) {
-  LaserPreprocessor preprocessor({});
+// A scan of returns in groups that belong together, each group far from the next: as many segments as it can have with a
+// group of one, as many objects with the fewest returns an object may have.
+std::vector<ScanPoint> broken_scan(std::size_t group) {
+  std::vector<ScanPoint> scan;
+  for (std::size_t i = 0; i < kMostPoints; ++i)
+    scan.push_back({0, -2.8 + 0.00436 * static_cast<double>(i), (i / group) % 2 == 0 ? 20.0 : 30.0});
+  return scan;
+}
+
+TEST(LaserPreprocessor, DoesNotAllocate) {
+  LaserPreprocessor preprocessor({}, kMostPoints);
   std::vector<std::vector<ScanPoint>> scans;
   for (std::uint32_t sequence = 0; sequence < 20; ++sequence)
     scans.push_back(emulated_scan({}, fan(), sequence));
+  const auto single = broken_scan(1), triple = broken_scan(3);
   std::vector<LaserObject> objects;
-  objects.reserve(25);
-  preprocessor.process(scans[0], objects);
+  objects.reserve(preprocessor.most_objects());
   const std::int64_t before = support::allocations();
   for (const auto& scan : scans) preprocessor.process(scan, objects);
   EXPECT_EQ(support::allocations(), before);
   EXPECT_GE(objects.size(), 10U);
+  preprocessor.process(single, objects);
+  EXPECT_EQ(support::allocations(), before);
+  EXPECT_TRUE(objects.empty());
+  preprocessor.process(triple, objects);
+  EXPECT_EQ(support::allocations(), before);
+  EXPECT_EQ(objects.size(), preprocessor.most_objects());
 }
 
 TEST(LaserPreprocessor, ItsKeysAreChecked) {

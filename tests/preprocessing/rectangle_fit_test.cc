@@ -17,7 +17,7 @@ namespace {
 // Through segmentation: a car is one object, whatever its aspect.
 LaserObject fitted(const world::ObjectState& car, std::uint32_t sequence,
                    const world::LaserConfig& laser = {}) {
-  LaserPreprocessor preprocessor({});
+  LaserPreprocessor preprocessor({}, kMostPoints);
   std::vector<LaserObject> objects;
   preprocessor.process(emulated_scan(laser, {car}, sequence), objects);
   EXPECT_EQ(objects.size(), 1U) << "a car at " << car.x << " " << car.y << " heading " << car.heading;

@@ -33,7 +33,9 @@ TEST(StreetScans, YieldPlausibleVehicles) {
   const auto scans = street_scans();
   if (scans.empty()) GTEST_SKIP() << "the recording shared/data/lidar_scans is not beside this repository";
   ASSERT_EQ(scans.size(), 22U);
-  LaserPreprocessor preprocessor({});
+  std::size_t most_points = 0;
+  for (const auto& scan : scans) most_points = std::max(most_points, scan.size());
+  LaserPreprocessor preprocessor({}, most_points);
   std::vector<LaserObject> objects, last;
   std::size_t steady = 0, compared = 0;
   for (const auto& scan : scans) {
