@@ -39,7 +39,7 @@ std::optional<CanController::Arrival> CanController::receive(const CanFrame& fra
     if (frame.data.size() < bytes) break;
     IncomingList& list = *incoming_[m];
     const ArrivalEffect effect = list.arrive(frame.data.first(bytes));
-    return Arrival{message.pdu, effect, list.arrived()};
+    return Arrival{message.pdu, effect, list.arrived(), list.torn()};
   }
   ++foreign_frames_;
   return std::nullopt;

@@ -26,7 +26,8 @@ class CanController {
   struct Arrival {
     PduId pdu{};
     ArrivalEffect effect{};
-    std::uint32_t sequence = 0;   // of the list the fragment belongs to
+    std::uint32_t sequence = 0;          // of the list the fragment belongs to
+    std::optional<std::uint32_t> torn;   // the list it displaced before that was complete
   };
   // Nothing for a foreign frame.
   std::optional<Arrival> receive(const CanFrame& frame);

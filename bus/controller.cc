@@ -268,7 +268,7 @@ void FlexRayController::receive(const Reception& reception) {
   IncomingList& list = *s.received[index_of(expected->pdu)];
   const auto bytes = static_cast<std::size_t>(s.cluster.pdu(expected->pdu).fragment_bytes);
   const ArrivalEffect effect = list.arrive(decoded.payload.first(bytes));
-  s.events.list_arrived(expected->pdu, effect, list.arrived(), reception.end);
+  s.events.list_arrived(expected->pdu, effect, list.arrived(), list.torn(), reception.end);
 }
 
 OutgoingList& FlexRayController::outgoing(PduId pdu) {

@@ -55,8 +55,10 @@ class ControllerEvents {
                           std::uint32_t sequence, int fragment, bool last) {
     (void)transmission, (void)cycle, (void)null_frame, (void)pdu, (void)sequence, (void)fragment, (void)last;
   }
-  virtual void list_arrived(PduId pdu, ArrivalEffect effect, std::uint32_t sequence, Microticks at) {
-    (void)pdu, (void)effect, (void)sequence, (void)at;
+  // A fragment of list `sequence`; `torn`: the list it displaced before that was complete.
+  virtual void list_arrived(PduId pdu, ArrivalEffect effect, std::uint32_t sequence, std::optional<std::uint32_t> torn,
+                            Microticks at) {
+    (void)pdu, (void)effect, (void)sequence, (void)torn, (void)at;
   }
   virtual void clock_corrected(std::int64_t cycle, const timebase::Correction& offset,
                                const timebase::Correction& rate, Microticks at) {

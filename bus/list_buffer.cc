@@ -54,6 +54,7 @@ std::uint32_t IncomingList::unwrap(std::uint32_t raw) const {
 }
 
 ArrivalEffect IncomingList::arrive(std::span<const std::byte> payload) {
+  torn_.reset();
   const std::uint32_t raw = wire::read_header_raw(*layout_, payload, sequence_signal_);
   const auto fragment = static_cast<int>(wire::read_header_raw(*layout_, payload, fragment_signal_));
   const auto count = static_cast<int>(wire::read_header_raw(*layout_, payload, count_signal_));
@@ -63,9 +64,8 @@ ArrivalEffect IncomingList::arrive(std::span<const std::byte> payload) {
   if (complete_ && sequence == complete_sequence_ && (!collecting_ || collecting_sequence_ != sequence))
     return ArrivalEffect::kDuplicate;
 
-  bool torn = false;
   if (!collecting_ || collecting_sequence_ != sequence || collecting_count_ != count) {
-    torn = collecting_;
+    if (collecting_) torn_ = collecting_sequence_;
     collecting_ = true;
     collecting_sequence_ = sequence;
     collecting_count_ = count;
@@ -78,7 +78,7 @@ ArrivalEffect IncomingList::arrive(std::span<const std::byte> payload) {
   present_[index] = true;
   ++collecting_present_;
   std::copy(payload.begin(), payload.end(), collecting_bytes_.begin() + fragment * layout_->fragment_bytes);
-  if (collecting_present_ < collecting_fragments_) return torn ? ArrivalEffect::kTorn : ArrivalEffect::kIncomplete;
+  if (collecting_present_ < collecting_fragments_) return torn_ ? ArrivalEffect::kTorn : ArrivalEffect::kIncomplete;
 
   std::swap(collecting_bytes_, complete_bytes_);
   complete_ = true;

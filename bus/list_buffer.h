@@ -44,7 +44,7 @@ enum class ArrivalEffect : std::uint8_t {
   kIncomplete,   // stored; fragments still missing
   kCompleted,    // the list is complete now and readable
   kDuplicate,    // this fragment of this sequence was there already (second channel, or repetition)
-  kTorn,         // stored; it displaced an incomplete list of another sequence, which is lost
+  kTorn,         // stored, incomplete; it displaced an incomplete list, which is lost: torn()
   kMalformed,    // header values that no sender of this layout produces; ignored
 };
 
@@ -62,6 +62,8 @@ class IncomingList {
   std::uint32_t collecting() const { return collecting_sequence_; }
   // The list that the newest well-formed fragment belongs to, whatever its effect.
   std::uint32_t arrived() const { return arrived_sequence_; }
+  // The incomplete list that the newest fragment displaced, if it did: also where that fragment is a whole list itself.
+  std::optional<std::uint32_t> torn() const { return torn_; }
 
  private:
   std::uint32_t unwrap(std::uint32_t raw) const;
@@ -71,6 +73,7 @@ class IncomingList {
   std::vector<bool> present_;
   std::uint32_t collecting_sequence_ = 0, complete_sequence_ = 0, arrived_sequence_ = 0;
   int collecting_count_ = 0, collecting_fragments_ = 0, collecting_present_ = 0, complete_fragments_ = 0;
+  std::optional<std::uint32_t> torn_;
   bool collecting_ = false, complete_ = false, read_ = false;
 };
 

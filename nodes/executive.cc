@@ -284,26 +284,32 @@ void Executive::receive(const bus::Reception& reception) { flexray_->receive(rec
 void Executive::receive_can(std::size_t can_bus, const bus::CanFrame& frame, Microticks now) {
   if (!cans_[can_bus]) return;
   if (const auto arrival = cans_[can_bus]->receive(frame))
-    arrived(arrival->pdu, static_cast<int>(can_bus), arrival->effect, arrival->sequence, now);
+    arrived(arrival->pdu, static_cast<int>(can_bus), arrival->effect, arrival->sequence, arrival->torn, now);
 }
 
-void Executive::list_arrived(PduId pdu, bus::ArrivalEffect effect, std::uint32_t sequence, Microticks at) {
-  arrived(pdu, -1, effect, sequence, at);
+void Executive::list_arrived(PduId pdu, bus::ArrivalEffect effect, std::uint32_t sequence,
+                             std::optional<std::uint32_t> torn, Microticks at) {
+  arrived(pdu, -1, effect, sequence, torn, at);
 }
 
-void Executive::arrived(PduId pdu, int can_bus, bus::ArrivalEffect effect, std::uint32_t sequence, Microticks at) {
-  if (effect != bus::ArrivalEffect::kTorn && effect != bus::ArrivalEffect::kCompleted) return;
-  bool reported = false;   // one hop per arrival, however many tasks read it; none where nobody does
+void Executive::arrived(PduId pdu, int can_bus, bus::ArrivalEffect effect, std::uint32_t sequence,
+                        std::optional<std::uint32_t> torn, Microticks at) {
+  // One fragment may end two lists: the one it tears, and its own if that is complete with it.
+  const bool complete = effect == bus::ArrivalEffect::kCompleted;
+  if (!torn && !complete) return;
+  bool reported = false;   // once per arrival, however many tasks read it; never where nobody does
   for (std::size_t t = 0; t < tasks_.size(); ++t) {
     TaskState& state = tasks_[t];
     for (std::size_t i = 0; i < state.inputs.size(); ++i) {
       const schedules::PortBinding& binding = state.task->reads[i];
       if (binding.pdu != pdu || (binding.can_bus ? static_cast<int>(*binding.can_bus) : -1) != can_bus) continue;
-      const bool torn = effect == bus::ArrivalEffect::kTorn;
-      if (!reported) hop(at, torn ? records::Hop::kTorn : records::Hop::kReceived, pdu, sequence, can_bus);
-      if (!reported && torn) ++counts_.torn_lists;
+      if (!reported && torn) {
+        ++counts_.torn_lists;
+        hop(at, records::Hop::kTorn, pdu, *torn, can_bus);
+      }
+      if (!reported && complete) hop(at, records::Hop::kReceived, pdu, sequence, can_bus);
       reported = true;
-      if (torn) continue;
+      if (!complete) continue;
       if (state.unread[i]) {
         ++counts_.overwritten_lists;
         hop(at, records::Hop::kOverwritten, pdu, *state.unread[i], can_bus);

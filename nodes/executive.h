@@ -48,7 +48,7 @@ struct ExecutiveConfig {
 struct ExecutiveCounts {
   std::uint64_t overruns = 0;              // activations that met a waiting one
   std::uint64_t deadlines_missed = 0;
-  std::uint64_t torn_lists = 0;
+  std::uint64_t torn_lists = 0;            // displaced before they were complete
   std::uint64_t overwritten_lists = 0;
   std::uint64_t slot_problems = 0;
   std::uint64_t saturated_signals = 0;
@@ -82,7 +82,8 @@ class Executive final : private bus::ControllerEvents {
   struct TaskState;
   struct SensorState;
 
-  void list_arrived(PduId pdu, bus::ArrivalEffect effect, std::uint32_t sequence, Microticks at) override;
+  void list_arrived(PduId pdu, bus::ArrivalEffect effect, std::uint32_t sequence, std::optional<std::uint32_t> torn,
+                    Microticks at) override;
   void frame_sent(const bus::Transmission& transmission, std::int64_t cycle, bool null_frame, PduId pdu,
                   std::uint32_t sequence, int fragment, bool last) override;
   void slot_problem(std::int64_t cycle, int slot, schedules::Channel channel, bus::SlotStatus status,
@@ -90,7 +91,8 @@ class Executive final : private bus::ControllerEvents {
   void clock_corrected(std::int64_t cycle, const timebase::Correction& offset, const timebase::Correction& rate,
                        Microticks at) override;
 
-  void arrived(PduId pdu, int can_bus, bus::ArrivalEffect effect, std::uint32_t sequence, Microticks at);
+  void arrived(PduId pdu, int can_bus, bus::ArrivalEffect effect, std::uint32_t sequence,
+               std::optional<std::uint32_t> torn, Microticks at);
   void arm_cycle();
   void activate_due(Microticks now);
   void activate(std::size_t task, Microticks now);

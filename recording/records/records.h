@@ -75,7 +75,7 @@ enum class Hop : std::uint8_t {
   kWritten = 1,    // a task's output became visible in a CNI
   kSent = 2,       // its last frame left (CAN end of frame, or end of the last slot)
   kReceived = 3,   // complete in the receiver's CNI
-  kTorn = 4,       // fragments of different lists met; not used
+  kTorn = 4,       // displaced before all its fragments were there: lost
   kRead = 5,       // a task read it at its start, for the first time
   kOverwritten = 6 // a newer list replaced it before it was ever read
 };

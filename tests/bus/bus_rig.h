@@ -60,7 +60,8 @@ struct Heard final : ControllerEvents {
   struct Problem { std::int64_t cycle; int slot; schedules::Channel channel; int status; };
   struct Sent { std::int64_t cycle; int slot; schedules::Channel channel; Microticks start; bool null_frame; PduId pdu;
                 std::uint32_t sequence; int fragment; bool last; std::vector<std::byte> bytes; };
-  struct Arrived { PduId pdu; ArrivalEffect effect; std::uint32_t sequence; Microticks at; };
+  struct Arrived { PduId pdu; ArrivalEffect effect; std::uint32_t sequence; Microticks at;
+                   std::optional<std::uint32_t> torn; };
   struct Corrected { std::int64_t cycle; timebase::Correction offset, rate; };
   std::vector<Problem> problems;
   std::vector<Sent> sent;
@@ -77,8 +78,9 @@ struct Heard final : ControllerEvents {
     sent.push_back({cycle, t.slot, t.channel, t.start, null_frame, pdu, sequence, fragment, last,
                     {t.bytes.begin(), t.bytes.end()}});
   }
-  void list_arrived(PduId pdu, ArrivalEffect effect, std::uint32_t sequence, Microticks at) override {
-    arrived.push_back({pdu, effect, sequence, at});
+  void list_arrived(PduId pdu, ArrivalEffect effect, std::uint32_t sequence, std::optional<std::uint32_t> torn,
+                    Microticks at) override {
+    arrived.push_back({pdu, effect, sequence, at, torn});
   }
   void clock_corrected(std::int64_t cycle, const timebase::Correction& offset, const timebase::Correction& rate,
                        Microticks) override {

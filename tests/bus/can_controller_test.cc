@@ -116,6 +116,8 @@ TEST(CanController, ArrivalNamesTheListOfItsFragment) {
   const auto torn = host.receive(wire.frames[3].view());
   EXPECT_EQ(torn->effect, ArrivalEffect::kTorn);
   EXPECT_EQ(torn->sequence, 3u);
+  EXPECT_EQ(torn->torn, 2u);
+  EXPECT_FALSE(host.receive(wire.frames[4].view())->torn.has_value());
 }
 
 TEST(CanControllerDeathTest, ListsOfOthersAreOurBugs) {

@@ -108,13 +108,28 @@ TEST(IncomingList, ATornListIsNeverHandedOut) {
   for (int f = 0; f < 3; ++f) incoming.arrive(whole.fragment(f));
   EXPECT_EQ(incoming.arrive(torn.fragment(0)), kIncomplete);
   EXPECT_EQ(incoming.arrive(torn.fragment(1)), kIncomplete);
+  EXPECT_EQ(incoming.torn(), std::nullopt);
   EXPECT_EQ(incoming.arrive(next.fragment(0)), kTorn);
   EXPECT_EQ(incoming.arrived(), 3u);
+  EXPECT_EQ(incoming.torn(), 2u);
   expect_latest(incoming, whole);
   EXPECT_EQ(incoming.arrive(next.fragment(1)), kIncomplete);
+  EXPECT_EQ(incoming.torn(), std::nullopt) << "it is lost once";
   expect_latest(incoming, whole);
   EXPECT_EQ(incoming.arrive(next.fragment(2)), kCompleted);
   expect_latest(incoming, next);
+}
+
+TEST(IncomingList, AWholeListInOneFragmentTearsToo) {
+  const auto layout = list_layout();
+  IncomingList incoming(layout);
+  MadeList torn(layout, 2, 9, 20), small(layout, 3, 2, 30);
+  EXPECT_EQ(incoming.arrive(torn.fragment(0)), kIncomplete);
+  EXPECT_EQ(incoming.arrive(small.fragment(0)), kCompleted);
+  EXPECT_EQ(incoming.torn(), 2u);
+  EXPECT_EQ(incoming.arrive(small.fragment(0)), kDuplicate);
+  EXPECT_EQ(incoming.torn(), std::nullopt);
+  expect_latest(incoming, small);
 }
 
 // Same sequence number, another count: two different lists all the same.
