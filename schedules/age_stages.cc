@@ -77,6 +77,8 @@ class Builder {
     path.stages.push_back(std::move(stage));
   }
 
+  // Between two oscillators: the one something runs on and the one it is judged by.
+
   const Task* measuring_task(NodeId node, SensorId sensor) const {
     for (const Task& task : cluster_.node(node).tasks)
       if (task.activation.kind == ActivationKind::kSensor && task.activation.sensor == sensor) return &task;
@@ -105,14 +107,18 @@ class Builder {
       return;
     }
     const CanBus& bus = cluster_.can_buses[*binding.can_bus];
-    const auto message = std::find_if(bus.messages.begin(), bus.messages.end(),
-                                      [&](const CanMessage& m) { return m.pdu == binding.pdu; });
-    TTF_CHECK(message != bus.messages.end(), "{} is no message on {}", layout.name, bus.name);
-    const auto worst = can_worst_response(cluster_, bus, *message);
+    const auto worst = can_worst_response(cluster_, bus, *message_of(bus, binding.pdu));
     TTF_CHECK(worst.has_value(), "{} is overloaded", bus.name);
     const Duration intermission{kIntermissionBits * 1'000'000'000 / bus.nominal_bit_rate};
     span(path, fmt::format("{} on {}", layout.name, bus.name),
          can_best_case(bus, layout.fragment_bytes) - intermission, *worst);
+  }
+
+  const CanMessage* message_of(const CanBus& bus, PduId pdu) const {
+    const auto message = std::find_if(bus.messages.begin(), bus.messages.end(),
+                                      [&](const CanMessage& m) { return m.pdu == pdu; });
+    TTF_CHECK(message != bus.messages.end(), "{} is no message on {}", cluster_.pdu(pdu).name, bus.name);
+    return &*message;
   }
 
   const Task* reader(const PortBinding& out, NodeId& node) const {
@@ -150,7 +156,34 @@ class Builder {
     } else if (!activates(list, task)) {
       span(path, who + " is waited for", {}, longest_period(task));
     }
-    queue(path, id, task);
+    queue(path, id, task, activates(list, task) ? lists_before(node, list) : Before{});
+  }
+
+  // Other tasks that lists on the same CAN activate. One list's last frame ends before the other's next begins, so when
+  // `in` is there, such a task had at least the processor for `lead`: as long as the last frame of `in` takes, or, behind
+  // lists that have to wait for every frame of `in`, all of it. Of a shorter list the lead is shorter, but it was there
+  // as much earlier, so that the longest is the worst.
+  struct Before {
+    std::vector<const Task*> tasks;
+    Duration lead{};
+  };
+  Before lists_before(const Node& node, const PortBinding& in) const {
+    Before before;
+    if (!in.can_bus) return before;
+    const CanBus& bus = cluster_.can_buses[*in.can_bus];
+    const CanMessage& own = *message_of(bus, in.pdu);
+    for (const Task& other : node.tasks) {
+      if (other.activation.kind != ActivationKind::kMessage) continue;
+      for (const PortBinding& binding : other.reads) {
+        if (binding.port != other.activation.port || binding.can_bus != in.can_bus || binding.pdu == in.pdu) continue;
+        const Duration lead = message_of(bus, binding.pdu)->identifier > own.identifier
+                                  ? can_list_worst_case(bus, cluster_.pdu(in.pdu))
+                                  : can_worst_case(bus, cluster_.pdu(in.pdu).fragment_bytes);
+        before.lead = before.tasks.empty() ? lead : std::min(before.lead, lead);
+        before.tasks.push_back(&other);
+      }
+    }
+    return before;
   }
 
   // Does this list's arrival set the task off, rather than another list's?
@@ -178,16 +211,26 @@ class Builder {
   }
 
   // First come, first served: what the bound on its response leaves besides its own execution.
-  void queue(Path& path, NodeId id, const Task& task) {
-    const Duration others = response(id, task) - task.worst_case;
+  void queue(Path& path, NodeId id, const Task& task, const Before& before) {
+    const Duration others = response(id, task, before) - task.worst_case;
     if (others > Duration{})
       span(path, fmt::format("{}.{} waits for other tasks", cluster_.node(id).name, task.name), {}, others);
   }
 
-  Duration response(NodeId id, const Task& task) const {
-    const auto responses = worst_responses(cluster_, id);
-    TTF_CHECK(responses.has_value(), "{} may be busy without end", cluster_.node(id).name);
-    return (*responses)[static_cast<std::size_t>(&task - cluster_.node(id).tasks.data())].worst;
+  Duration response(NodeId id, const Task& task) const { return response(id, task, Before{}); }
+  Duration response(NodeId id, const Task& task, const Before& before) const {
+    const Node& node = cluster_.node(id);
+    // The lead is true time; the processor's may be slower.
+    std::vector<Duration> ahead(node.tasks.size());
+    for (const Task* other : before.tasks)
+      ahead[index_in(node, *other)] = {std::max<std::int64_t>(0, before.lead.ns - clocks_.drift_ns(before.lead.ns))};
+    const auto worst = worst_response(cluster_, id, index_in(node, task), ahead);
+    TTF_CHECK(worst.has_value(), "{} may be busy without end", node.name);
+    return *worst;
+  }
+
+  static std::size_t index_in(const Node& node, const Task& task) {
+    return static_cast<std::size_t>(&task - node.tasks.data());
   }
 
   // From the fusing task's start to the start of the image's reader.
@@ -208,7 +251,7 @@ class Builder {
       if (!follows && publisher->activation.kind != ActivationKind::kTime) return;
       execution(path, id, fusing);
       if (!follows) instant(path, fmt::format("{}.{}", node.name, publisher->name), publisher->activation.at);
-      queue(path, id, *publisher);
+      queue(path, id, *publisher, {});
     }
     execution(path, id, *publisher);
     transfer(path, *image);

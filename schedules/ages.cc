@@ -18,6 +18,7 @@ constexpr std::int64_t kFromCycle = 256;
 struct Extreme {
   std::vector<std::int64_t> shares;
   std::int64_t sum = 0;
+  std::int64_t on_grid = 0;   // of the sum, from the first stage on the grid on
 };
 
 class Ages {
@@ -89,15 +90,16 @@ class Ages {
 
   Extreme extreme(const Path& path, const Sensor& sensor, std::size_t last, bool latest) const {
     Extreme found;
+    std::vector<std::int64_t> before;
     const auto consider = [&](const std::vector<std::int64_t>& shares) {
       std::int64_t sum = 0;
       for (const std::int64_t share : shares) sum += share;
       if (!found.shares.empty() && (latest ? sum <= found.sum : sum >= found.sum)) return;
-      found = {shares, sum};
+      found = {shares, sum, sum};
+      for (const std::int64_t share : before) found.on_grid -= share;
     };
     // Up to the first stage on the grid, a free-running sensor's stages are spans.
     std::size_t gate = 0;
-    std::vector<std::int64_t> before;
     if (!sensor.scheduled)
       for (; gate < last && path.stages[gate].kind == Stage::Kind::kSpan; ++gate)
         before.push_back(latest ? path.stages[gate].worst.ns : path.stages[gate].best.ns);
@@ -127,8 +129,9 @@ class Ages {
               std::vector<Contribution>* contributions) const {
     const Sensor& sensor = cluster_.sensor(id);
     const Extreme low = extreme(path, sensor, last, false), high = extreme(path, sensor, last, true);
-    const std::int64_t clocks_low = std::min(low.sum, clocks_.apart_ns + clocks_.drift_ns(low.sum));
-    const std::int64_t clocks_high = clocks_.apart_ns + clocks_.drift_ns(high.sum);
+    // Spans before the grid have their drift against any clock in them already.
+    const std::int64_t clocks_low = std::min(low.sum, clocks_.apart_ns + clocks_.drift_ns(low.on_grid));
+    const std::int64_t clocks_high = clocks_.apart_ns + clocks_.drift_ns(high.on_grid);
     best = {low.sum - clocks_low};
     worst = {high.sum + clocks_high};
     if (contributions == nullptr) return;

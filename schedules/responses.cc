@@ -33,6 +33,7 @@ class NodeTasks {
   NodeTasks(const Cluster& cluster, NodeId id) : cluster_(cluster), node_(cluster.node(id)) {
     const std::size_t count = node_.tasks.size();
     before_.resize(count);
+    ahead_.resize(count);
     for (std::size_t t = 0; t < count; ++t)
       if (node_.tasks[t].activation.kind == ActivationKind::kCompletion)
         for (std::size_t other = 0; other < count; ++other)
@@ -55,13 +56,7 @@ class NodeTasks {
   std::optional<std::vector<TaskResponse>> responses() {
     const auto busy = busy_time();
     if (!busy) return std::nullopt;
-    for (std::size_t t = 0; t < node_.tasks.size(); ++t)
-      if (const auto& from = arrivals_[t])
-        for (std::int64_t at = from->period - from->jitter % from->period; at <= *busy; at += from->period)
-          steps_.push_back(at);
-    std::sort(steps_.begin(), steps_.end());
-    steps_.erase(std::unique(steps_.begin(), steps_.end()), steps_.end());
-
+    find_steps(*busy);
     result_.resize(node_.tasks.size());
     for (std::size_t t = 0; t < node_.tasks.size(); ++t)
       if (!before_[t]) result_[t] = first_of_chain(t, *busy);
@@ -77,7 +72,29 @@ class NodeTasks {
     return result_;
   }
 
+  // Of a task that messages activate, others ahead of it.
+  std::optional<Duration> response_behind(std::size_t task, std::span<const Duration> ahead) {
+    const auto busy = busy_time();
+    if (!busy) return std::nullopt;
+    for (std::size_t t = 0; t < ahead.size(); ++t) ahead_[t] = ahead[t].ns;
+    find_steps(*busy);
+    return first_of_chain(task, *busy).worst;
+  }
+
  private:
+  // The windows from which one more message may be in.
+  void find_steps(std::int64_t busy) {
+    for (std::size_t t = 0; t < node_.tasks.size(); ++t) {
+      if (before_[t] || by_time(t)) continue;
+      if (ahead_[t] > 0) steps_.push_back(ahead_[t]);
+      if (const auto& from = arrivals_[t])
+        for (std::int64_t at = from->period - from->jitter % from->period; at <= busy; at += from->period)
+          steps_.push_back(ahead_[t] + at);
+    }
+    std::sort(steps_.begin(), steps_.end());
+    steps_.erase(std::unique(steps_.begin(), steps_.end()), steps_.end());
+  }
+
   bool by_time(std::size_t task) const { return node_.tasks[task].activation.kind == ActivationKind::kTime; }
 
   std::size_t root(std::size_t task) const {
@@ -173,8 +190,11 @@ class NodeTasks {
     Int128 work = 0;
     for (std::size_t t = 0; t < node_.tasks.size(); ++t) {
       if (before_[t] || by_time(t)) continue;
+      // Whose newest activation was some time ago has none in the last of the window.
+      const std::int64_t before = window - ahead_[t];
+      if (before < 0) continue;
       const auto& from = arrivals_[t];
-      work += static_cast<Int128>(whole_[t]) * (from ? (window + from->jitter) / from->period + 1 : 1);
+      work += static_cast<Int128>(whole_[t]) * (from ? (before + from->jitter) / from->period + 1 : 1);
     }
     return static_cast<std::int64_t>(std::min<Int128>(work, 2 * kLongest_ns));
   }
@@ -280,11 +300,12 @@ class NodeTasks {
   const Cluster& cluster_;
   const Node& node_;
   std::vector<std::optional<std::size_t>> before_;     // the task whose end activates it
+  std::vector<std::int64_t> ahead_;                    // how long ago its newest activation was, at least
   std::vector<std::int64_t> whole_;                    // of a chain, at its first task
   std::vector<std::optional<Arrivals>> arrivals_;      // of first tasks that messages and sensors activate
   std::vector<std::pair<std::int64_t, std::size_t>> instants_;   // of 64 cycles, in global time, and the task
   std::int64_t round_ = 0;
-  std::vector<std::int64_t> steps_;                    // windows from which one more message may be in
+  std::vector<std::int64_t> steps_;                    // see find_steps()
   std::vector<TaskResponse> result_;
 };
 
@@ -298,6 +319,16 @@ Duration longest_busy_time(const Cluster& cluster, const Node& node) {
 
 std::optional<std::vector<TaskResponse>> worst_responses(const Cluster& cluster, NodeId node) {
   return NodeTasks(cluster, node).responses();
+}
+
+std::optional<Duration> worst_response(const Cluster& cluster, NodeId node, std::size_t task,
+                                       std::span<const Duration> ahead) {
+  NodeTasks tasks(cluster, node);
+  if (std::any_of(ahead.begin(), ahead.end(), [](Duration lead) { return lead > Duration{}; }))
+    return tasks.response_behind(task, ahead);
+  const auto all = tasks.responses();
+  if (!all) return std::nullopt;
+  return (*all)[task].worst;
 }
 
 }  // namespace ttf::schedules

@@ -18,6 +18,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/ids.h"
@@ -35,6 +36,11 @@ struct TaskResponse {
 // By task, in file order; nothing for a node that may be busy without end. Tasks' activations must be in order (chains lead
 // back to a beginning, no two tasks that time activates overlap), as the checker demands first.
 std::optional<std::vector<TaskResponse>> worst_responses(const Cluster& cluster, NodeId node);
+
+// The same of one task, where of some others more is known: `ahead`, by task, is how long before this task's activation the
+// newest activation of the other was at the latest (zero: nothing is known). For a task that messages activate.
+std::optional<Duration> worst_response(const Cluster& cluster, NodeId node, std::size_t task,
+                                       std::span<const Duration> ahead);
 
 // The longest time a node may be busy without a break that worst_responses() looks into.
 Duration longest_busy_time(const Cluster& cluster, const Node& node);

@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "schedules/can_load.h"
+#include "tests/schedules/cluster_file.h"
 #include "tests/schedules/small_cluster.h"
 
 namespace ttf::schedules {
@@ -36,6 +40,15 @@ TEST(Ages, OfAFreeSensorAreTheAdversePhases) {
   EXPECT_EQ(ages[0].use_best.ns, 1'000'000 - kRounding + 5'500'000 - 175'000 - kClocks);
 }
 
+// Oscillators 1500 ppm off to either side: 3000 ppm of the execution, and 3000 ppm of the wait on the grid, but the
+// execution's once only.
+TEST(Ages, DriftCountsOnceOnEachStretch) {
+  Cluster cluster = small(false);
+  for (Node& node : cluster.nodes) node.drift_ppb = 1'500'000;
+  const auto ages = measurement_ages(cluster);
+  EXPECT_EQ(ages[0].fusion_worst.ns, 1'000'000 + 3'000 + kRounding + 5'084'000 - 1 + kApart + 5'083 * 3 + 1);
+}
+
 TEST(Ages, ContributionsComeInTheOrderOfTheWay) {
   const auto ages = measurement_ages(small(false));
   ASSERT_EQ(ages[0].to_fusion.size(), 3u);
@@ -66,6 +79,42 @@ TEST(Ages, ATaskInTheWayCountsOnce) {
   const auto plain = measurement_ages(small(false)), delayed = measurement_ages(cluster);
   EXPECT_EQ(delayed[0].use_best, plain[0].use_best);
   EXPECT_EQ(delayed[0].use_worst.ns - plain[0].use_worst.ns, 3'000'000 + kRounding);
+}
+
+// The gateway's tasks read lists that come over one CAN, the laser's before the camera's. What is left of the camera's
+// execution when the laser's list is there: that list took nine frames since the camera's last one. The other way round it is
+// one frame.
+TEST(Ages, ListsOnOneCanComeOneAfterTheOther) {
+  Cluster cluster = load_cluster(shipped_path("paper_unsynchronised"));
+  const auto waits = [&](const std::string& sensor) {
+    for (const AgePath& path : measurement_ages(cluster))
+      if (cluster.sensor(path.sensor).name == sensor)
+        for (const Contribution& part : path.to_fusion)
+          if (part.name.find("waits for other tasks") != std::string::npos) return part.worst;
+    return Duration{};
+  };
+  const CanBus bus = *std::find_if(cluster.can_buses.begin(), cluster.can_buses.end(),
+                                    [](const CanBus& b) { return b.name == "observation_can"; });
+  const Duration frame = can_worst_case(bus, 56);
+  const Duration unsure = Duration::microseconds(20);   // 3000 ppm and rounding
+  ASSERT_GT(Duration::microseconds(200), frame);
+  EXPECT_EQ(waits("laser"), Duration{});
+  EXPECT_GT(waits("camera"), Duration::microseconds(200) - frame);
+  EXPECT_LT(waits("camera"), Duration::microseconds(200) - frame + unsure);
+  const NodeId gateway = *cluster.find_node("gateway");
+  for (Task& task : cluster.nodes[index_of(gateway)].tasks) task.worst_case = Duration::milliseconds(3);
+  EXPECT_GT(waits("laser"), Duration::milliseconds(3) - frame * 9);
+  EXPECT_LT(waits("laser"), Duration::milliseconds(3) - frame * 9 + unsure);
+  EXPECT_GT(waits("camera"), Duration::milliseconds(3) - frame);
+  // Lists of another CAN may be there at the same time.
+  cluster.can_buses.push_back(bus);
+  for (Node& node : cluster.nodes)
+    for (Task& task : node.tasks)
+      for (auto* bindings : {&task.reads, &task.writes})
+        for (PortBinding& binding : *bindings)
+          if (binding.can_bus && cluster.pdu(binding.pdu).name == "camera_objects")
+            binding.can_bus = cluster.can_buses.size() - 1;
+  EXPECT_GT(waits("laser"), Duration::milliseconds(3));
 }
 
 // Written when slot 3 of an odd cycle begins at the latest, a list is fused in that cycle at 1 ms; written later, 10 ms
