@@ -13,6 +13,7 @@ namespace {
 constexpr int kStuffedClassic = 34;      // SOF to the end of the CRC, without data
 constexpr int kUnstuffed = 13;           // CRC delimiter to the end of the intermission
 constexpr int kArbitrationFd = 17;       // SOF, identifier, RRS, IDE, FDF, res, BRS
+constexpr int kStuffedFd = 14;           // of them up to IDE: FDF, res and BRS alternate, so no run goes on
 constexpr int kControlFd = 5;            // ESI, DLC
 
 }  // namespace
@@ -45,9 +46,8 @@ Duration can_worst_case(const CanBus& bus, int bytes) {
   const int payload = 8 * *can_data_length(bus.flexible_data_rate, bytes);
   // After the first bit, every fourth can need a stuff bit.
   if (bus.flexible_data_rate) {
-    const int arbitration_stuff = (kArbitrationFd - 1) / 4;
-    bits.nominal += arbitration_stuff;
-    bits.data += (kArbitrationFd + kControlFd + payload - 1) / 4 - arbitration_stuff;
+    bits.nominal += (kStuffedFd - 1) / 4;
+    bits.data += (1 + kControlFd + payload - 1) / 4;   // BRS begins a run
   } else {
     bits.nominal += (kStuffedClassic + payload - 1) / 4;
   }

@@ -7,9 +7,9 @@
 // ACK and its delimiter, 7 EOF, 3 intermission).
 //
 // CAN FD with bit-rate switching (ISO 11898-1:2015): SOF to BRS (17 bits) and the 13 unstuffed bits at the nominal rate;
-// ESI, DLC, data, stuff count and CRC at the data rate. Dynamic stuffing ends with the data; stuff count (4 bits) and CRC
-// (17 bits up to 16 bytes, else 21) carry fixed stuff bits, one first and one after every fourth bit: 6 or 7. The two
-// bits in which the rate changes (BRS, CRC delimiter) are counted at the nominal rate, which is on the safe side.
+// ESI, DLC, data, stuff count and CRC at the data rate. SOF to IDE (14 bits) need 3 stuff bits at worst; FDF, res and BRS
+// alternate, so that counting begins anew with BRS. Dynamic stuffing ends with the data; stuff count (4 bits) and CRC (17
+// bits up to 16 bytes, else 21) carry fixed stuff bits, one first and one after every fourth bit: 6 or 7. The two bits in which the rate changes (BRS, CRC delimiter) are counted at the nominal rate, which is on the safe side.
 #pragma once
 
 #include <cstdint>
