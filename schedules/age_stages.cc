@@ -77,8 +77,6 @@ class Builder {
     path.stages.push_back(std::move(stage));
   }
 
-  // Between two oscillators: the one something runs on and the one it is judged by.
-
   const Task* measuring_task(NodeId node, SensorId sensor) const {
     for (const Task& task : cluster_.node(node).tasks)
       if (task.activation.kind == ActivationKind::kSensor && task.activation.sensor == sensor) return &task;

@@ -46,7 +46,7 @@ TEST(Ages, DriftCountsOnceOnEachStretch) {
   Cluster cluster = small(false);
   for (Node& node : cluster.nodes) node.drift_ppb = 1'500'000;
   const auto ages = measurement_ages(cluster);
-  EXPECT_EQ(ages[0].fusion_worst.ns, 1'000'000 + 3'000 + kRounding + 5'084'000 - 1 + kApart + 5'083 * 3 + 1);
+  EXPECT_EQ(ages[0].fusion_worst.ns, 1'000'000 + 3'001 + kRounding + 5'084'000 - 1 + kApart + 15'251);
 }
 
 TEST(Ages, ContributionsComeInTheOrderOfTheWay) {
