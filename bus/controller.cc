@@ -156,7 +156,6 @@ void FlexRayController::advance(Microticks now) {
       case State::Next::kCycleEnd:
         clock_.next_cycle(s.next_rate);
         s.start_cycle(clock_.cycle());
-        s.events.cycle_started(clock_.cycle(), at);
         break;
     }
   }
@@ -267,7 +266,8 @@ void FlexRayController::receive(const Reception& reception) {
   if (expected->pdu == kNoPdu || decoded.header.null_frame) return;
   IncomingList& list = *s.received[index_of(expected->pdu)];
   const auto bytes = static_cast<std::size_t>(s.cluster.pdu(expected->pdu).fragment_bytes);
-  const ArrivalEffect effect = list.arrive(decoded.payload.first(bytes));
+  const ArrivalEffect effect = list.arrive(decoded.payload.first(bytes), expected->fragment);
+  if (effect == ArrivalEffect::kMalformed) seen.errors[c] |= kContentError;   // a frame, but not of this slot's list
   s.events.list_arrived(expected->pdu, effect, list.arrived(), list.torn(), reception.end);
 }
 

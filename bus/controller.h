@@ -46,7 +46,6 @@ enum SlotStatus : std::uint8_t {
 class ControllerEvents {
  public:
   virtual ~ControllerEvents() = default;
-  virtual void cycle_started(std::int64_t cycle, Microticks at) { (void)cycle, (void)at; }
   virtual void slot_problem(std::int64_t cycle, int slot, schedules::Channel channel, SlotStatus status, Microticks at) {
     (void)cycle, (void)slot, (void)channel, (void)status, (void)at;
   }
@@ -60,6 +59,7 @@ class ControllerEvents {
                             Microticks at) {
     (void)pdu, (void)effect, (void)sequence, (void)torn, (void)at;
   }
+  // The corrections as computed from a double cycle: at the end of its odd cycle's static segment, before either is in force.
   virtual void clock_corrected(std::int64_t cycle, const timebase::Correction& offset,
                                const timebase::Correction& rate, Microticks at) {
     (void)cycle, (void)offset, (void)rate, (void)at;

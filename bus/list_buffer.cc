@@ -38,55 +38,92 @@ IncomingList::IncomingList(const schedules::PduLayout& layout)
       count_signal_(wire::header_signal(layout, "count")),
       collecting_bytes_(capacity(layout)),
       complete_bytes_(capacity(layout)),
-      present_(static_cast<std::size_t>(layout.max_fragments())) {}
-
-std::uint32_t IncomingList::unwrap(std::uint32_t raw) const {
-  const int bits = layout_->header[sequence_signal_].bits;
-  if (bits >= 32) return raw;
-  // The value nearest to the last one seen; counting starts at zero, so nothing before it.
-  const std::int64_t modulus = std::int64_t{1} << bits;
-  const std::int64_t last = collecting_ ? collecting_sequence_ : complete_ ? complete_sequence_ : 0;
-  std::int64_t difference = (raw - last) % modulus;
-  if (difference < 0) difference += modulus;
-  if (difference > modulus / 2) difference -= modulus;
-  const std::int64_t value = last + difference;
-  return static_cast<std::uint32_t>(value < 0 ? value + modulus : value);
+      present_(static_cast<std::size_t>(layout.max_fragments())) {
+  for (std::size_t s = 0; s < layout.element.size(); ++s) {
+    const schedules::Signal& signal = layout.element[s];
+    const std::uint32_t highest = wire::highest_code(signal);
+    if (highest < (std::uint64_t{1} << signal.bits) - 1) bounded_.push_back({s, highest});
+  }
 }
 
-ArrivalEffect IncomingList::arrive(std::span<const std::byte> payload) {
-  torn_.reset();
-  const std::uint32_t raw = wire::read_header_raw(*layout_, payload, sequence_signal_);
-  const auto fragment = static_cast<int>(wire::read_header_raw(*layout_, payload, fragment_signal_));
-  const auto count = static_cast<int>(wire::read_header_raw(*layout_, payload, count_signal_));
-  if (count > layout_->max_elements || fragment >= layout_->fragments_of(count)) return ArrivalEffect::kMalformed;
-  const std::uint32_t sequence = unwrap(raw);
-  arrived_sequence_ = sequence;
-  if (complete_ && sequence == complete_sequence_ && (!collecting_ || collecting_sequence_ != sequence))
-    return ArrivalEffect::kDuplicate;
+// How far `raw` lies ahead of list `of` on the circle: 1..half of it is newer, 0 the same, below 0 older.
+std::int64_t IncomingList::ahead(std::uint32_t raw, std::uint32_t of) const {
+  const std::int64_t circle = std::int64_t{1} << layout_->header[sequence_signal_].bits;
+  const std::int64_t difference = (static_cast<std::int64_t>(raw) - of) & (circle - 1);
+  return difference > circle / 2 ? difference - circle : difference;
+}
 
-  if (!collecting_ || collecting_sequence_ != sequence || collecting_count_ != count) {
-    if (collecting_) torn_ = collecting_sequence_;
-    collecting_ = true;
-    collecting_sequence_ = sequence;
-    collecting_count_ = count;
-    collecting_fragments_ = layout_->fragments_of(count);
-    collecting_present_ = 0;
-    std::fill(present_.begin(), present_.end(), false);
-  }
+bool IncomingList::well_formed(std::span<const std::byte> payload, int fragment, int count) const {
+  if (count > layout_->max_elements || fragment >= layout_->fragments_of(count)) return false;
+  const int here = std::min(count - fragment * layout_->elements_per_fragment, layout_->elements_per_fragment);
+  for (const Bounded& bounded : bounded_)
+    for (int i = 0; i < here; ++i)
+      if (wire::read_element_raw(*layout_, payload, i, bounded.signal) > bounded.highest) return false;
+  return true;
+}
+
+// Counts the stale lists in a row; true at the one that tells a sender that counts anew.
+bool IncomingList::restarted(std::uint32_t raw) {
+  if (stale_lists_ > 0 && raw == stale_raw_) return false;   // another fragment, or the other channel
+  stale_lists_ = stale_lists_ > 0 && ahead(raw, stale_raw_) > 0 ? stale_lists_ + 1 : 1;
+  stale_raw_ = raw;
+  return stale_lists_ == kRestartLists;
+}
+
+// Makes `sequence` the list that is collected; an incomplete one that is displaced is torn.
+void IncomingList::begin(std::uint32_t sequence, int count) {
+  if (collecting_ && collecting_sequence_ == sequence && collecting_count_ == count) return;
+  if (collecting_) torn_ = collecting_sequence_;
+  collecting_ = true;
+  collecting_sequence_ = sequence;
+  collecting_count_ = count;
+  collecting_fragments_ = layout_->fragments_of(count);
+  collecting_present_ = 0;
+  std::fill(present_.begin(), present_.end(), false);
+}
+
+ArrivalEffect IncomingList::store(std::span<const std::byte> payload, int fragment) {
   const auto index = static_cast<std::size_t>(fragment);
   if (present_[index]) return ArrivalEffect::kDuplicate;
   present_[index] = true;
   ++collecting_present_;
   std::copy(payload.begin(), payload.end(), collecting_bytes_.begin() + fragment * layout_->fragment_bytes);
   if (collecting_present_ < collecting_fragments_) return torn_ ? ArrivalEffect::kTorn : ArrivalEffect::kIncomplete;
-
   std::swap(collecting_bytes_, complete_bytes_);
   complete_ = true;
   read_ = false;
-  complete_sequence_ = sequence;
+  complete_sequence_ = collecting_sequence_;
   complete_fragments_ = collecting_fragments_;
   collecting_ = false;
   return ArrivalEffect::kCompleted;
+}
+
+ArrivalEffect IncomingList::arrive(std::span<const std::byte> payload, std::optional<int> expected) {
+  torn_.reset();
+  const std::uint32_t raw = wire::read_header_raw(*layout_, payload, sequence_signal_);
+  const auto fragment = static_cast<int>(wire::read_header_raw(*layout_, payload, fragment_signal_));
+  const auto count = static_cast<int>(wire::read_header_raw(*layout_, payload, count_signal_));
+  if ((expected && fragment != *expected) || !well_formed(payload, fragment, count)) return ArrivalEffect::kMalformed;
+  if (!collecting_ && !complete_) {
+    arrived_sequence_ = raw;
+    begin(raw, count);
+    return store(payload, fragment);
+  }
+  const std::uint32_t newest = collecting_ ? collecting_sequence_ : complete_sequence_;
+  const std::int64_t difference = ahead(raw, newest);
+  arrived_sequence_ = static_cast<std::uint32_t>(newest + difference);
+  // The second channel's copy of the latest, also where the next list has begun already.
+  if (complete_ && arrived_sequence_ == complete_sequence_ && (!collecting_ || difference < 0)) {
+    stale_lists_ = 0;
+    return ArrivalEffect::kDuplicate;
+  }
+  if (difference < 0) {
+    if (!restarted(raw)) return ArrivalEffect::kStale;
+    arrived_sequence_ = raw;
+  }
+  stale_lists_ = 0;
+  begin(arrived_sequence_, count);
+  return store(payload, fragment);
 }
 
 std::optional<ListView> IncomingList::latest() const {

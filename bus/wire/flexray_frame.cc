@@ -14,6 +14,7 @@ std::size_t encode_frame(const FrameHeader& header, schedules::Channel channel, 
   TTF_CHECK(header.frame_id >= 1 && header.frame_id <= 2047 && header.cycle <= 63, "frame id {} cycle {}",
             header.frame_id, header.cycle);
   TTF_CHECK(header.sync || !header.startup, "a startup frame is a sync frame");
+  TTF_CHECK(!header.null_frame || !header.payload_preamble, "a null frame has no payload preamble");
   const auto words = static_cast<std::uint8_t>(payload.size() / 2);
   const std::uint64_t crc = header_crc(header.sync, header.startup, header.frame_id, words);
   const std::uint64_t bits = (header.payload_preamble ? std::uint64_t{1} << 38 : 0) |
@@ -58,6 +59,8 @@ DecodedFrame decode_frame(schedules::Channel channel, std::span<const std::byte>
     decoded.error = FrameError::kFrameCrc;
   else if (header.frame_id == 0)
     decoded.error = FrameError::kReservedId;
+  else if (header.null_frame && header.payload_preamble)
+    decoded.error = FrameError::kNullPreamble;
   decoded.payload = frame.subspan(kHeaderBytes, payload);
   return decoded;
 }

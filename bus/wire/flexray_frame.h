@@ -1,4 +1,11 @@
-// The FlexRay frame: 5-byte header, 0..127 two-byte words of payload, 3-byte trailer (FlexRay 2.1A, chapter 4).
+// The FlexRay frame (FlexRay 2.1A, chapter 4): 5-byte header, 0..127 two-byte words of payload, 3-byte trailer, all of it
+// most significant bit first:
+//
+//   bit  39        38        37         36    35       34..24    23..17         16..6       5..0
+//        reserved  preamble  null (0!)  sync  startup  frame id  payload words  header CRC  cycle
+//
+// Encoding takes what a controller of ours means to send: anything out of range is our bug and fails a check. Decoding
+// takes any bytes at all and says what is wrong with them. Neither allocates; what a frame means is the caller's business.
 #pragma once
 
 #include <array>
@@ -17,7 +24,7 @@ inline constexpr std::size_t kMaxPayloadBytes = 254;
 inline constexpr std::size_t kMaxFrameBytes = kHeaderBytes + kMaxPayloadBytes + kTrailerBytes;
 
 struct FrameHeader {
-  bool payload_preamble = false;
+  bool payload_preamble = false;  // the payload begins with a network management vector (static segment); never in a null frame
   bool null_frame = false;      // on the wire the indicator is inverted
   bool sync = false;
   bool startup = false;
@@ -27,16 +34,28 @@ struct FrameHeader {
   std::uint8_t cycle = 0;       // 0..63
 };
 
-// Writes the whole frame, both CRCs computed, and returns its length in bytes. payload.size() must be even and <= 254.
+// Writes the whole frame and returns its length in bytes. payload_words and header_crc of `header` are not read: the first
+// follows from `payload` (an even number of bytes, at most 254), the CRCs are computed. Checks the ranges above, that a
+// startup frame is a sync frame, that a null frame has no preamble, and that `frame` has room.
 std::size_t encode_frame(const FrameHeader& header, schedules::Channel channel, std::span<const std::byte> payload,
                          std::span<std::byte> frame);
 
-enum class FrameError : std::uint8_t { kNone, kTooShort, kLength, kHeaderCrc, kFrameCrc, kReservedId };
-struct DecodedFrame {
-  FrameError error = FrameError::kNone;
-  FrameHeader header;
-  std::span<const std::byte> payload;
+enum class FrameError : std::uint8_t {
+  kNone,
+  kTooShort,       // no room for header and trailer; the header is not filled in
+  kLength,         // the header's payload length is not what is there
+  kHeaderCrc,
+  kFrameCrc,       // also where the frame was sent on the other channel
+  kReservedId,     // frame id 0
+  kNullPreamble,   // a null frame with the payload preamble indicator set
 };
+struct DecodedFrame {
+  FrameError error = FrameError::kNone;   // the first in the order: too short, header CRC, length, frame CRC, id, preamble
+  FrameHeader header;                     // as on the wire, to be trusted only without error
+  std::span<const std::byte> payload;     // into the bytes decoded
+};
+// `frame`: one whole frame as received on `channel`, without the bits of the physical layer. Sync and startup indicators and
+// the cycle are the receiver's to judge: they depend on the slot.
 DecodedFrame decode_frame(schedules::Channel channel, std::span<const std::byte> frame);
 
 // Of a static frame on the wire (schedules::frame_bits), in picoseconds; and in whole nanoseconds, rounded up: a frame is

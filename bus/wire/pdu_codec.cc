@@ -58,9 +58,13 @@ std::uint32_t to_raw(const schedules::Signal& signal, double physical, int* satu
   return static_cast<std::uint32_t>(std::min(raw, (1LL << signal.bits) - 1));
 }
 
-double to_physical(const schedules::Signal& signal, std::uint32_t raw) {
-  return signal.low + static_cast<double>(raw) * signal.resolution;
+double to_physical(const schedules::Signal& signal, std::uint32_t raw, int* out_of_range) {
+  if (raw <= highest_code(signal)) return signal.low + static_cast<double>(raw) * signal.resolution;
+  if (out_of_range != nullptr) ++*out_of_range;
+  return signal.high;
 }
+
+std::uint32_t highest_code(const schedules::Signal& signal) { return to_raw(signal, signal.high); }
 
 std::uint32_t read_header_raw(const schedules::PduLayout& layout, std::span<const std::byte> payload,
                               std::size_t signal) {

@@ -13,7 +13,11 @@ namespace ttf::wire {
 // Raw <-> physical. Physical values outside [low, high] saturate; `saturated` (if given) is counted up. NaN is a bug of
 // ours and fails a check.
 std::uint32_t to_raw(const schedules::Signal& signal, double physical, int* saturated = nullptr);
-double to_physical(const schedules::Signal& signal, std::uint32_t raw);
+// No sender writes a code above highest_code(); one that arrives all the same decodes to `high`, and `out_of_range` (if
+// given) is counted up.
+double to_physical(const schedules::Signal& signal, std::uint32_t raw, int* out_of_range = nullptr);
+// The code of `high`, the largest in use: below the largest of the signal's bits where the range ends before them.
+std::uint32_t highest_code(const schedules::Signal& signal);
 
 // Index of the header signal of that name, for names that the loader has found in the layout ("sequence", "fragment" and
 // "count" in every one): a layout without it is a bug of ours and fails a check.

@@ -67,9 +67,7 @@ struct Heard final : ControllerEvents {
   std::vector<Sent> sent;
   std::vector<Arrived> arrived;
   std::vector<Corrected> corrected;
-  std::vector<std::int64_t> cycles;
 
-  void cycle_started(std::int64_t cycle, Microticks) override { cycles.push_back(cycle); }
   void slot_problem(std::int64_t cycle, int slot, schedules::Channel channel, SlotStatus status, Microticks) override {
     problems.push_back({cycle, slot, channel, status});
   }

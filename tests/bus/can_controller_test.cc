@@ -87,18 +87,49 @@ TEST(CanController, AShortListAfterALongOneIsPaddedWithZerosAgain) {
   EXPECT_EQ(wire.frames[0].data[11], std::byte{0});
 }
 
-TEST(CanController, ForeignFramesAreCountedAndIgnored) {
+TEST(CanController, WhatTheScheduleDoesNotLayDownIsCountedAndIgnored) {
   const schedules::Cluster c = cluster(true);
   Wire wire;
   CanController host(c, kHost, 0, wire);
-  const std::vector<std::byte> data(12), cut_off(8);
+  const std::vector<std::byte> data(12), cut_off(8), longer(16);
   EXPECT_FALSE(host.receive({0x7FF, true, data}).has_value());
-  EXPECT_EQ(host.foreign_frames(), 1u);
   EXPECT_FALSE(host.receive({0x100, true, data}).has_value());   // its own identifier, from somebody else
-  EXPECT_EQ(host.foreign_frames(), 2u);
+  EXPECT_EQ(host.refused().foreign, 2u);
   EXPECT_FALSE(host.receive({0x123, true, cut_off}).has_value());
-  EXPECT_EQ(host.foreign_frames(), 3u);
+  EXPECT_FALSE(host.receive({0x123, true, {}}).has_value());
+  EXPECT_FALSE(host.receive({0x123, true, longer}).has_value());
+  EXPECT_EQ(host.refused().length, 3u);
+  EXPECT_FALSE(host.receive({0x123, false, data}).has_value());
+  EXPECT_EQ(host.refused().format, 1u);
   EXPECT_FALSE(host.incoming(kUp).latest().has_value());
+  EXPECT_TRUE(host.receive({0x123, true, data}).has_value());
+  EXPECT_EQ(host.refused().foreign + host.refused().length + host.refused().format, 6u);
+}
+
+TEST(CanController, AFlexibleDataRateFrameOnAClassicBusIsRefused) {
+  const schedules::Cluster c = cluster(false);
+  Wire wire;
+  CanController device(c, kDevice, 0, wire), host(c, kHost, 0, wire);
+  MadeList list(c.pdus[0], 1, 1, 7);
+  device.send(kUp, list.view());
+  ASSERT_EQ(wire.frames.size(), 1u);
+  wire.frames[0].flexible_data_rate = true;
+  EXPECT_FALSE(host.receive(wire.frames[0].view()).has_value());
+  EXPECT_EQ(host.refused().format, 1u);
+  wire.frames[0].flexible_data_rate = false;
+  EXPECT_EQ(host.receive(wire.frames[0].view())->effect, ArrivalEffect::kCompleted);
+}
+
+// Frames leave some lists after they were queued; the field has four bits.
+TEST(CanController, ASentFrameIsOfTheNewestListWithItsNumber) {
+  const schedules::Cluster c = cluster(true);
+  Wire wire;
+  CanController device(c, kDevice, 0, wire);
+  for (std::uint32_t sequence = 0; sequence < 100; ++sequence) {
+    device.send(kUp, MadeList(c.pdus[0], sequence, 1, 0).view());
+    for (std::uint32_t behind = 0; behind < std::min(16u, sequence + 1); ++behind)
+      ASSERT_EQ(device.sent_sequence(kUp, (sequence - behind) & 15u), sequence - behind);
+  }
 }
 
 TEST(CanController, ArrivalNamesTheListOfItsFragment) {
@@ -127,6 +158,8 @@ TEST(CanControllerDeathTest, ListsOfOthersAreOurBugs) {
   MadeList list(c.pdus[1], 1, 1, 0);
   EXPECT_DEATH(device.send(kDown, list.view()), "does not send");
   EXPECT_DEATH(device.incoming(kUp), "does not receive");
+  MadeList cut(c.pdus[0], 1, 10, 0);
+  EXPECT_DEATH(device.send(kUp, {1, cut.fragments, std::span(cut.bytes).first(cut.bytes.size() - 1)}), "bytes in");
 }
 
 }  // namespace

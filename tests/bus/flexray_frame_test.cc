@@ -131,8 +131,8 @@ TEST(Frame, EveryHeaderFieldGoesRoundTrip) {
   RandomStream stream({4, 0, Purpose::kTest, 2, 0});
   for (int run = 0; run < 5000; ++run) {
     FrameHeader header;
-    header.payload_preamble = stream.integer(0, 1) == 1;
     header.null_frame = stream.integer(0, 1) == 1;
+    header.payload_preamble = !header.null_frame && stream.integer(0, 1) == 1;
     header.sync = stream.integer(0, 1) == 1;
     header.startup = header.sync && stream.integer(0, 1) == 1;
     header.frame_id = static_cast<std::uint16_t>(stream.integer(1, 2047));
@@ -211,6 +211,34 @@ TEST(Frame, EachErrorHasItsName) {
   const std::uint32_t crc = oracle_frame_crc(Channel::kA, reserved);
   for (int byte = 2; byte >= 0; --byte) reserved.push_back(static_cast<std::byte>((crc >> (8 * byte)) & 0xFF));
   EXPECT_EQ(decode_frame(Channel::kA, reserved).error, FrameError::kReservedId);
+}
+
+// The header CRC does not cover the indicators: only the frame CRC has to be made right again.
+TEST(Frame, ANullFrameHasNoPayloadPreamble) {
+  FrameHeader header;
+  header.frame_id = 7;
+  header.payload_preamble = true;
+  Bytes frame = encoded(header, Channel::kB, counting(8));
+  EXPECT_EQ(decode_frame(Channel::kB, frame).error, FrameError::kNone);
+  frame[0] &= ~std::byte{0x20};   // null frame, inverted on the wire
+  const auto covered = std::span(frame).first(frame.size() - kTrailerBytes);
+  const std::uint32_t crc = oracle_frame_crc(Channel::kB, covered);
+  for (std::size_t byte = 0; byte < 3; ++byte)
+    frame[covered.size() + byte] = static_cast<std::byte>((crc >> (8 * (2 - byte))) & 0xFF);
+  const DecodedFrame decoded = decode_frame(Channel::kB, frame);
+  EXPECT_EQ(decoded.error, FrameError::kNullPreamble);
+  EXPECT_TRUE(decoded.header.null_frame && decoded.header.payload_preamble);
+}
+
+TEST(FrameDeathTest, FramesNobodyMaySendAreOurBugs) {
+  Bytes frame(kMaxFrameBytes);
+  FrameHeader header;
+  header.frame_id = 7;
+  header.null_frame = header.payload_preamble = true;
+  EXPECT_DEATH(encode_frame(header, Channel::kA, {}, frame), "no payload preamble");
+  header.payload_preamble = false;
+  header.startup = true;
+  EXPECT_DEATH(encode_frame(header, Channel::kA, {}, frame), "a startup frame is a sync frame");
 }
 
 // A frame with zero payload has a real CRC too: 000000 in its place is wrong.

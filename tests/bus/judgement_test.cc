@@ -136,6 +136,33 @@ TEST(ControllerJudges, WrongFramesReachNeitherTheHostNorTheClock) {
   EXPECT_EQ(node.heard.corrected[0].offset.value, 0);   // only its own sync frame counts
 }
 
+// Slot 5 is for fragment 0 of the list, slot 6 for fragment 1.
+TEST(ControllerJudges, AFragmentInAnotherOnesSlotIsAContentError) {
+  Alone node(1);
+  MadeList list(node.cluster.pdus[0], 1, 6, 0);
+  const auto carry = [&](int slot, int fragment) {
+    Frame carrier = Frame::status(slot, 0);
+    const auto bytes = list.fragment(fragment);
+    std::copy(bytes.begin(), bytes.end(), carrier.payload.begin());
+    carrier.arrive(node);
+  };
+  carry(5, 1);
+  carry(6, 1);
+  node.run_to(1);
+  ASSERT_EQ(node.heard.arrived.size(), 2u);
+  EXPECT_EQ(node.heard.arrived[0].effect, ArrivalEffect::kMalformed);
+  EXPECT_EQ(node.heard.arrived[1].effect, ArrivalEffect::kIncomplete);
+  int errors = 0;
+  for (const auto& problem : node.heard.problems) {
+    if (problem.slot == 5 && problem.channel == Channel::kA) {
+      EXPECT_EQ(problem.status, kContentError);
+      ++errors;
+    }
+    if (problem.slot == 6) { EXPECT_NE(problem.channel, Channel::kA); }
+  }
+  EXPECT_EQ(errors, 1);
+}
+
 TEST(ControllerJudges, ANullFrameIsValidAndLeavesTheListAlone) {
   Alone node(1);
   Frame frame = Frame::status(5, 0);

@@ -27,7 +27,6 @@ TEST(IncomingList, IsEmptyUntilTheFirstListIsComplete) {
   const auto layout = list_layout();
   IncomingList incoming(layout);
   EXPECT_FALSE(incoming.latest());
-  EXPECT_FALSE(incoming.unread());
   EXPECT_FALSE(incoming.mark_read());
   MadeList list(layout, 0, 10, 100);
   for (int f = 0; f < 3; ++f) {
@@ -94,7 +93,7 @@ TEST(IncomingList, ARepeatedListIsNotCollectedAgain) {
   EXPECT_TRUE(incoming.mark_read());
   for (int repetition = 0; repetition < 5; ++repetition)
     for (int f = 0; f < 3; ++f) EXPECT_EQ(incoming.arrive(list.fragment(f)), kDuplicate);
-  EXPECT_FALSE(incoming.unread());   // read once, it stays read
+  EXPECT_FALSE(incoming.mark_read());   // read once, it stays read
   // And the next list does not find a half-collected repetition in its way.
   incoming.arrive(list.fragment(0));
   MadeList next(layout, 3, 9, 2);
@@ -157,7 +156,6 @@ TEST(IncomingList, ARepeatedOlderListDoesNotTearTheNewer) {
   EXPECT_EQ(incoming.arrive(next.fragment(0)), kIncomplete);
   EXPECT_EQ(incoming.arrive(whole.fragment(2)), kDuplicate);   // the second channel's copy, late
   EXPECT_EQ(incoming.arrived(), 1u);
-  EXPECT_EQ(incoming.collecting(), 2u);
   EXPECT_EQ(incoming.arrive(next.fragment(1)), kIncomplete);
   EXPECT_EQ(incoming.arrive(next.fragment(2)), kCompleted);
 }
@@ -192,8 +190,8 @@ TEST(IncomingList, SequenceCountsOnWhereTheFieldWraps) {
   }
 }
 
-// Lists may be lost: the next one is the nearest that fits, and the nearest may lie a little before.
-TEST(IncomingList, SequenceIsTheNearestToTheLast) {
+// Lists may be lost: a number up to half the circle ahead is that of a newer list.
+TEST(IncomingList, ListsMayBeLost) {
   const auto layout = list_layout(4);
   IncomingList incoming(layout);
   std::uint32_t sequence = 0;
@@ -203,9 +201,92 @@ TEST(IncomingList, SequenceIsTheNearestToTheLast) {
     incoming.arrive(list.fragment(0));
     EXPECT_EQ(incoming.latest()->sequence, sequence);
   }
-  MadeList before(layout, sequence - 7, 2, 0);
-  incoming.arrive(before.fragment(0));
-  EXPECT_EQ(incoming.latest()->sequence, sequence - 7);
+}
+
+TEST(IncomingList, L2_AnOlderListNeverReplacesANewerOne) {
+  for (const int bits : {2, 4, 8}) {
+    const auto layout = list_layout(bits);
+    const std::uint32_t circle = 1u << bits;
+    for (std::uint32_t newest = circle; newest < 3 * circle; ++newest)
+      for (std::uint32_t back = 1; back < circle; ++back) {
+        IncomingList incoming(layout);
+        for (std::uint32_t sequence = 0; sequence <= newest; ++sequence)
+          incoming.arrive(MadeList(layout, sequence, 1, sequence).fragment(0));
+        MadeList latest(layout, newest, 1, newest), other(layout, newest - back, 1, 9999);
+        const bool older = back < circle / 2;   // else it is as far ahead, on the circle
+        ASSERT_EQ(incoming.arrive(other.fragment(0)), older ? kStale : kCompleted) << newest << " then -" << back;
+        if (!older) continue;
+        ASSERT_EQ(incoming.arrived(), newest - back);
+        expect_latest(incoming, latest);
+      }
+  }
+}
+
+TEST(IncomingList, L2_AStragglerDoesNotTearTheListBegunAfterIt) {
+  const auto layout = list_layout();
+  IncomingList incoming(layout);
+  MadeList one(layout, 1, 9, 10), two(layout, 2, 9, 20), three(layout, 3, 9, 30);
+  for (int f = 0; f < 3; ++f) incoming.arrive(one.fragment(f));
+  EXPECT_EQ(incoming.arrive(two.fragment(0)), kIncomplete);
+  EXPECT_EQ(incoming.arrive(three.fragment(0)), kTorn);
+  EXPECT_EQ(incoming.arrive(two.fragment(1)), kStale);   // its list is lost already
+  EXPECT_EQ(incoming.arrive(two.fragment(2)), kStale);
+  expect_latest(incoming, one);
+  EXPECT_EQ(incoming.arrive(three.fragment(1)), kIncomplete);
+  EXPECT_EQ(incoming.arrive(three.fragment(2)), kCompleted);
+  expect_latest(incoming, three);
+}
+
+// The sender has sent `before` lists and counts from zero again; each of its lists has two fragments.
+int lists_until_believed(const schedules::PduLayout& layout, std::uint32_t before) {
+  IncomingList incoming(layout);
+  for (std::uint32_t sequence = 0; sequence < before; ++sequence) {
+    MadeList list(layout, sequence, 4, sequence);
+    for (int f = 0; f < 2; ++f) incoming.arrive(list.fragment(f));
+  }
+  for (std::uint32_t sequence = 0; sequence < 40; ++sequence) {
+    MadeList list(layout, sequence, 4, 1000 + sequence);
+    incoming.arrive(list.fragment(0));
+    incoming.arrive(list.fragment(0));   // the other channel
+    if (incoming.arrive(list.fragment(1)) != kCompleted) continue;
+    const auto latest = incoming.latest()->bytes;
+    EXPECT_TRUE(std::equal(latest.begin(), latest.end(), list.bytes.begin(), list.bytes.end()));
+    return static_cast<int>(sequence) + 1;
+  }
+  return -1;
+}
+
+TEST(IncomingList, L3_ASenderThatCountsAnewIsBelievedAtItsThirdList) {
+  const auto layout = list_layout(8);
+  for (const std::uint32_t before : {4u, 20u, 100u, 127u}) EXPECT_EQ(lists_until_believed(layout, before), 3) << before;
+  // Numbers that were the newest before are copies of those, until one is ahead.
+  EXPECT_EQ(lists_until_believed(layout, 1), 2);
+  EXPECT_EQ(lists_until_believed(layout, 2), 3);
+  // Zero is ahead of the last, on the circle: as if lists had been lost.
+  EXPECT_EQ(lists_until_believed(layout, 200), 1);
+}
+
+TEST(IncomingList, L3_StragglersAreNoRestart) {
+  const auto layout = list_layout(8);
+  const auto incoming_at = [&](std::uint32_t newest) {
+    IncomingList incoming(layout);
+    for (std::uint32_t sequence = 0; sequence <= newest; ++sequence)
+      incoming.arrive(MadeList(layout, sequence, 1, sequence).fragment(0));
+    return incoming;
+  };
+  const auto expect_stale = [&](IncomingList& incoming, std::initializer_list<std::uint32_t> sequences) {
+    for (const std::uint32_t sequence : sequences)
+      EXPECT_EQ(incoming.arrive(MadeList(layout, sequence, 1, 0).fragment(0)), kStale) << sequence;
+  };
+  IncomingList backwards = incoming_at(50), repeated = incoming_at(50), between = incoming_at(50);
+  expect_stale(backwards, {40, 39, 38, 37, 36});       // each older than the one before
+  expect_stale(repeated, {40, 40, 40, 41, 41, 40, 41});   // two lists only
+  expect_stale(between, {40, 41});
+  EXPECT_EQ(between.arrive(MadeList(layout, 50, 1, 50).fragment(0)), kDuplicate);   // the sender still is at 50
+  expect_stale(between, {42, 43});
+  EXPECT_EQ(between.arrive(MadeList(layout, 51, 1, 51).fragment(0)), kCompleted);
+  expect_stale(between, {44, 45});
+  EXPECT_EQ(between.latest()->sequence, 51u);
 }
 
 TEST(IncomingList, ReadOnce) {
@@ -213,13 +294,41 @@ TEST(IncomingList, ReadOnce) {
   IncomingList incoming(layout);
   MadeList one(layout, 1, 1, 1), two(layout, 2, 1, 2);
   incoming.arrive(one.fragment(0));
-  EXPECT_TRUE(incoming.unread());
   EXPECT_TRUE(incoming.mark_read());
   EXPECT_FALSE(incoming.mark_read());
-  EXPECT_FALSE(incoming.unread());
   incoming.arrive(two.fragment(0));
-  EXPECT_TRUE(incoming.unread());
   EXPECT_TRUE(incoming.mark_read());
+}
+
+// The layout's `high` is code 1000: what lies above no sender writes. Only elements there are count.
+TEST(IncomingList, L4_CodesAboveTheRangeAreRefused) {
+  auto layout = list_layout();
+  layout.element[0].high = 1000.0;
+  IncomingList incoming(layout);
+  MadeList list(layout, 1, 5, 990);   // 990..994
+  wire::write_element_raw(layout, list.fragment(1), 2, 0, 0xFFFF);   // there is no sixth element
+  EXPECT_EQ(incoming.arrive(list.fragment(0)), kIncomplete);
+  for (const int element : {0, 1}) {
+    std::vector<std::byte> bad(list.fragment(1).begin(), list.fragment(1).end());
+    wire::write_element_raw(layout, bad, element, 0, 1001);
+    EXPECT_EQ(incoming.arrive(bad), kMalformed);
+    wire::write_element_raw(layout, bad, element, 0, 0xFFFF);
+    EXPECT_EQ(incoming.arrive(bad), kMalformed);
+  }
+  wire::write_element_raw(layout, list.fragment(1), 1, 0, 1000);
+  EXPECT_EQ(incoming.arrive(list.fragment(1)), kCompleted);
+  expect_latest(incoming, list);
+}
+
+TEST(IncomingList, L4_AFragmentInAnotherOnesSlotIsRefused) {
+  const auto layout = list_layout();
+  IncomingList incoming(layout);
+  MadeList list(layout, 1, 9, 10);
+  for (int slot = 0; slot < 3; ++slot)
+    for (int f = 0; f < 3; ++f)
+      if (f != slot) { EXPECT_EQ(incoming.arrive(list.fragment(f), slot), kMalformed); }
+  for (int f = 0; f < 3; ++f) EXPECT_EQ(incoming.arrive(list.fragment(f), f), f == 2 ? kCompleted : kIncomplete);
+  expect_latest(incoming, list);
 }
 
 // Fragments of a sender that moves on, lost and repeated at random on two channels: whatever is handed out was sent so.

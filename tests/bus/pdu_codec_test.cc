@@ -108,6 +108,26 @@ TEST(PduCodec, TheTopOfTheRangeDoesNotWrap) {
   EXPECT_EQ(to_raw(widest, 1e12), 0xFFFFFFFFu);
 }
 
+TEST(PduCodec, CodesAboveTheRangeAreReported) {
+  schedules::Signal s = signal("s", 8, -10.0, 0.1);
+  s.high = 10.0;
+  EXPECT_EQ(highest_code(s), 200u);
+  for (std::uint32_t raw = 0; raw < 256; ++raw) {
+    int out_of_range = 0;
+    const double physical = to_physical(s, raw, &out_of_range);
+    ASSERT_EQ(out_of_range, raw > 200 ? 1 : 0) << raw;
+    ASSERT_EQ(physical, raw > 200 ? 10.0 : -10.0 + raw * 0.1) << raw;
+    ASSERT_EQ(to_physical(s, raw), physical);
+  }
+  // Where the range ends between two codes, `high` is written as the nearer one, and that is the highest.
+  s.high = 9.97;
+  EXPECT_EQ(highest_code(s), 200u);
+  s.high = 9.92;
+  EXPECT_EQ(highest_code(s), 199u);
+  EXPECT_EQ(highest_code(signal("w", 32)), 0xFFFFFFFFu);
+  EXPECT_EQ(to_physical(signal("w", 32), 0xFFFFFFFFu), 4294967295.0);
+}
+
 TEST(PduCodecDeathTest, NotANumberAndWrongSizesAreOurBugs) {
   const schedules::PduLayout layout = bus::list_layout();
   std::vector<std::byte> payload(static_cast<std::size_t>(layout.fragment_bytes) + 1);
