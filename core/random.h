@@ -25,7 +25,6 @@ enum class Purpose : std::uint16_t {
   kSensorPhase = 8,
   kExecutionTime = 9,
   kTest = 10,
-  kSceneLayout = 11,
 };
 
 struct StreamKey {

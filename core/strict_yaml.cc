@@ -6,10 +6,9 @@
 
 #include <algorithm>
 #include <charconv>
-#include <fstream>
 #include <set>
-#include <sstream>
 
+#include "core/file_bytes.h"
 #include "core/int128.h"
 
 namespace ttf {
@@ -250,40 +249,6 @@ Duration YamlMap::duration_or(std::string_view key, Duration fallback, Range<Dur
   return has(key) ? duration(key, allowed) : fallback;
 }
 
-std::vector<double> YamlMap::numbers(std::string_view key, Range<double> allowed, Range<std::size_t> how_many) {
-  content_->asked.emplace(key);
-  const std::string expected = fmt::format("must be a list of {}..{} numbers, each {}..{}", how_many.low,
-                                           how_many.high, allowed.low, allowed.high);
-  const YAML::Node node = child(content_->node, key);
-  std::vector<double> values;
-  bool good = node.IsDefined() && node.IsSequence();
-  if (good)
-    for (const auto& item : node) {
-      const auto value = item.IsScalar() ? parse_number<double>(item.Scalar()) : std::nullopt;
-      good = good && value && allowed.contains(*value);
-      values.push_back(value.value_or(allowed.low));
-    }
-  if (!good || !how_many.contains(values.size())) {
-    fail(key, node.IsDefined() ? expected : "is missing: " + expected);
-    values.assign(how_many.low, allowed.low);
-  }
-  return values;
-}
-
-std::vector<std::string> YamlMap::texts(std::string_view key) {
-  content_->asked.emplace(key);
-  const YAML::Node node = child(content_->node, key);
-  std::vector<std::string> values;
-  bool good = node.IsDefined() && node.IsSequence();
-  if (good)
-    for (const auto& item : node) {
-      good = good && item.IsScalar();
-      if (item.IsScalar()) values.push_back(item.Scalar());
-    }
-  if (!good) fail(key, node.IsDefined() ? "must be a list of texts" : "is missing: must be a list of texts");
-  return values;
-}
-
 std::size_t YamlMap::choice_index(std::string_view key, const std::vector<std::string_view>& names) {
   const std::string expected = fmt::format("must be one of {}", fmt::join(names, ", "));
   const auto text = scalar(key, expected);
@@ -398,10 +363,7 @@ void YamlMap::finish() {
 }
 
 StrictYaml StrictYaml::load(const std::string& path) {
-  std::ifstream stream(path, std::ios::binary);
-  std::ostringstream text;
-  if (!stream || !(text << stream.rdbuf())) throw InputError({path, 0, "", "", "cannot be read (or is empty)"});
-  return parse(text.str(), path);
+  return parse(read_file(path), path);
 }
 
 StrictYaml StrictYaml::parse(std::string text, std::string name) {

@@ -53,8 +53,6 @@ class YamlMap {
   // "40 ms", "2.5 us", "100 ns", "1.5 s"; exact to the nanosecond.
   Duration duration(std::string_view key, Range<Duration> allowed);
   Duration duration_or(std::string_view key, Duration fallback, Range<Duration> allowed);
-  std::vector<double> numbers(std::string_view key, Range<double> allowed, Range<std::size_t> how_many);
-  std::vector<std::string> texts(std::string_view key);
 
   template <class Enum>
   Enum choice(std::string_view key, const Choices<Enum>& choices) {

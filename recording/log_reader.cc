@@ -3,8 +3,8 @@
 #include <charconv>
 
 #include "core/errors.h"
+#include "core/file_bytes.h"
 #include "recording/content_hash.h"
-#include "recording/file_bytes.h"
 #include "recording/log_codec.h"
 #include "recording/manifest_codec.h"
 #include "recording/mcap_bytes.h"

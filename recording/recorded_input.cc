@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "core/errors.h"
-#include "recording/file_bytes.h"
+#include "core/file_bytes.h"
 #include "recording/mcap_bytes.h"
 
 namespace ttf::recording {
@@ -205,7 +205,9 @@ std::vector<RecordedScan> read_lidar_scans(const std::string& path) {
   return parse_lidar_scans(read_file(path), path);
 }
 
-RecordingFormat sniff_recording(const std::string& path) { return sniff_recording(read_file(path), path); }
+RecordingFormat sniff_recording(const std::string& path) {
+  return sniff_recording(read_file(path, kRecordingHead), path);
+}
 
 RecordingFormat sniff_recording(std::string_view text, const std::string& name) {
   if (text.substr(0, kMcapMagic.size()) == kMcapMagic) return RecordingFormat::kLog;

@@ -4,6 +4,7 @@
 // as one InputError, as are a file that cannot be read and one without a single row.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -56,7 +57,9 @@ struct RecordedScan {
 std::vector<RecordedScan> read_lidar_scans(const std::string& path);
 std::vector<RecordedScan> parse_lidar_scans(const std::string& text, const std::string& name);
 
-// Which reader a file is for, told by how it begins. Throws InputError if by none.
+// Which reader a file is for, told by how it begins: by no more than its first kRecordingHead bytes, which must reach to
+// the first row or heading. Throws InputError if by none.
+inline constexpr std::size_t kRecordingHead = 64 * 1024;
 enum class RecordingFormat : std::uint8_t { kLog = 1, kLaserRadar = 2, kLidarScans = 3 };
 RecordingFormat sniff_recording(const std::string& path);
 RecordingFormat sniff_recording(std::string_view bytes, const std::string& name);

@@ -141,6 +141,12 @@ TEST(Sniff, TellsTheFormatByTheBeginning) {
   EXPECT_EQ(sniff("# frame,azimuth_rad,range_m,intensity\n0,1,2,3\n"), RecordingFormat::kLidarScans);
   EXPECT_EQ(sniff("0,1,2,3\n"), RecordingFormat::kLidarScans);
   EXPECT_EQ(sniff(log_of([](records::Sink&) {})), RecordingFormat::kLog);
+  // The head decides, however long the recording; a heading that never ends is none.
+  const std::string comment = "#" + std::string(1022, ' ') + "\n";
+  std::string head;
+  while (head.size() + comment.size() < kRecordingHead) head += comment;
+  EXPECT_EQ(sniff(head + kLaserRow + std::string(1 << 20, 'x')), RecordingFormat::kLaserRadar);
+  EXPECT_THROW(sniff(head + comment + kLaserRow), InputError);
   EXPECT_THROW(sniff("slots: 3\n"), InputError);
   EXPECT_THROW(sniff(""), InputError);
   EXPECT_THROW(sniff_recording("no/such/file"), InputError);

@@ -1,5 +1,6 @@
-#include "recording/file_bytes.h"
+#include "core/file_bytes.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -8,9 +9,9 @@
 
 #include "core/errors.h"
 
-namespace ttf::recording {
+namespace ttf {
 
-std::string read_file(const std::string& path) {
+std::string read_file(const std::string& path, std::size_t most) {
   const auto fail = [&path] {
     throw InputError({path, 0, "", "", std::string("cannot be read: ") + std::strerror(errno)});
   };
@@ -18,11 +19,11 @@ std::string read_file(const std::string& path) {
   if (file == nullptr) fail();
   // Grows with what is really there, not with what a size field or a special file claims.
   std::string bytes;
-  std::vector<char> block(1 << 20);
-  while (const std::size_t got = std::fread(block.data(), 1, block.size(), file.get()))
+  std::vector<char> block(std::min(most, std::size_t{1} << 20));
+  while (const std::size_t got = std::fread(block.data(), 1, std::min(block.size(), most - bytes.size()), file.get()))
     bytes.append(block.data(), got);
   if (std::ferror(file.get()) != 0) fail();
   return bytes;
 }
 
-}  // namespace ttf::recording
+}  // namespace ttf
