@@ -33,6 +33,7 @@ report::Names names_of(const recording::LogManifest& manifest) {
   names.pdus = manifest.pdu_names;
   names.sensors = manifest.sensor_names;
   names.can_buses = manifest.can_bus_names;
+  names.pdu_sensors = manifest.pdu_sensors;
   return names;
 }
 
@@ -40,7 +41,7 @@ report::Names names_of(const recording::LogManifest& manifest) {
 struct Extent final : records::Sink {
   TrueTime last{};
   using records::Sink::on;
-  void on(const records::TaskRun& run) override { last = std::max(last, run.end); }
+  void on(const records::TaskRun& run) override { last = std::max(last, run.end.true_time); }
 };
 
 recording::LogInfo read(const std::string& path, records::Sink& sink) {

@@ -143,6 +143,7 @@ nlohmann::ordered_json to_json(const nodes::Scenario& scenario, std::uint64_t se
     one["deadlines_missed"] = result.outcome.counts.deadlines_missed;
     one["overruns"] = result.outcome.counts.overruns;
     one["saturated_signals"] = result.outcome.counts.saturated_signals;
+    one["refused_fragments"] = result.outcome.counts.refused_fragments;
     one["frames_sent"] = result.outcome.frames_sent;
     one["flexray_load"] = result.outcome.flexray_load;
     for (std::size_t b = 0; b < result.outcome.can_load.size(); ++b)

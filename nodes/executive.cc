@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "bus/wire/flexray_frame.h"
+#include "bus/wire/pdu_codec.h"
 #include "core/check.h"
 #include "core/random.h"
 
@@ -28,9 +29,9 @@ struct Executive::TaskState {
   std::uint32_t measurement = 0;
   bool armed = false;            // activation by time, still due in this cycle
   bool waiting = false;
-  Microticks activated{};
-  records::Stamp start;
-  bool deadline_met = true;
+  Microticks activated{};        // of the waiting activation, which may come while the one before still runs
+  records::Stamp activated_at;
+  records::TaskRun run;          // that is going on
 };
 
 struct Executive::SensorState {
@@ -195,19 +196,20 @@ void Executive::activate(std::size_t task, Microticks now) {
   }
   state.waiting = true;
   state.activated = now;
+  state.activated_at = stamp(now);
   ready_.push_back(task);
 }
 
-void Executive::fill_inputs(TaskState& state, Microticks now) {
-  for (std::size_t i = 0; i < state.inputs.size(); ++i) {
-    const schedules::PortBinding& binding = state.task->reads[i];
+void Executive::fill_inputs(TaskState& task) {
+  for (std::size_t i = 0; i < task.inputs.size(); ++i) {
+    const schedules::PortBinding& binding = task.task->reads[i];
     bus::IncomingList& list = incoming(binding);
-    Input& input = state.inputs[i];
+    Input& input = task.inputs[i];
     input.list = list.latest();
     input.fresh = list.mark_read();
-    state.unread[i].reset();
+    task.unread[i].reset();
     if (input.fresh)
-      hop(now, records::Hop::kRead, binding.pdu, input.list->sequence,
+      hop(task.run.start, records::Hop::kRead, binding.pdu, input.list->sequence,
           binding.can_bus ? static_cast<int>(*binding.can_bus) : -1);
   }
 }
@@ -218,10 +220,13 @@ void Executive::start_next(Microticks now) {
     ready_.erase(ready_.begin());
     TaskState& state = tasks_[index];
     state.waiting = false;
-    state.start = stamp(now);
-    fill_inputs(state, now);
+    state.run = {};
+    state.run.start = stamp(now);
+    state.run.task = static_cast<std::uint8_t>(index);
+    state.run.activated = state.activated_at;
+    fill_inputs(state);
     StepContext context;
-    context.stamp = state.start;
+    context.stamp = state.run.start;
     context.activation = state.activations;
     context.measurement = state.measurement;
     context.inputs = state.inputs;
@@ -240,8 +245,8 @@ void Executive::start_next(Microticks now) {
     ++state.activations;
     running_ = index;
     running_end_ = now + ticks(execution);
-    state.deadline_met = running_end_ - state.activated <= ticks(state.task->deadline);
-    if (!state.deadline_met) ++counts_.deadlines_missed;
+    state.run.deadline_met = running_end_ - state.activated <= ticks(state.task->deadline);
+    if (!state.run.deadline_met) ++counts_.deadlines_missed;
     if (running_end_ <= now) finish(now);
   }
 }
@@ -249,12 +254,13 @@ void Executive::start_next(Microticks now) {
 void Executive::finish(Microticks now) {
   TaskState& state = tasks_[*running_];
   running_.reset();
+  state.run.end = stamp(now);
   for (std::size_t o = 0; o < state.outputs.size(); ++o) {
     Output& output = state.outputs[o];
     counts_.saturated_signals += static_cast<std::uint64_t>(output.take_saturated());
     if (!output.written()) continue;
     const auto& can_bus = state.task->writes[o].can_bus;
-    hop(now, records::Hop::kWritten, output.pdu(), output.view().sequence,
+    hop(state.run.end, records::Hop::kWritten, output.pdu(), output.view().sequence,
         can_bus ? static_cast<int>(*can_bus) : -1);
     if (can_bus)
       cans_[*can_bus]->send(output.pdu(), output.view());
@@ -262,13 +268,7 @@ void Executive::finish(Microticks now) {
       flexray_->outgoing(output.pdu()).write(output.view());
     output.clear();
   }
-  records::TaskRun run;
-  run.start = state.start;
-  run.task = static_cast<std::uint8_t>(&state - tasks_.data());
-  run.activated = config_.oscillator.time_of(state.activated);
-  run.end = config_.oscillator.time_of(now);
-  run.deadline_met = state.deadline_met;
-  sink_.on(run);
+  sink_.on(state.run);
   for (std::size_t t = 0; t < tasks_.size(); ++t)
     if (tasks_[t].task->activation.kind == schedules::ActivationKind::kCompletion &&
         tasks_[t].task->activation.after == state.task->name)
@@ -294,9 +294,11 @@ void Executive::list_arrived(PduId pdu, bus::ArrivalEffect effect, std::uint32_t
 
 void Executive::arrived(PduId pdu, int can_bus, bus::ArrivalEffect effect, std::uint32_t sequence,
                         std::optional<std::uint32_t> torn, Microticks at) {
+  using enum bus::ArrivalEffect;
+  if (effect == kStale || effect == kMalformed) ++counts_.refused_fragments;
   // One fragment may end two lists: the one it tears, and its own if that is complete with it.
-  const bool complete = effect == bus::ArrivalEffect::kCompleted;
-  if (!torn && !complete) return;
+  if (!torn && effect != kCompleted && effect != kStale) return;
+  const records::Stamp stamp_at = stamp(at);
   bool reported = false;   // once per arrival, however many tasks read it; never where nobody does
   for (std::size_t t = 0; t < tasks_.size(); ++t) {
     TaskState& state = tasks_[t];
@@ -305,14 +307,15 @@ void Executive::arrived(PduId pdu, int can_bus, bus::ArrivalEffect effect, std::
       if (binding.pdu != pdu || (binding.can_bus ? static_cast<int>(*binding.can_bus) : -1) != can_bus) continue;
       if (!reported && torn) {
         ++counts_.torn_lists;
-        hop(at, records::Hop::kTorn, pdu, *torn, can_bus);
+        hop(stamp_at, records::Hop::kTorn, pdu, *torn, can_bus);
       }
-      if (!reported && complete) hop(at, records::Hop::kReceived, pdu, sequence, can_bus);
+      if (!reported && effect == kCompleted) hop(stamp_at, records::Hop::kReceived, pdu, sequence, can_bus);
+      if (!reported && effect == kStale) hop(stamp_at, records::Hop::kStale, pdu, sequence, can_bus);
       reported = true;
-      if (!complete) continue;
+      if (effect != kCompleted) continue;
       if (state.unread[i]) {
         ++counts_.overwritten_lists;
-        hop(at, records::Hop::kOverwritten, pdu, *state.unread[i], can_bus);
+        hop(stamp_at, records::Hop::kOverwritten, pdu, *state.unread[i], can_bus);
       }
       state.unread[i] = sequence;
       const schedules::Activation& activation = state.task->activation;
@@ -325,17 +328,38 @@ void Executive::frame_sent(const bus::Transmission& transmission, std::int64_t c
                            std::uint32_t sequence, int fragment, bool last) {
   records::SlotFrameSent sent;
   sent.stamp = stamp(transmission.start);
-  sent.end = sent.stamp.true_time + frame_duration_;
+  // A static frame ends in the cycle it began in, so the clock can say now when that will be.
+  const TrueTime end = sent.stamp.true_time + frame_duration_;
+  sent.end = stamp(config_.oscillator.ticks_at(end));
+  sent.end.true_time = end;
   sent.cycle = cycle;
   sent.slot = static_cast<std::uint16_t>(transmission.slot);
   sent.channel = static_cast<std::uint8_t>(transmission.channel);
   sent.null_frame = null_frame;
   sent.pdu = pdu;
+  if (pdu != kNoPdu) sent.sensor = cluster_.pdu(pdu).sensor;
   sent.sequence = sequence;
   sent.fragment = static_cast<std::uint8_t>(fragment);
   sent.bytes = transmission.bytes;
   sink_.on(sent);
-  if (last) hop(transmission.start, records::Hop::kSent, pdu, sequence, -1);
+  if (last) hop(sent.end, records::Hop::kSent, pdu, sequence, -1);
+}
+
+void Executive::can_frame_sent(records::CanFrameSent frame, Microticks now) {
+  const TrueTime end = frame.end.true_time;
+  frame.end = stamp(now);
+  frame.end.true_time = end;
+  bool last = false;
+  if (frame.pdu != kNoPdu) {
+    const schedules::PduLayout& layout = cluster_.pdu(frame.pdu);
+    const auto payload = frame.data.first(static_cast<std::size_t>(layout.fragment_bytes));
+    const auto count = wire::read_header_raw(layout, payload, wire::header_signal(layout, "count"));
+    last = frame.fragment == layout.fragments_of(static_cast<int>(count)) - 1;
+    frame.sensor = layout.sensor;
+    frame.sequence = cans_[frame.bus]->sent_sequence(frame.pdu, frame.sequence);
+  }
+  sink_.on(frame);
+  if (last) hop(frame.end, records::Hop::kSent, frame.pdu, frame.sequence, frame.bus);
 }
 
 void Executive::slot_problem(std::int64_t cycle, int slot, schedules::Channel channel, bus::SlotStatus status,
@@ -351,8 +375,8 @@ void Executive::clock_corrected(std::int64_t cycle, const timebase::Correction& 
                                    offset.limit_reached, rate.limit_reached});
 }
 
-void Executive::hop(Microticks at, records::Hop what, PduId pdu, std::uint32_t sequence, int can_bus) {
-  sink_.on(records::ListHop{stamp(at), what, pdu, sequence, static_cast<std::int8_t>(can_bus)});
+void Executive::hop(const records::Stamp& at, records::Hop what, PduId pdu, std::uint32_t sequence, int can_bus) {
+  sink_.on(records::ListHop{at, what, pdu, cluster_.pdu(pdu).sensor, sequence, static_cast<std::int8_t>(can_bus)});
 }
 
 }  // namespace ttf::nodes

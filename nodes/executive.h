@@ -52,6 +52,7 @@ struct ExecutiveCounts {
   std::uint64_t overwritten_lists = 0;
   std::uint64_t slot_problems = 0;
   std::uint64_t saturated_signals = 0;
+  std::uint64_t refused_fragments = 0;     // stale or malformed (bus/list_buffer.h), on any bus
 };
 
 class Executive final : private bus::ControllerEvents {
@@ -69,6 +70,9 @@ class Executive final : private bus::ControllerEvents {
   // next_event() then asks for.
   void receive(const bus::Reception& reception);
   void receive_can(std::size_t can_bus, const bus::CanFrame& frame, Microticks now);
+  // A frame of this node has left, `now`. `frame` is what the medium knows of it, its sequence number as on the wire; the
+  // node reports it with its own clock's times and the list and measurement it is of.
+  void can_frame_sent(records::CanFrameSent frame, Microticks now);
   void trigger(SensorId sensor, Microticks now);                          // at a device
   void strobe(SensorId sensor, std::uint32_t sequence, Microticks now);   // at a host
 
@@ -99,8 +103,8 @@ class Executive final : private bus::ControllerEvents {
   void start_next(Microticks now);
   void finish(Microticks now);
   void measure(SensorState& sensor, Microticks now);
-  void fill_inputs(TaskState& task, Microticks now);
-  void hop(Microticks at, records::Hop what, PduId pdu, std::uint32_t sequence, int can_bus);
+  void fill_inputs(TaskState& task);
+  void hop(const records::Stamp& at, records::Hop what, PduId pdu, std::uint32_t sequence, int can_bus);
   bus::IncomingList& incoming(const schedules::PortBinding& binding);
   Microticks ticks(Duration duration) const;
 

@@ -90,6 +90,7 @@ void FusionStep::record(const StepContext& context, const Input& input, GlobalTi
   in.stamp = context.stamp;
   in.step = host_->step;
   in.pdu = input.pdu;
+  in.sensor = input.layout->sensor;
   in.sequence = input.list->sequence;
   in.measured = measured;
   in.count = static_cast<std::uint16_t>(observations_.size());

@@ -123,17 +123,18 @@ bool Decoder::decode(RecordKind kind, std::string_view bytes, records::Sink& sin
     }
     case RecordKind::kCanFrame: {
       const auto& in = payloads_.can_frame;
-      return hand_on(records::CanFrameSent{narrow.to<std::uint8_t>(in.bus()), narrow.id<NodeId>(in.sender()),
-                                           TrueTime{in.start()}, TrueTime{in.end()}, in.identifier(),
-                                           in.flexible_data_rate(), narrow.id<PduId>(in.pdu()), in.sequence(),
-                                           narrow.to<std::uint8_t>(in.fragment()), bytes_of(in.data())});
+      return hand_on(records::CanFrameSent{
+          narrow.to<std::uint8_t>(in.bus()), stamp_of(in.start(), narrow), stamp_of(in.end(), narrow), in.identifier(),
+          in.flexible_data_rate(), narrow.id<PduId>(in.pdu()), narrow.id<SensorId>(in.sensor()), in.sequence(),
+          narrow.to<std::uint8_t>(in.fragment()), bytes_of(in.data())});
     }
     case RecordKind::kSlotFrame: {
       const auto& in = payloads_.slot_frame;
       return hand_on(records::SlotFrameSent{
-          stamp_of(in.stamp(), narrow), TrueTime{in.end()}, in.cycle(), narrow.to<std::uint16_t>(in.slot()),
-          narrow.to<std::uint8_t>(in.channel()), in.null_frame(), narrow.id<PduId>(in.pdu()), in.sequence(),
-          narrow.to<std::uint8_t>(in.fragment()), bytes_of(in.bytes())});
+          stamp_of(in.stamp(), narrow), stamp_of(in.end(), narrow), in.cycle(), narrow.to<std::uint16_t>(in.slot()),
+          narrow.to<std::uint8_t>(in.channel()), in.null_frame(), narrow.id<PduId>(in.pdu()),
+          narrow.id<SensorId>(in.sensor()), in.sequence(), narrow.to<std::uint8_t>(in.fragment()),
+          bytes_of(in.bytes())});
     }
     case RecordKind::kSlotProblem: {
       const auto& in = payloads_.slot_problem;
@@ -145,13 +146,15 @@ bool Decoder::decode(RecordKind kind, std::string_view bytes, records::Sink& sin
       const auto& in = payloads_.list_hop;
       return hand_on(
           records::ListHop{stamp_of(in.stamp(), narrow),
-                           narrow.choice(in.hop(), records::Hop::kWritten, records::Hop::kOverwritten),
-                           narrow.id<PduId>(in.pdu()), in.sequence(), narrow.to<std::int8_t>(in.can_bus())});
+                           narrow.choice(in.hop(), records::Hop::kWritten, records::Hop::kStale),
+                           narrow.id<PduId>(in.pdu()), narrow.id<SensorId>(in.sensor()), in.sequence(),
+                           narrow.to<std::int8_t>(in.can_bus())});
     }
     case RecordKind::kTaskRun: {
       const auto& in = payloads_.task_run;
       return hand_on(records::TaskRun{stamp_of(in.start(), narrow), narrow.to<std::uint8_t>(in.task()),
-                                      TrueTime{in.activated()}, TrueTime{in.end()}, in.deadline_met()});
+                                      stamp_of(in.activated(), narrow), stamp_of(in.end(), narrow),
+                                      in.deadline_met()});
     }
     case RecordKind::kClockCorrected: {
       const auto& in = payloads_.clock_corrected;
@@ -166,8 +169,9 @@ bool Decoder::decode(RecordKind kind, std::string_view bytes, records::Sink& sin
     case RecordKind::kFusionInput: {
       const auto& in = payloads_.fusion_input;
       return hand_on(records::FusionInput{stamp_of(in.stamp(), narrow), in.step(), narrow.id<PduId>(in.pdu()),
-                                          in.sequence(), GlobalTime{in.measured()},
-                                          narrow.to<std::uint16_t>(in.count()), bytes_of(in.fragments())});
+                                          narrow.id<SensorId>(in.sensor()), in.sequence(),
+                                          GlobalTime{in.measured()}, narrow.to<std::uint16_t>(in.count()),
+                                          bytes_of(in.fragments())});
     }
     case RecordKind::kListFused: {
       const auto& in = payloads_.list_fused;
@@ -224,13 +228,15 @@ bool Decoder::decode(RecordKind kind, std::string_view bytes, records::Sink& sin
                                            GlobalTime{in.available()}, narrow.id<ObjectId>(in.object()),
                                            in.x(), in.y(), in.sigma(),
                                            in.has_vx() ? in.vx() : kNone, in.has_vy() ? in.vy() : kNone,
-                                           in.has_sigma_velocity() ? in.sigma_velocity() : kNone});
+                                           in.has_sigma_velocity() ? in.sigma_velocity() : kNone,
+                                           LocalTime{in.measured_local()}});
     }
     case RecordKind::kTruth: {
       const auto& in = payloads_.truth;
       return hand_on(records::TruthState{TrueTime{in.at()}, narrow.id<ObjectId>(in.object()), in.x(), in.y(),
                                          in.heading(), in.speed(), in.acceleration(), in.yaw_rate(),
-                                         in.length(), in.width()});
+                                         in.length(), in.width(), LocalTime{in.local()},
+                                         GlobalTime{in.global()}, narrow.id<NodeId>(in.node())});
     }
   }
   return false;

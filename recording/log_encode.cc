@@ -59,22 +59,22 @@ Encoded encode(const records::Measured& in, Payloads& payloads) {
 Encoded encode(const records::CanFrameSent& in, Payloads& payloads) {
   auto& out = payloads.can_frame;
   out.set_bus(in.bus);
-  out.set_sender(number(in.sender));
-  out.set_start(in.start.ns);
-  out.set_end(in.end.ns);
+  fill(*out.mutable_start(), in.start);
+  fill(*out.mutable_end(), in.end);
   out.set_identifier(in.identifier);
   out.set_flexible_data_rate(in.flexible_data_rate);
   out.set_pdu(number(in.pdu));
   out.set_sequence(in.sequence);
   out.set_fragment(in.fragment);
+  out.set_sensor(number(in.sensor));
   fill_bytes(*out.mutable_data(), in.data);
-  return {RecordKind::kCanFrame, &out, {in.end.ns, in.end.ns}};
+  return {RecordKind::kCanFrame, &out, times_of(in.end)};
 }
 
 Encoded encode(const records::SlotFrameSent& in, Payloads& payloads) {
   auto& out = payloads.slot_frame;
   fill(*out.mutable_stamp(), in.stamp);
-  out.set_end(in.end.ns);
+  fill(*out.mutable_end(), in.end);
   out.set_cycle(in.cycle);
   out.set_slot(in.slot);
   out.set_channel(in.channel);
@@ -82,6 +82,7 @@ Encoded encode(const records::SlotFrameSent& in, Payloads& payloads) {
   out.set_pdu(number(in.pdu));
   out.set_sequence(in.sequence);
   out.set_fragment(in.fragment);
+  out.set_sensor(number(in.sensor));
   fill_bytes(*out.mutable_bytes(), in.bytes);
   return {RecordKind::kSlotFrame, &out, times_of(in.stamp)};
 }
@@ -103,6 +104,7 @@ Encoded encode(const records::ListHop& in, Payloads& payloads) {
   out.set_pdu(number(in.pdu));
   out.set_sequence(in.sequence);
   out.set_can_bus(in.can_bus);
+  out.set_sensor(number(in.sensor));
   return {RecordKind::kListHop, &out, times_of(in.stamp)};
 }
 
@@ -110,8 +112,8 @@ Encoded encode(const records::TaskRun& in, Payloads& payloads) {
   auto& out = payloads.task_run;
   fill(*out.mutable_start(), in.start);
   out.set_task(in.task);
-  out.set_activated(in.activated.ns);
-  out.set_end(in.end.ns);
+  fill(*out.mutable_activated(), in.activated);
+  fill(*out.mutable_end(), in.end);
   out.set_deadline_met(in.deadline_met);
   return {RecordKind::kTaskRun, &out, times_of(in.start)};
 }
@@ -145,6 +147,7 @@ Encoded encode(const records::FusionInput& in, Payloads& payloads) {
   out.set_sequence(in.sequence);
   out.set_measured(in.measured.ns);
   out.set_count(in.count);
+  out.set_sensor(number(in.sensor));
   fill_bytes(*out.mutable_fragments(), in.fragments);
   return {RecordKind::kFusionInput, &out, times_of(in.stamp)};
 }
@@ -240,6 +243,7 @@ Encoded encode(const records::ReferenceFix& in, Payloads& payloads) {
   out.set_vx(in.vx);
   out.set_vy(in.vy);
   out.set_sigma_velocity(in.sigma_velocity);
+  out.set_measured_local(in.measured_local.ns);
   return {RecordKind::kReference, &out, {in.measured_true.ns, in.measured.ns}};
 }
 
@@ -255,7 +259,10 @@ Encoded encode(const records::TruthState& in, Payloads& payloads) {
   out.set_yaw_rate(in.yaw_rate);
   out.set_length(in.length);
   out.set_width(in.width);
-  return {RecordKind::kTruth, &out, {in.at.ns, in.at.ns}};
+  out.set_local(in.local.ns);
+  out.set_global(in.global.ns);
+  out.set_node(number(in.node));
+  return {RecordKind::kTruth, &out, {in.at.ns, in.global.ns}};
 }
 
 }  // namespace ttf::recording

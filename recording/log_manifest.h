@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/ids.h"
+
 namespace ttf::recording {
 
 // `hashes` are (what, hex digits) pairs, e.g. ("cluster", "6f0c..."); names are unique. The name lists are
@@ -20,11 +22,13 @@ struct LogManifest {
   std::string scenario_name;
   std::string cluster_name;
   std::string strategy;
+  std::string recording_name;  // file of the recorded observations the run was fed with; empty: none
   std::int64_t cycle_ns = 0;  // nominal communication cycle, for the grid of diagrams; 0 if unknown
   std::vector<std::pair<std::string, std::string>> hashes;
   std::vector<std::string> node_names;
   std::vector<std::vector<std::string>> task_names;  // per node, in the order of Node::tasks
   std::vector<std::string> pdu_names;
+  std::vector<SensorId> pdu_sensors;  // whose measurements the PDU's lists descend from; kNoSensor: of none
   std::vector<std::string> sensor_names;
   std::vector<std::string> can_bus_names;
 

@@ -47,6 +47,7 @@ bool read_entry(std::string_view key, const std::string& value, LogManifest& man
   if (key == "scenario") return manifest.scenario_name = value, true;
   if (key == "cluster") return manifest.cluster_name = value, true;
   if (key == "strategy") return manifest.strategy = value, true;
+  if (key == "recording") return manifest.recording_name = value, true;
   if (key == "seed") {
     const auto seed = whole<std::uint64_t>(value);
     manifest.seed = seed.value_or(0);
@@ -59,6 +60,11 @@ bool read_entry(std::string_view key, const std::string& value, LogManifest& man
   }
   if (const auto what = rest_after("hash.")) return manifest.hashes.emplace_back(*what, value), true;
   if (const auto index = rest_after("pdu.")) return append(manifest.pdu_names, *index, value);
+  if (const auto index = rest_after("pdu_sensor.")) {
+    const auto sensor = whole<std::uint8_t>(value);
+    if (!sensor || whole<std::size_t>(*index) != manifest.pdu_sensors.size()) return false;
+    return manifest.pdu_sensors.push_back(SensorId{*sensor}), true;
+  }
   if (const auto index = rest_after("sensor.")) return append(manifest.sensor_names, *index, value);
   if (const auto index = rest_after("can_bus.")) return append(manifest.can_bus_names, *index, value);
   if (key == "task_lists") {
@@ -88,6 +94,7 @@ ManifestEntries manifest_entries(const LogManifest& manifest) {
                           {"strategy", manifest.strategy},
                           {"cycle_ns", std::to_string(manifest.cycle_ns)},
                           {"task_lists", std::to_string(manifest.task_names.size())}};
+  if (!manifest.recording_name.empty()) entries.emplace_back("recording", manifest.recording_name);
   for (const auto& [what, hash] : manifest.hashes) entries.emplace_back("hash." + what, hash);
   const auto list = [&entries](std::string_view prefix, const std::vector<std::string>& names) {
     for (std::size_t i = 0; i < names.size(); ++i)
@@ -97,6 +104,8 @@ ManifestEntries manifest_entries(const LogManifest& manifest) {
   for (std::size_t i = 0; i < manifest.task_names.size(); ++i)
     list(fmt::format("node.{}.task", i), manifest.task_names[i]);
   list("pdu", manifest.pdu_names);
+  for (std::size_t i = 0; i < manifest.pdu_sensors.size(); ++i)
+    entries.emplace_back(fmt::format("pdu_sensor.{}", i), std::to_string(index_of(manifest.pdu_sensors[i])));
   list("sensor", manifest.sensor_names);
   list("can_bus", manifest.can_bus_names);
   entries.emplace_back("crc32", checksum(entries));

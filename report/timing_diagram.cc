@@ -34,12 +34,13 @@ void TimingDiagram::on(const records::Measured& r) {
   if (near(r.stamp.true_time, r.stamp.true_time)) data_.measurements.push_back({r.stamp.true_time, r.id});
 }
 void TimingDiagram::on(const records::CanFrameSent& r) {
-  if (near(r.start, r.end)) data_.can_frames.push_back({r.bus, r.start, r.end, r.pdu, r.sequence});
+  if (near(r.start.true_time, r.end.true_time))
+    data_.can_frames.push_back({r.bus, r.start.true_time, r.end.true_time, r.pdu, r.sequence});
 }
 void TimingDiagram::on(const records::SlotFrameSent& r) {
   const bool in_a_run = possible(r.stamp.global.ns) && r.cycle >= -kMostCycles && r.cycle <= kMostCycles;
-  if (in_a_run && near(r.stamp.true_time, r.end))
-    data_.slot_frames.push_back({r.stamp.true_time, r.end, r.stamp.global, r.stamp.node, r.cycle, r.slot,
+  if (in_a_run && near(r.stamp.true_time, r.end.true_time))
+    data_.slot_frames.push_back({r.stamp.true_time, r.end.true_time, r.stamp.global, r.stamp.node, r.cycle, r.slot,
                                  r.channel, r.null_frame, r.pdu, r.sequence, r.fragment});
 }
 void TimingDiagram::on(const records::ListHop& r) {
@@ -47,8 +48,8 @@ void TimingDiagram::on(const records::ListHop& r) {
     data_.hops.push_back({r.stamp.true_time, r.stamp.node, r.hop, r.pdu, r.sequence});
 }
 void TimingDiagram::on(const records::TaskRun& r) {
-  if (possible(r.start.true_time.ns) && near(r.activated, r.end))
-    data_.runs.push_back({r.activated, r.start.true_time, r.end, r.start.node, r.task, r.deadline_met});
+  if (possible(r.start.true_time.ns) && near(r.activated.true_time, r.end.true_time))
+    data_.runs.push_back({r.activated.true_time, r.start.true_time, r.end.true_time, r.start.node, r.task, r.deadline_met});
 }
 void TimingDiagram::on(const records::ListFused& r) {
   if (possible(r.measured.ns) && near(r.stamp.true_time, r.stamp.true_time))

@@ -1,6 +1,7 @@
 #include "sim/cluster_simulation.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "core/check.h"
@@ -55,12 +56,42 @@ struct ClusterSimulation::CanTap final : bus::CanPort {
   void send(const bus::CanFrame& frame) override { simulation.cans_[bus]->send(node, simulation.now_, frame); }
 };
 
+// The medium says that a frame began; its sender reports it when it has left. Both instants are looked up on the sender's
+// clocks when they come: nobody knows beforehand what a clock will show after its next correction.
+struct ClusterSimulation::CanLog final : records::Sink {
+  struct InFlight {
+    records::CanFrameSent frame;
+    std::array<std::byte, 64> bytes{};
+  };
+  ClusterSimulation& simulation;
+  std::vector<InFlight> in_flight;   // by bus
+  CanLog(ClusterSimulation& s, std::size_t buses) : simulation(s), in_flight(buses) {}
+
+  using records::Sink::on;
+  void on(const records::CanFrameSent& began) override {
+    const NodeId sender = began.start.node;
+    const nodes::Executive& executive = *simulation.nodes_[index_of(sender)];
+    InFlight& entry = in_flight[began.bus];
+    entry.frame = began;
+    std::copy(began.data.begin(), began.data.end(), entry.bytes.begin());
+    entry.frame.data = std::span<const std::byte>(entry.bytes).first(began.data.size());
+    entry.frame.start = executive.stamp(executive.oscillator().ticks_at(began.start.true_time));
+    entry.frame.start.true_time = began.start.true_time;
+    MediumEvent event;
+    event.kind = MediumEvent::Kind::kCanSent;
+    event.node = static_cast<std::uint8_t>(sender);
+    event.channel_or_bus = began.bus;
+    simulation.queue_.schedule(began.end.true_time, Phase::kArrival, event.node, event);
+  }
+};
+
 ClusterSimulation::ClusterSimulation(const SimulationConfig& config, records::Sink& sink)
     : cluster_(*config.cluster),
       sink_(sink),
       queue_(kPendingEvents),
       pool_(kPendingEvents),
       flexray_(cluster_, queue_, pool_),
+      can_log_(std::make_unique<CanLog>(*this, cluster_.can_buses.size())),
       watched_cycle_(cluster_.nodes.size(), -1) {
   std::vector<std::vector<bool>> on_can(cluster_.can_buses.size(), std::vector<bool>(cluster_.nodes.size()));
   for (std::size_t n = 0; n < cluster_.nodes.size(); ++n)
@@ -72,7 +103,7 @@ ClusterSimulation::ClusterSimulation(const SimulationConfig& config, records::Si
     std::vector<NodeId> members;
     for (std::size_t n = 0; n < cluster_.nodes.size(); ++n)
       if (on_can[b][n]) members.push_back(static_cast<NodeId>(n));
-    cans_.push_back(std::make_unique<CanMedium>(cluster_, b, members, queue_, pool_, sink_));
+    cans_.push_back(std::make_unique<CanMedium>(cluster_, b, members, queue_, pool_, *can_log_));
   }
   for (std::size_t n = 0; n < cluster_.nodes.size(); ++n) {
     const schedules::Node& node = cluster_.nodes[n];
@@ -152,6 +183,9 @@ void ClusterSimulation::deliver(const MediumEvent& event) {
     case MediumEvent::Kind::kTrigger:
       executive.trigger(static_cast<SensorId>(event.sensor), oscillator.ticks_at(now_));
       break;
+    case MediumEvent::Kind::kCanSent:
+      executive.can_frame_sent(can_log_->in_flight[event.channel_or_bus].frame, oscillator.ticks_at(now_));
+      return;
     case MediumEvent::Kind::kCanArbitration:
       cans_[event.channel_or_bus]->arbitrate(now_);
       return;
@@ -224,6 +258,7 @@ nodes::ExecutiveCounts ClusterSimulation::counts() const {
     sum.overwritten_lists += one.overwritten_lists;
     sum.slot_problems += one.slot_problems;
     sum.saturated_signals += one.saturated_signals;
+    sum.refused_fragments += one.refused_fragments;
   }
   return sum;
 }

@@ -47,6 +47,7 @@ class ClusterSimulation final : private nodes::SensorLines {
  private:
   struct FlexRayTap;
   struct CanTap;
+  struct CanLog;
 
   void trigger(SensorId sensor) override;
   void strobe(SensorId sensor, std::uint32_t sequence) override;
@@ -64,6 +65,7 @@ class ClusterSimulation final : private nodes::SensorLines {
   std::vector<std::unique_ptr<CanMedium>> cans_;
   std::vector<std::unique_ptr<FlexRayTap>> flexray_taps_;
   std::vector<std::unique_ptr<CanTap>> can_taps_;
+  std::unique_ptr<CanLog> can_log_;
   std::vector<std::unique_ptr<nodes::Executive>> nodes_;
   std::vector<TrueTime> next_;                 // per node, its next own event
   std::vector<std::int64_t> watched_cycle_;    // per node, the cycle whose corners are being observed

@@ -25,8 +25,8 @@ class Observer final : public records::Sink {
   }
 
   using records::Sink::on;
-  void on(const records::Measured& measured) override { truth(measured.stamp.true_time); }
-  void on(const records::FeatureUsed& used) override { truth(used.stamp.true_time); }
+  void on(const records::Measured& measured) override { truth(measured.stamp); }
+  void on(const records::FeatureUsed& used) override { truth(used.stamp); }
   void on(const records::FusionStep& step) override {
     if (reference_ == nullptr) return;
     while (true) {
@@ -36,6 +36,7 @@ class Observer final : public records::Sink {
       records::ReferenceFix record;
       record.measured_true = fix.measured + since_start;
       // GPS time is the reference's own: it is on the cluster's scale by its offset to cycle 0, known after the drive.
+      record.measured_local = LocalTime{record.measured_true.ns};
       record.measured = GlobalTime{} + (record.measured_true - kFirstCycle);
       record.available = GlobalTime{} + (fix.available + since_start - kFirstCycle);
       record.object = fix.object;
@@ -51,13 +52,14 @@ class Observer final : public records::Sink {
   }
 
  private:
-  void truth(TrueTime at) {
+  void truth(const records::Stamp& stamp) {
+    const TrueTime at = stamp.true_time;
     if (last_truth_ && *last_truth_ == at) return;
     last_truth_ = at;
     scene_.states_at(at, states_);
     for (const world::ObjectState& state : states_)
       out_.on(records::TruthState{at, state.id, state.x, state.y, state.heading, state.speed, state.acceleration,
-                                  state.yaw_rate, state.length, state.width});
+                                  state.yaw_rate, state.length, state.width, stamp.local, stamp.global, stamp.node});
   }
 
   const nodes::Scene& scene_;
@@ -85,18 +87,26 @@ TrueTime drive_start(const schedules::Cluster& cluster) {
 TrueTime evaluation_start(const nodes::Scenario& scenario) { return kFirstCycle + scenario.evaluate_from; }
 TrueTime drive_end(const nodes::Scenario& scenario) { return kFirstCycle + scenario.duration; }
 
+void check_recording(const nodes::Scenario& scenario, const schedules::Cluster& cluster, bool given) {
+  const bool needed = nodes::is_recorded(cluster);
+  if (needed && !given)
+    throw InputError({scenario.file, 0, "clusters", cluster.file, "needs a recording: give one with --input"});
+  if (!needed && given)
+    throw InputError({scenario.file, 0, "clusters", cluster.file,
+                      "takes no recording, so --input would be ignored: it has no task with step recorded_source"});
+}
+
 DriveOutcome run_drive(const DriveConfig& config, records::Sink& sink) {
   const schedules::Cluster& cluster = *config.cluster;
   const nodes::Scenario& scenario = *config.scenario;
   const bool recorded = nodes::is_recorded(cluster);
   const TrueTime start = drive_start(cluster);
+  check_recording(scenario, cluster, config.recorded != nullptr);
 
   std::shared_ptr<const nodes::Scene> scene;
   std::shared_ptr<const nodes::WorldScene> world;
   std::optional<world::Reference> reference;
   if (recorded) {
-    if (!config.recorded)
-      throw InputError({scenario.file, 0, "clusters", cluster.file, "needs a recording: give one with --input"});
     scene = std::make_shared<nodes::RecordedScene>(*config.recorded, start);
   } else {
     world = std::make_shared<nodes::WorldScene>(scenario.world, config.seed, config.replication, start);

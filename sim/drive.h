@@ -36,6 +36,10 @@ struct DriveOutcome {
   std::uint64_t frames_sent = 0;
 };
 
+// Whether scenario and cluster take what they are given: a cluster with recorded sources needs a recording, and any other has
+// no use for one. Throws InputError; run_drive() asks it, too.
+void check_recording(const nodes::Scenario& scenario, const schedules::Cluster& cluster, bool given);
+
 // Runs the drive to its end. Throws InputError where scenario, cluster and code do not fit together.
 DriveOutcome run_drive(const DriveConfig& config, records::Sink& sink);
 

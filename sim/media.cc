@@ -111,9 +111,9 @@ void CanMedium::arbitrate(TrueTime now) {
 void CanMedium::report(const Pending& frame, TrueTime start, TrueTime end) {
   records::CanFrameSent sent;
   sent.bus = static_cast<std::uint8_t>(bus_);
-  sent.sender = frame.sender;
-  sent.start = start;
-  sent.end = end;
+  sent.start.true_time = start;
+  sent.end.true_time = end;
+  sent.start.node = sent.end.node = frame.sender;
   sent.identifier = frame.identifier;
   sent.flexible_data_rate = frame.flexible_data_rate;
   sent.data = pool_.bytes(frame.frame);

@@ -24,9 +24,11 @@ namespace ttf::sim {
 
 // A pending arrival or arbitration.
 struct MediumEvent {
-  enum class Kind : std::uint8_t { kFlexRayArrival, kCanArrival, kCanArbitration, kStrobe, kTrigger, kObservation };
+  enum class Kind : std::uint8_t {
+    kFlexRayArrival, kCanArrival, kCanSent, kCanArbitration, kStrobe, kTrigger, kObservation
+  };
   Kind kind{};
-  std::uint8_t node = 0;          // receiver; the bus for an arbitration
+  std::uint8_t node = 0;          // receiver, or sender of what was sent; the bus for an arbitration
   std::uint8_t channel_or_bus = 0;
   std::uint8_t sensor = 0;
   bool flexible_data_rate = false;
@@ -53,6 +55,7 @@ class FlexRayMedium {
 
 class CanMedium {
  public:
+  // `sink` hears of each frame when it begins: what the wire carries, in true time. The rest its sender knows.
   CanMedium(const schedules::Cluster& cluster, std::size_t bus, std::span<const NodeId> nodes, MediumQueue& queue,
             FramePool& pool, records::Sink& sink);
   void send(NodeId sender, TrueTime now, const bus::CanFrame& frame);

@@ -32,15 +32,19 @@ struct Measured {
 };
 inline constexpr ObjectId kClutterObject{0xffff};
 
-// One frame on a private CAN, stamped at its end by the medium (`sender` sent it).
+// What travels is a list: of a PDU, under a sequence number that counts on where the bus' field wraps, and (with that
+// number) of the measurement `sensor` made. kNoSensor: a list that descends from no single measurement, such as an image,
+// which ImageWritten ties to the measurements in it.
+
+// One frame on a private CAN, as its sender saw it.
 struct CanFrameSent {
   std::uint8_t bus = 0;              // index in Cluster::can_buses
-  NodeId sender{};
-  TrueTime start{};
-  TrueTime end{};
+  Stamp start{};                     // it won the arbitration
+  Stamp end{};                       // it has left, intermission included
   std::uint32_t identifier = 0;
   bool flexible_data_rate = false;
   PduId pdu = kNoPdu;
+  SensorId sensor = kNoSensor;
   std::uint32_t sequence = 0;
   std::uint8_t fragment = 0;
   std::span<const std::byte> data;
@@ -49,12 +53,13 @@ struct CanFrameSent {
 // One FlexRay frame on one channel.
 struct SlotFrameSent {
   Stamp stamp;                       // start of transmission
-  TrueTime end{};
+  Stamp end{};
   std::int64_t cycle = 0;            // running cycle
   std::uint16_t slot = 0;
   std::uint8_t channel = 0;          // 0 A, 1 B
   bool null_frame = false;
   PduId pdu = kNoPdu;
+  SensorId sensor = kNoSensor;
   std::uint32_t sequence = 0;
   std::uint8_t fragment = 0;
   std::span<const std::byte> bytes;  // header, payload and trailer as on the wire
@@ -73,16 +78,18 @@ struct SlotProblem {
 // A list of a PDU on its way: every hop is one record, so that a diagram can draw the arrows.
 enum class Hop : std::uint8_t {
   kWritten = 1,    // a task's output became visible in a CNI
-  kSent = 2,       // its last frame left (CAN end of frame, or end of the last slot)
+  kSent = 2,       // its last frame has left
   kReceived = 3,   // complete in the receiver's CNI
   kTorn = 4,       // displaced before all its fragments were there: lost
   kRead = 5,       // a task read it at its start, for the first time
-  kOverwritten = 6 // a newer list replaced it before it was ever read
+  kOverwritten = 6,// a newer list replaced it before it was ever read
+  kStale = 7       // a fragment of it came when a newer list had begun to arrive; not used
 };
 struct ListHop {
   Stamp stamp;
   Hop hop = Hop::kWritten;
   PduId pdu{};
+  SensorId sensor = kNoSensor;
   std::uint32_t sequence = 0;
   std::int8_t can_bus = -1;          // -1: FlexRay
 };
@@ -90,20 +97,23 @@ struct ListHop {
 struct TaskRun {
   Stamp start;
   std::uint8_t task = 0;             // index in Node::tasks
-  TrueTime activated{};
-  TrueTime end{};
+  Stamp activated{};
+  Stamp end{};
   bool deadline_met = true;
 };
 
+// The corrections computed from a double cycle. The offset correction acts from gOffsetCorrectionStart of this same cycle to
+// its end, the rate correction from the next cycle on.
 struct ClockCorrected {
-  Stamp stamp;                       // end of the odd cycle
+  Stamp stamp;                       // end of the odd cycle's static segment, before either is in force
   std::int64_t cycle = 0;
   std::int32_t offset_microticks = 0;
   std::int32_t rate_microticks = 0;
   bool offset_missing = false, rate_missing = false, offset_limited = false, rate_limited = false;
 };
 
-// Largest difference between any two nodes' global times within a double cycle, against true time.
+// Largest difference between any two nodes' global times within a double cycle: seen by the simulator, which belongs to no
+// node, so its true time is all there is.
 struct PrecisionSample {
   TrueTime at{};
   std::int64_t cycle = 0;
@@ -115,6 +125,7 @@ struct FusionInput {
   Stamp stamp;
   std::uint32_t step = 0;
   PduId pdu{};
+  SensorId sensor = kNoSensor;
   std::uint32_t sequence = 0;
   GlobalTime measured{};             // unwrapped time stamp of the list
   std::uint16_t count = 0;           // elements
@@ -198,12 +209,17 @@ struct ReferenceFix {                // DGPS on the tracked car, transformed wit
   ObjectId object{};
   double x = 0, y = 0, sigma = 0;
   double vx = 0, vy = 0, sigma_velocity = 0;   // from Doppler; not a number where the receiver gives none
+  LocalTime measured_local{};        // on the receiver's own clock, which is GPS time
 };
 
+// An object as it truly was when a node measured or used an image: that instant on the node's clocks, too.
 struct TruthState {
   TrueTime at{};
   ObjectId object{};
   double x = 0, y = 0, heading = 0, speed = 0, acceleration = 0, yaw_rate = 0, length = 0, width = 0;
+  LocalTime local{};
+  GlobalTime global{};
+  NodeId node{};
 };
 
 // The port. One function per kind of record; an implementation overrides what it cares for.

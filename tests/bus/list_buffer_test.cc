@@ -207,11 +207,11 @@ TEST(IncomingList, L2_AnOlderListNeverReplacesANewerOne) {
   for (const int bits : {2, 4, 8}) {
     const auto layout = list_layout(bits);
     const std::uint32_t circle = 1u << bits;
-    for (std::uint32_t newest = circle; newest < 3 * circle; ++newest)
-      for (std::uint32_t back = 1; back < circle; ++back) {
-        IncomingList incoming(layout);
-        for (std::uint32_t sequence = 0; sequence <= newest; ++sequence)
-          incoming.arrive(MadeList(layout, sequence, 1, sequence).fragment(0));
+    IncomingList counting(layout);
+    for (std::uint32_t newest = 0; newest < 3 * circle; ++newest) {
+      counting.arrive(MadeList(layout, newest, 1, newest).fragment(0));
+      for (std::uint32_t back = 1; back < circle && newest >= circle; ++back) {
+        IncomingList incoming = counting;
         MadeList latest(layout, newest, 1, newest), other(layout, newest - back, 1, 9999);
         const bool older = back < circle / 2;   // else it is as far ahead, on the circle
         ASSERT_EQ(incoming.arrive(other.fragment(0)), older ? kStale : kCompleted) << newest << " then -" << back;
@@ -219,6 +219,7 @@ TEST(IncomingList, L2_AnOlderListNeverReplacesANewerOne) {
         ASSERT_EQ(incoming.arrived(), newest - back);
         expect_latest(incoming, latest);
       }
+    }
   }
 }
 

@@ -7,6 +7,7 @@
 #include "core/errors.h"
 #include "core/random.h"
 #include "recording/log_reader.h"
+#include "recording/records/tee.h"
 #include "tests/recording/log_fixture.h"
 #include "tests/recording/record_text.h"
 
@@ -74,7 +75,7 @@ TEST(LogDamage, ClosedChunksAreInTheFileBeforeTheWriterCloses) {
   const std::string path = scratch("crash.mcap");
   LogWriter writer(path, sample_manifest());
   TextSink written;
-  Tee both(writer, written);
+  records::Tee both({&writer, &written});
   emit_drive(both, 1000);  // 1 s: chunks of 250 ms
   TextSink sink;
   const LogInfo info = read_log(path, sink);

@@ -33,11 +33,13 @@ inline LogManifest sample_manifest() {
   manifest.scenario_name = "leading car";
   manifest.cluster_name = "paper, synchronised";
   manifest.strategy = "tt";
+  manifest.recording_name = "street.txt";
   manifest.cycle_ns = 5'000'000;
   manifest.hashes = {{"cluster", "00ff"}, {"scenario", "dead.beef"}};
   manifest.node_names = {"laser", "camera", "fusion"};
   manifest.task_names = {{"preprocess", "send"}, {}, {"fuse"}};
   manifest.pdu_names = {"laser_objects", "camera.objects", std::string("odd\0name", 8)};
+  manifest.pdu_sensors = {SensorId{0}, SensorId{254}, kNoSensor};
   manifest.sensor_names = {"laser"};
   manifest.can_bus_names = {"laser_can", ""};
   return manifest;

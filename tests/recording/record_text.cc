@@ -154,18 +154,18 @@ void TextSink::on(const records::Measured& r) {
   lines.push_back(line("measured", r.stamp, r.id, r.truth_ids));
 }
 void TextSink::on(const records::CanFrameSent& r) {
-  lines.push_back(line("can", r.bus, r.sender, r.start, r.end, r.identifier, r.flexible_data_rate, r.pdu,
+  lines.push_back(line("can", r.bus, r.start, r.end, r.identifier, r.flexible_data_rate, r.pdu, r.sensor,
                        r.sequence, r.fragment, r.data));
 }
 void TextSink::on(const records::SlotFrameSent& r) {
-  lines.push_back(line("slot", r.stamp, r.end, r.cycle, r.slot, r.channel, r.null_frame, r.pdu, r.sequence,
-                       r.fragment, r.bytes));
+  lines.push_back(line("slot", r.stamp, r.end, r.cycle, r.slot, r.channel, r.null_frame, r.pdu, r.sensor,
+                       r.sequence, r.fragment, r.bytes));
 }
 void TextSink::on(const records::SlotProblem& r) {
   lines.push_back(line("problem", r.stamp, r.cycle, r.slot, r.channel, r.status));
 }
 void TextSink::on(const records::ListHop& r) {
-  lines.push_back(line("hop", r.stamp, r.hop, r.pdu, r.sequence, r.can_bus));
+  lines.push_back(line("hop", r.stamp, r.hop, r.pdu, r.sensor, r.sequence, r.can_bus));
 }
 void TextSink::on(const records::TaskRun& r) {
   lines.push_back(line("task", r.start, r.task, r.activated, r.end, r.deadline_met));
@@ -178,7 +178,8 @@ void TextSink::on(const records::PrecisionSample& r) {
   lines.push_back(line("precision", r.at, r.cycle, r.precision));
 }
 void TextSink::on(const records::FusionInput& r) {
-  lines.push_back(line("input", r.stamp, r.step, r.pdu, r.sequence, r.measured, r.count, r.fragments));
+  lines.push_back(line("input", r.stamp, r.step, r.pdu, r.sensor, r.sequence, r.measured, r.count,
+                       r.fragments));
 }
 void TextSink::on(const records::ListFused& r) {
   lines.push_back(line("fused", r.stamp, r.step, r.id, r.measured, r.disposition));
@@ -201,11 +202,11 @@ void TextSink::on(const records::FeatureUsed& r) {
 }
 void TextSink::on(const records::ReferenceFix& r) {
   lines.push_back(line("reference", r.measured_true, r.measured, r.available, r.object, r.x, r.y, r.sigma, r.vx, r.vy,
-                       r.sigma_velocity));
+                       r.sigma_velocity, r.measured_local));
 }
 void TextSink::on(const records::TruthState& r) {
   lines.push_back(line("truth", r.at, r.object, r.x, r.y, r.heading, r.speed, r.acceleration, r.yaw_rate,
-                       r.length, r.width));
+                       r.length, r.width, r.local, r.global, r.node));
 }
 
 void emit(records::Sink& sink, int kind, Values values, std::uint32_t index, std::int64_t at_ns) {
@@ -224,23 +225,23 @@ void emit(records::Sink& sink, int kind, Values values, std::uint32_t index, std
     }
     case 2: {
       const auto data = d.list<std::byte>(64);
-      return sink.on(records::CanFrameSent{d.get<U8>(), d.get<NodeId>(), d.get<TrueTime>(), d.get<TrueTime>(),
-                                           d.get<U32>(), d.get<bool>(), d.get<PduId>(), d.get<U32>(),
-                                           d.get<U8>(), data});
+      return sink.on(records::CanFrameSent{d.get<U8>(), stamp, d.get<records::Stamp>(), d.get<U32>(), d.get<bool>(),
+                                           d.get<PduId>(), d.get<SensorId>(), d.get<U32>(), d.get<U8>(), data});
     }
     case 3: {
       const auto bytes = d.list<std::byte>(262);
-      return sink.on(records::SlotFrameSent{stamp, d.get<TrueTime>(), d.get<I64>(), d.get<U16>(), d.get<U8>(),
-                                            d.get<bool>(), d.get<PduId>(), d.get<U32>(), d.get<U8>(), bytes});
+      return sink.on(records::SlotFrameSent{stamp, d.get<records::Stamp>(), d.get<I64>(), d.get<U16>(), d.get<U8>(),
+                                            d.get<bool>(), d.get<PduId>(), d.get<SensorId>(), d.get<U32>(),
+                                            d.get<U8>(), bytes});
     }
     case 4:
       return sink.on(records::SlotProblem{stamp, d.get<I64>(), d.get<U16>(), d.get<U8>(), d.get<U8>()});
     case 5:
-      return sink.on(records::ListHop{stamp, d.choice(records::Hop::kWritten, records::Hop::kOverwritten),
-                                      d.get<PduId>(), d.get<U32>(), d.get<std::int8_t>()});
+      return sink.on(records::ListHop{stamp, d.choice(records::Hop::kWritten, records::Hop::kStale), d.get<PduId>(),
+                                      d.get<SensorId>(), d.get<U32>(), d.get<std::int8_t>()});
     case 6:
       return sink.on(
-          records::TaskRun{stamp, d.get<U8>(), d.get<TrueTime>(), d.get<TrueTime>(), d.get<bool>()});
+          records::TaskRun{stamp, d.get<U8>(), d.get<records::Stamp>(), d.get<records::Stamp>(), d.get<bool>()});
     case 7:
       return sink.on(records::ClockCorrected{stamp, d.get<I64>(), d.get<I32>(), d.get<I32>(), d.get<bool>(),
                                              d.get<bool>(), d.get<bool>(), d.get<bool>()});
@@ -248,7 +249,7 @@ void emit(records::Sink& sink, int kind, Values values, std::uint32_t index, std
       return sink.on(records::PrecisionSample{d.get<TrueTime>(), d.get<I64>(), d.get<Duration>()});
     case 9: {
       const auto fragments = d.list<std::byte>(5000);
-      return sink.on(records::FusionInput{stamp, d.get<U32>(), d.get<PduId>(), d.get<U32>(),
+      return sink.on(records::FusionInput{stamp, d.get<U32>(), d.get<PduId>(), d.get<SensorId>(), d.get<U32>(),
                                           d.get<GlobalTime>(), d.get<U16>(), fragments});
     }
     case 10:
@@ -281,11 +282,12 @@ void emit(records::Sink& sink, int kind, Values values, std::uint32_t index, std
       return sink.on(records::ReferenceFix{d.get<TrueTime>(), d.get<GlobalTime>(), d.get<GlobalTime>(),
                                            d.get<ObjectId>(), d.get<double>(), d.get<double>(),
                                            d.get<double>(), d.get<double>(), d.get<double>(),
-                                           d.get<double>()});
+                                           d.get<double>(), d.get<LocalTime>()});
     case 17:
       return sink.on(records::TruthState{d.get<TrueTime>(), d.get<ObjectId>(), d.get<double>(),
                                          d.get<double>(), d.get<double>(), d.get<double>(), d.get<double>(),
-                                         d.get<double>(), d.get<double>(), d.get<double>()});
+                                         d.get<double>(), d.get<double>(), d.get<double>(), d.get<LocalTime>(),
+                                         d.get<GlobalTime>(), d.get<NodeId>()});
   }
 }
 

@@ -34,33 +34,6 @@ class TextSink final : public records::Sink {
   void on(const records::TruthState&) override;
 };
 
-// Hands every record on to both.
-class Tee final : public records::Sink {
- public:
-  Tee(records::Sink& a, records::Sink& b) : a_(a), b_(b) {}
-  void on(const records::Measured& r) override { a_.on(r), b_.on(r); }
-  void on(const records::CanFrameSent& r) override { a_.on(r), b_.on(r); }
-  void on(const records::SlotFrameSent& r) override { a_.on(r), b_.on(r); }
-  void on(const records::SlotProblem& r) override { a_.on(r), b_.on(r); }
-  void on(const records::ListHop& r) override { a_.on(r), b_.on(r); }
-  void on(const records::TaskRun& r) override { a_.on(r), b_.on(r); }
-  void on(const records::ClockCorrected& r) override { a_.on(r), b_.on(r); }
-  void on(const records::PrecisionSample& r) override { a_.on(r), b_.on(r); }
-  void on(const records::FusionInput& r) override { a_.on(r), b_.on(r); }
-  void on(const records::ListFused& r) override { a_.on(r), b_.on(r); }
-  void on(const records::FusionStep& r) override { a_.on(r), b_.on(r); }
-  void on(const records::TrackState& r) override { a_.on(r), b_.on(r); }
-  void on(const records::ObservationSeen& r) override { a_.on(r), b_.on(r); }
-  void on(const records::ImageWritten& r) override { a_.on(r), b_.on(r); }
-  void on(const records::FeatureUsed& r) override { a_.on(r), b_.on(r); }
-  void on(const records::ReferenceFix& r) override { a_.on(r), b_.on(r); }
-  void on(const records::TruthState& r) override { a_.on(r), b_.on(r); }
-
- private:
-  records::Sink& a_;
-  records::Sink& b_;
-};
-
 // What the drawn fields look like. kSmallest and kLargest: every field at that end of its type, lists empty
 // and long; kDrawn: anything, with times near `at`.
 enum class Values { kSmallest, kLargest, kZero, kDrawn };

@@ -41,7 +41,7 @@ struct SyntheticRun {
     records::SlotFrameSent f;
     const std::int64_t start = cycle * 5000 + (number - 1) * 84 + 7 - global_offset_us;
     f.stamp = stamp(start, node);
-    f.end = at_us(start + 74);
+    f.end = stamp(start + 74, node);
     f.cycle = cycle;
     f.slot = static_cast<std::uint16_t>(number);
     f.null_frame = null_frame;
@@ -53,14 +53,14 @@ struct SyntheticRun {
 
   void hop(records::Sink& sink, std::int64_t us, int node, records::Hop what, int pdu, std::uint32_t sequence,
            int bus = -1) const {
-    sink.on(records::ListHop{stamp(us, node), what, PduId(static_cast<std::uint8_t>(pdu)), sequence,
+    sink.on(records::ListHop{stamp(us, node), what, PduId(static_cast<std::uint8_t>(pdu)), kNoSensor, sequence,
                              static_cast<std::int8_t>(bus)});
   }
 
   void task(records::Sink& sink, std::int64_t activated, std::int64_t start, std::int64_t end, int node,
             int number, bool met = true) const {
-    sink.on(records::TaskRun{stamp(start, node), static_cast<std::uint8_t>(number), at_us(activated),
-                             at_us(end), met});
+    sink.on(records::TaskRun{stamp(start, node), static_cast<std::uint8_t>(number), stamp(activated, node),
+                             stamp(end, node), met});
   }
 
   void can(records::Sink& sink, std::int64_t start, std::int64_t end, int bus, int sender, int pdu,
@@ -68,9 +68,8 @@ struct SyntheticRun {
     for (int i = 0; i < 4; ++i) {
       records::CanFrameSent f;
       f.bus = static_cast<std::uint8_t>(bus);
-      f.sender = NodeId(static_cast<std::uint8_t>(sender));
-      f.start = at_us(start + (end - start) * i / 4);
-      f.end = at_us(start + (end - start) * (i + 1) / 4 - 20);
+      f.start = stamp(start + (end - start) * i / 4, sender);
+      f.end = stamp(start + (end - start) * (i + 1) / 4 - 20, sender);
       f.pdu = PduId(static_cast<std::uint8_t>(pdu));
       f.sequence = sequence;
       f.fragment = static_cast<std::uint8_t>(i);

@@ -112,7 +112,7 @@ TEST(TimingDiagram, ImpossibleTimesChangeNothing) {
     const records::Stamp beyond{{ns}, {ns}, {ns}, NodeId{1}};
     records::SlotFrameSent frame;
     frame.stamp = inside;
-    frame.end = at_us(250'074);
+    frame.end.true_time = at_us(250'074);
     frame.cycle = ns;
     d.on(frame);
     frame.cycle = 50;
@@ -132,7 +132,7 @@ TEST(TimingDiagram, AFrameOfAnotherCycleMovesNoLine) {
   SyntheticRun{}.slot(d, 45, 1, 5, kNoPdu, 0, 0, true);
   records::SlotFrameSent frame;
   frame.stamp = SyntheticRun{}.stamp(250'000, 5);
-  frame.end = at_us(250'074);
+  frame.end.true_time = at_us(250'074);
   frame.cycle = 4000;
   d.on(frame);
   const std::string svg = d.svg();
