@@ -10,6 +10,7 @@
 #include "cli/output.h"
 #include "cli/run_outputs.h"
 #include "core/errors.h"
+#include "core/file_bytes.h"
 #include "nodes/catalog.h"
 #include "recording/log_writer.h"
 #include "recording/recorded_input.h"
@@ -45,8 +46,22 @@ schedules::Cluster checked_cluster(const std::string& file) {
   return cluster;
 }
 
+// What --input gives: the observations, and what the manifest says of the file they came from. Its name goes without the
+// folder, so that a log does not depend on where the file lay.
+struct Recording {
+  std::shared_ptr<const recording::RecordedInput> rows;
+  std::string name, hash;
+};
+
+Recording read_recording(const std::string& path) {
+  if (path.empty()) return {};
+  const std::string text = read_file(path);
+  return {std::make_shared<recording::RecordedInput>(recording::parse_laser_radar(text, path)),
+          std::filesystem::path(path).filename().string(), hex_hash(text)};
+}
+
 recording::LogManifest manifest_of(const nodes::Scenario& scenario, const schedules::Cluster& cluster,
-                                   fusion::StrategyKind strategy, std::uint64_t seed) {
+                                   fusion::StrategyKind strategy, std::uint64_t seed, const Recording& recording) {
   recording::LogManifest manifest;
   manifest.version = TTF_VERSION;
   manifest.seed = seed;
@@ -55,12 +70,19 @@ recording::LogManifest manifest_of(const nodes::Scenario& scenario, const schedu
   manifest.strategy = nodes::name_of(strategy);
   manifest.cycle_ns = cluster.cycle().ns;
   manifest.hashes = {{"scenario", hex_hash(scenario.text)}, {"cluster", hex_hash(cluster.text)}};
+  if (recording.rows) {
+    manifest.recording_name = recording.name;
+    manifest.hashes.emplace_back("recording", recording.hash);
+  }
   for (const schedules::Node& node : cluster.nodes) {
     manifest.node_names.push_back(node.name);
     manifest.task_names.emplace_back();
     for (const schedules::Task& task : node.tasks) manifest.task_names.back().push_back(task.name);
   }
-  for (const schedules::PduLayout& pdu : cluster.pdus) manifest.pdu_names.push_back(pdu.name);
+  for (const schedules::PduLayout& pdu : cluster.pdus) {
+    manifest.pdu_names.push_back(pdu.name);
+    manifest.pdu_sensors.push_back(pdu.sensor);
+  }
   for (const schedules::Sensor& sensor : cluster.sensors) manifest.sensor_names.push_back(sensor.name);
   for (const schedules::CanBus& bus : cluster.can_buses) manifest.can_bus_names.push_back(bus.name);
   return manifest;
@@ -74,25 +96,25 @@ std::vector<fusion::StrategyKind> chosen(const std::string& name) {
 }
 
 StrategyResult run_strategy(const Options& options, const nodes::Scenario& scenario, fusion::StrategyKind strategy,
-                            std::uint64_t seed, std::shared_ptr<const recording::RecordedInput> recorded,
-                            const std::string& folder) {
+                            std::uint64_t seed, const Recording& recording, const std::string& folder) {
   StrategyResult result;
   result.strategy = strategy;
   result.cluster = checked_cluster(scenario.cluster_files[static_cast<std::size_t>(strategy)]);
+  sim::check_recording(scenario, result.cluster, recording.rows != nullptr);
   experiments::DriveMeasures measures(sim::evaluation_start(scenario));
   std::vector<records::Sink*> sinks{&measures};
   std::unique_ptr<recording::LogWriter> log;
   if (!options.no_log) {
     result.log_path = fmt::format("{}/{}.mcap", folder, nodes::name_of(strategy));
     log = std::make_unique<recording::LogWriter>(result.log_path,
-                                                 manifest_of(scenario, result.cluster, strategy, seed));
+                                                 manifest_of(scenario, result.cluster, strategy, seed, recording));
     log->attach(std::filesystem::path(scenario.file).filename().string(), "application/yaml", scenario.text);
     log->attach(std::filesystem::path(result.cluster.file).filename().string(), "application/yaml",
                 result.cluster.text);
     sinks.push_back(log.get());
   }
   records::Tee tee(sinks);
-  const sim::DriveConfig config{&scenario, &result.cluster, strategy, seed, 0, std::move(recorded)};
+  const sim::DriveConfig config{&scenario, &result.cluster, strategy, seed, 0, recording.rows};
   result.outcome = sim::run_drive(config, tee);
   result.summary = measures.finish();
   if (log) {
@@ -105,9 +127,7 @@ StrategyResult run_strategy(const Options& options, const nodes::Scenario& scena
 int run(const Options& options) {
   const nodes::Scenario scenario = nodes::load_scenario(options.scenario);
   const std::uint64_t seed = options.seed.value_or(scenario.seed);
-  std::shared_ptr<const recording::RecordedInput> recorded;
-  if (!options.input.empty())
-    recorded = std::make_shared<recording::RecordedInput>(recording::read_laser_radar(options.input));
+  const Recording recording = read_recording(options.input);
   const std::string folder = options.out.empty() ? "out/" + scenario.name : options.out;
   std::error_code failure;
   std::filesystem::create_directories(folder, failure);
@@ -116,7 +136,7 @@ int run(const Options& options) {
   std::vector<StrategyResult> results;
   for (const fusion::StrategyKind strategy : chosen(options.strategy)) {
     fmt::print(stderr, "{}: {:g} s with {} ...\n", scenario.name, scenario.duration.seconds(), nodes::name_of(strategy));
-    results.push_back(run_strategy(options, scenario, strategy, seed, recorded, folder));
+    results.push_back(run_strategy(options, scenario, strategy, seed, recording, folder));
   }
   if (!options.no_pictures && !options.no_log) write_pictures(scenario, results, folder);
   const nlohmann::ordered_json json = to_json(scenario, seed, results);

@@ -123,6 +123,10 @@ expect 0 'warning: .*cut.mcap' diagram "$work/cut.mcap" -o "$work/cut.svg"
 expect 2 'scenario|MCAP|mcap' diagram "$source/README.md" -o "$work/none.svg"
 
 # Recorded input, and a broken line in it.
+printf 'L\t1.0\t0.1\t1000000\t1.0\t0.1\t5.0\t0.0\t0.0\t0.0\n' >"$work/short.txt"
+expect 2 'paper_scenario1.yaml: clusters = .*: takes no recording, so --input would be ignored' \
+  run "$source/scenarios/paper_scenario1.yaml" --input "$work/short.txt" --out "$work/none"
+[[ -e $work/none/buff.mcap ]] && fail "a refused recording leaves a log"
 recording=$source/../shared/data/laser_radar/measurements.txt
 if [[ -r $recording ]]; then
   expect 0 'position RMSE' run "$source/scenarios/laser_radar_recorded.yaml" --input "$recording" --out "$work/r" --no-pictures
