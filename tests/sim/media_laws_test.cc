@@ -101,10 +101,10 @@ struct Reported final : records::Sink {
     const bool whole = sent.data.size() >= static_cast<std::size_t>(cluster.pdus[0].fragment_bytes);
     EXPECT_EQ(sent.pdu, known && whole ? PduId{0} : kNoPdu) << sent.data.size() << " bytes";
     ++frames;
-    EXPECT_GE(sent.start, end);
-    EXPECT_LT(sent.start, sent.end);
-    end = sent.end;
-    busy += sent.end - sent.start;
+    EXPECT_GE(sent.start.true_time, end);
+    EXPECT_LT(sent.start.true_time, sent.end.true_time);
+    end = sent.end.true_time;
+    busy += sent.end.true_time - sent.start.true_time;
   }
 };
 
