@@ -22,10 +22,12 @@ struct Observation {
   ObservationKind kind = ObservationKind::kPosition;
   Eigen::Vector3d z = Eigen::Vector3d::Zero();
   Eigen::Matrix3d r = Eigen::Matrix3d::Zero();
-  bool has_heading = false, has_length = false, has_width = false;
+  bool has_heading = false, has_length = false, has_width = false, has_span = false;
   double heading = 0.0, sigma_heading = 0.0;   // [rad], of the object's axis: known up to half a turn
   double length = 0.0, sigma_length = 0.0;     // [m]
-  double width = 0.0, sigma_width = 0.0;       // [m]
+  double width = 0.0, sigma_width = 0.0;       // [m], the object's own, across its axis
+  // [rad], the angle the outline subtends at the sensor: a rear's or a side's, as the object happens to be turned.
+  double span = 0.0, sigma_span = 0.0;
 };
 
 // One list of a sensor: everything in it was measured at `measured`.

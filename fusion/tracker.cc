@@ -10,12 +10,6 @@
 namespace ttf::fusion {
 namespace {
 
-// An object's axis is measured up to half a turn: the turn that fits the expected direction better is meant.
-double nearest_half_turn(double axis, double expected) {
-  const double difference = wrap_angle(axis - expected);
-  return std::abs(difference) <= 0.5 * M_PI ? axis : wrap_angle(axis + M_PI);
-}
-
 void correct_scalar(Scalar& scalar, double innovation, double measured, double sigma) {
   const double variance = sigma * sigma;
   if (!scalar.known) {
@@ -80,8 +74,7 @@ void Tracker::predict_all(TrackSet& set, GlobalTime to) const {
   for (Track& track : set.tracks) {
     predict(track.estimate, config_.motion, config_.process_noise, dt);
     track.heading = predicted(track.heading, config_.heading_noise, dt);
-    track.length = predicted(track.length, config_.extent_noise, dt);
-    track.width = predicted(track.width, config_.extent_noise, dt);
+    predict(track.extent, config_.extent_noise, dt);
   }
   set.time = to;
 }
@@ -127,8 +120,22 @@ void Tracker::correct(Track& track, const Observation& z, const Innovation& inno
     correct_scalar(track.heading, wrap_angle(measured - track.heading.value), measured, z.sigma_heading);
     track.heading.value = wrap_angle(track.heading.value);
   }
-  if (z.has_length) correct_scalar(track.length, z.length - track.length.value, z.length, z.sigma_length);
-  if (z.has_width) correct_scalar(track.width, z.width - track.width.value, z.width, z.sigma_width);
+  correct_extent(track, z);
+}
+
+// The span needs the aspect: it comes last, when position, course and axis know what this observation says of them.
+void Tracker::correct_extent(Track& track, const Observation& z) const {
+  if (z.has_length) correct_length(track.extent, z.length, z.sigma_length);
+  if (z.has_width) correct_width(track.extent, z.width, z.sigma_width);
+  if (!z.has_span) return;
+  const double x = track.estimate.x(0), y = track.estimate.x(1), range = std::hypot(x, y);
+  if (range <= 0.0) return;
+  const Facing facing = facing_of(track.estimate, track.heading);
+  const Eigen::Vector2d sight(x / range, y / range);
+  const double range_variance = sight.dot(track.estimate.p.topLeftCorner<2, 2>() * sight);
+  correct_span(track.extent,
+               {range, std::sqrt(range_variance), wrap_angle(facing.heading - std::atan2(y, x)), facing.sigma}, z.span,
+               z.sigma_span);
 }
 
 // An observation no track took becomes a tentative track, unless it lies in the gate of a confirmed one: that is a second
@@ -142,8 +149,7 @@ void Tracker::give_birth(TrackSet& set, const Scan& scan) {
     track.id = static_cast<TrackId>(set.next_id++);
     track.estimate = initial_estimate(z, config_);
     if (z.has_heading) track.heading = {z.heading, z.sigma_heading * z.sigma_heading, true};
-    if (z.has_length) track.length = {z.length, z.sigma_length * z.sigma_length, true};
-    if (z.has_width) track.width = {z.width, z.sigma_width * z.sigma_width, true};
+    correct_extent(track, z);
     track.hits = 1;
     track.scans = 1;
     set.tracks.push_back(track);
@@ -169,65 +175,6 @@ void Tracker::prune(TrackSet& set) const {
     const int left = config_.confirm_window - std::min(track.scans, config_.confirm_window);
     return hits + left < config_.confirm_hits;
   });
-}
-
-Scalar predicted(const Scalar& scalar, double noise, double dt) {
-  Scalar later = scalar;
-  if (later.known) later.variance += noise * dt;
-  return later;
-}
-
-TrackView view_of(const Track& track, GlobalTime time, GlobalTime at, const TrackerConfig& config) {
-  Estimate estimate = track.estimate;
-  const double dt = std::max(0.0, (at - time).seconds());
-  predict(estimate, config.motion, config.process_noise, dt);
-  TrackView view;
-  view.id = track.id;
-  view.valid_at = std::max(at, time);
-  view.state = estimate.x;
-  view.covariance = estimate.p;
-  view.confirmed = track.confirmed;
-
-  const double vx = estimate.x(2), vy = estimate.x(3);
-  view.speed = std::hypot(vx, vy);
-  const Eigen::Vector2d along = view.speed > 1e-9 ? Eigen::Vector2d(vx / view.speed, vy / view.speed)
-                                                  : Eigen::Vector2d(1.0, 0.0);
-  const Eigen::Vector2d across(-along(1), along(0));
-  const Eigen::Matrix2d velocity = estimate.p.block<2, 2>(2, 2);
-  view.sigma_speed = std::sqrt(along.dot(velocity * along));
-
-  // The direction of motion tells the heading the better, the faster the object is.
-  const Scalar axis = predicted(track.heading, config.heading_noise, dt);
-  const double course = std::atan2(along(1), along(0));
-  const double course_variance = across.dot(velocity * across) / std::max(1e-6, view.speed * view.speed);
-  constexpr double kUnknown = M_PI * M_PI / 3.0;   // variance of an angle of which nothing is known
-  const bool moving = course_variance < kUnknown / 4.0;
-  if (moving && axis.known) {
-    const double difference = wrap_angle(nearest_half_turn(axis.value, course) - course);
-    const double weight = course_variance / (course_variance + axis.variance);
-    view.heading = wrap_angle(course + weight * difference);
-    view.sigma_heading = std::sqrt(course_variance * axis.variance / (course_variance + axis.variance));
-  } else if (moving) {
-    view.heading = course;
-    view.sigma_heading = std::sqrt(course_variance);
-  } else if (axis.known) {
-    view.heading = wrap_angle(axis.value);
-    view.sigma_heading = std::sqrt(axis.variance);
-  } else {
-    view.heading = course;
-    view.sigma_heading = std::sqrt(kUnknown);
-  }
-  const Eigen::Vector2d facing(std::cos(view.heading), std::sin(view.heading));
-  const Eigen::Matrix2d acceleration = estimate.p.block<2, 2>(4, 4);
-  view.acceleration = facing.dot(estimate.x.segment<2>(4));
-  view.sigma_acceleration = std::sqrt(std::max(0.0, facing.dot(acceleration * facing)));
-  const Scalar length = predicted(track.length, config.extent_noise, dt);
-  const Scalar width = predicted(track.width, config.extent_noise, dt);
-  view.length = length.value;
-  view.sigma_length = std::sqrt(length.variance);
-  view.width = width.value;
-  view.sigma_width = std::sqrt(width.variance);
-  return view;
 }
 
 }  // namespace ttf::fusion

@@ -34,7 +34,7 @@ ObservationCodec::ObservationCodec(const schedules::Cluster& cluster, PduId pdu)
       break;
     case Form::kPosition:
       signals_ = bind<7>(cluster, *layout_,
-                         {"x", "y", "sigma_x", "sigma_y", "correlation", "width", "sigma_width"});
+                         {"x", "y", "sigma_x", "sigma_y", "correlation", "span", "sigma_span"});
       break;
     case Form::kRadar:
       signals_ = bind<6>(cluster, *layout_,
@@ -71,10 +71,13 @@ void ObservationCodec::decode(const bus::ListView& list, std::vector<fusion::Obs
       observation.r(0, 0) = sigma_x * sigma_x;
       observation.r(0, 1) = observation.r(1, 0) = covariance;
       observation.r(1, 1) = sigma_y * sigma_y;
-      observation.width = value(5);
-      observation.sigma_width = sigma(6);
-      observation.has_width = true;
-      if (form_ == Form::kLaser) {
+      if (form_ == Form::kPosition) {
+        observation.has_span = true;
+        observation.span = value(5);
+        observation.sigma_span = sigma(6);
+      } else {
+        observation.width = value(5);
+        observation.sigma_width = sigma(6);
         const int valid = static_cast<int>(value(11));
         observation.has_heading = valid & 1;
         observation.has_length = valid & 2;

@@ -76,7 +76,7 @@ CameraPreprocessing::CameraPreprocessing(const schedules::Cluster& cluster, cons
     : sensor_(layout_of(cluster, task.reads, "raw").sensor),
       raw_(bind_element<3>(cluster, layout_of(cluster, task.reads, "raw"), {"bearing", "disparity", "width"})),
       signals_(bind_element<7>(cluster, layout_of(cluster, task.writes, "objects"),
-                               {"x", "y", "sigma_x", "sigma_y", "correlation", "width", "sigma_width"})),
+                               {"x", "y", "sigma_x", "sigma_y", "correlation", "span", "sigma_span"})),
       calibration_(calibration) {
   objects_.reserve(static_cast<std::size_t>(layout_of(cluster, task.reads, "raw").max_elements));
 }
@@ -97,7 +97,7 @@ void CameraPreprocessing::run(StepContext& context) {
   for (int i = 0; i < static_cast<int>(objects_.size()); ++i) {
     const CameraObject& object = objects_[static_cast<std::size_t>(i)];
     const double values[] = {object.x, object.y, std::sqrt(object.sxx), std::sqrt(object.syy),
-                             correlation(object.sxx, object.sxy, object.syy), object.width, object.sigma_width};
+                             correlation(object.sxx, object.sxy, object.syy), object.span, object.sigma_span};
     for (std::size_t s = 0; s < signals_.size(); ++s) out.set(i, signals_[s], values[s]);
   }
 }

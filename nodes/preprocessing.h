@@ -27,7 +27,7 @@ class LaserPreprocessing final : public Step {
   std::vector<LaserObject> objects_;
 };
 
-// Ports: `raw` (bearing, disparity, width) -> `objects` (position and its covariance, width).
+// Ports: `raw` (bearing, disparity, width) -> `objects` (position and its covariance, span of the silhouette).
 class CameraPreprocessing final : public Step {
  public:
   CameraPreprocessing(const schedules::Cluster& cluster, const schedules::Task& task,

@@ -50,6 +50,9 @@ CameraObject triangulate(const CameraCalibration& k, double bearing, double disp
   object.syy = dy_dd * dy_dd * vd + dy_db * dy_db * vb + dy_dp * dy_dp * vp + s * s * vh + c * c * across;
   object.sxy = dx_dd * dy_dd * vd + dx_db * dy_db * vb + dx_dp * dy_dp * vp + c * s * (vh - across);
   object.sigma_width = std::sqrt(dw_dd * dw_dd * vd + dw_dp * dw_dp * vp);
+  // No depth in it: the span is known far better than the width.
+  object.span = width_px * c / k.focal_px;
+  object.sigma_span = k.width_sigma_px * c / k.focal_px;
   return object;
 }
 

@@ -29,10 +29,11 @@ CameraCalibration load_camera_calibration(YamlMap& yaml);
 
 struct CameraObject {
   double x = 0, y = 0, sxx = 0, sxy = 0, syy = 0;   // centre [m] and covariance
-  double width = 0, sigma_width = 0;                // [m]
+  double width = 0, sigma_width = 0;                // of the silhouette, across the line of sight [m]
+  double span = 0, sigma_span = 0;                  // the angle it subtends [rad]
 };
 
-// bearing [rad] within +-1.5, disparity [px] above zero, width [px].
+// bearing [rad] within +-1.5, disparity [px] above zero, width [px]: the silhouette's, f * span / cos(bearing).
 CameraObject triangulate(const CameraCalibration& calibration, double bearing, double disparity, double width_px);
 
 }  // namespace ttf::nodes

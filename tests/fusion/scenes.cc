@@ -79,7 +79,8 @@ bool same_bits(const TrackSet& a, const TrackSet& b) {
                     [](const Track& s, const Track& t) {
                       return s.id == t.id && same(s.estimate.x, t.estimate.x) &&
                              same(s.estimate.p, t.estimate.p) && same(s.heading, t.heading) &&
-                             same(s.length, t.length) && same(s.width, t.width) && s.hits == t.hits &&
+                             same(s.extent.size, t.extent.size) &&
+                             same(s.extent.covariance, t.extent.covariance) && s.hits == t.hits &&
                              s.scans == t.scans && s.misses == t.misses && s.confirmed == t.confirmed;
                     });
 }

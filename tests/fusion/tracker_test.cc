@@ -179,10 +179,13 @@ TEST(Tracker, HeadingIsMeasuredUpToHalfATurnAndAveraged) {
   const double off = wrap_angle(track.heading.value - 3.1);
   EXPECT_LT(std::min(std::abs(off), M_PI - std::abs(off)), 4.0 * 0.05 / std::sqrt(n));
   EXPECT_NEAR(track.heading.variance, 0.05 * 0.05 / n, 1e-12);
-  // Without noise the extent's filter is the mean.
-  EXPECT_NEAR(track.length.value, length_sum / n, 1e-9);
-  EXPECT_NEAR(track.length.variance, 0.3 * 0.3 / n, 1e-12);
-  EXPECT_FALSE(track.width.known);
+  // Without noise the extent's filter is the mean, weighed with what is typical.
+  const double typical = 1.0 / std::pow(Extent::kTypicalLengthSigma, 2), each = 1.0 / (0.3 * 0.3);
+  EXPECT_NEAR(track.extent.size(0),
+              (typical * Extent::kTypicalLength + each * length_sum) / (typical + n * each), 1e-9);
+  EXPECT_NEAR(track.extent.covariance(0, 0), 1.0 / (typical + n * each), 1e-12);
+  EXPECT_TRUE(track.extent.knows_length());
+  EXPECT_FALSE(track.extent.knows_width());
 }
 
 Track moving_track(double vx, double vy, double sigma_v) {
@@ -231,7 +234,8 @@ TEST(View, AccelerationIsAlongTheHeading) {
 TEST(View, IsPredictedButNeverBackwards) {
   const TrackerConfig config;
   Track track = moving_track(2.0, -1.0, 0.5);
-  track.length = {4.0, 0.04, true};
+  track.extent.size(0) = 4.0;
+  track.extent.covariance(0, 0) = 0.04;
   const TrackView later = view_of(track, at_ms(1000), at_ms(1500), config);
   EXPECT_NEAR(later.state(0), 11.0, 1e-12);
   EXPECT_NEAR(later.state(1), 1.5, 1e-12);

@@ -1,0 +1,80 @@
+#include "fusion/track.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace ttf::fusion {
+
+Scalar predicted(const Scalar& scalar, double noise, double dt) {
+  Scalar later = scalar;
+  if (later.known) later.variance += noise * dt;
+  return later;
+}
+
+double nearest_half_turn(double axis, double expected) {
+  constexpr double kPi = std::numbers::pi;
+  const double difference = wrap_angle(axis - expected);
+  return std::abs(difference) <= 0.5 * kPi ? axis : wrap_angle(axis + kPi);
+}
+
+Facing facing_of(const Estimate& estimate, const Scalar& axis) {
+  // Variance of an angle of which nothing is known.
+  constexpr double kUnknown = std::numbers::pi * std::numbers::pi / 3.0;
+  const double vx = estimate.x(2), vy = estimate.x(3), speed = std::hypot(vx, vy);
+  const Eigen::Vector2d along = speed > 1e-9 ? Eigen::Vector2d(vx / speed, vy / speed) : Eigen::Vector2d(1.0, 0.0);
+  const Eigen::Vector2d across(-along(1), along(0));
+  // The direction of motion tells the heading the better, the faster the object is.
+  const double course = std::atan2(along(1), along(0));
+  const double course_variance =
+      across.dot(estimate.p.block<2, 2>(2, 2) * across) / std::max(1e-6, speed * speed);
+  const bool moving = course_variance < kUnknown / 4.0;
+  if (moving && axis.known) {
+    const double difference = wrap_angle(nearest_half_turn(axis.value, course) - course);
+    const double weight = course_variance / (course_variance + axis.variance);
+    return {wrap_angle(course + weight * difference),
+            std::sqrt(course_variance * axis.variance / (course_variance + axis.variance))};
+  }
+  if (moving) return {course, std::sqrt(course_variance)};
+  if (axis.known) return {wrap_angle(axis.value), std::sqrt(axis.variance)};
+  return {course, std::sqrt(kUnknown)};
+}
+
+TrackView view_of(const Track& track, GlobalTime time, GlobalTime at, const TrackerConfig& config) {
+  Estimate estimate = track.estimate;
+  const double dt = std::max(0.0, (at - time).seconds());
+  predict(estimate, config.motion, config.process_noise, dt);
+  TrackView view;
+  view.id = track.id;
+  view.valid_at = std::max(at, time);
+  view.state = estimate.x;
+  view.covariance = estimate.p;
+  view.confirmed = track.confirmed;
+
+  const double vx = estimate.x(2), vy = estimate.x(3);
+  view.speed = std::hypot(vx, vy);
+  const Eigen::Vector2d along = view.speed > 1e-9 ? Eigen::Vector2d(vx / view.speed, vy / view.speed)
+                                                  : Eigen::Vector2d(1.0, 0.0);
+  const Eigen::Matrix2d velocity = estimate.p.block<2, 2>(2, 2);
+  view.sigma_speed = std::sqrt(along.dot(velocity * along));
+
+  const Facing facing = facing_of(estimate, predicted(track.heading, config.heading_noise, dt));
+  view.heading = facing.heading;
+  view.sigma_heading = facing.sigma;
+  const Eigen::Vector2d direction(std::cos(view.heading), std::sin(view.heading));
+  const Eigen::Matrix2d acceleration = estimate.p.block<2, 2>(4, 4);
+  view.acceleration = direction.dot(estimate.x.segment<2>(4));
+  view.sigma_acceleration = std::sqrt(std::max(0.0, direction.dot(acceleration * direction)));
+
+  Extent extent = track.extent;
+  predict(extent, config.extent_noise, dt);
+  view.length = extent.size(0);
+  view.sigma_length = std::sqrt(extent.covariance(0, 0));
+  view.has_length = extent.knows_length();
+  view.width = extent.size(1);
+  view.sigma_width = std::sqrt(extent.covariance(1, 1));
+  view.has_width = extent.knows_width();
+  return view;
+}
+
+}  // namespace ttf::fusion

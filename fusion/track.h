@@ -1,0 +1,62 @@
+// A track, and what an image shows of it.
+#pragma once
+
+#include <cstdint>
+
+#include "core/ids.h"
+#include "core/time.h"
+#include "fusion/extent.h"
+#include "fusion/filter.h"
+#include "fusion/tracker_config.h"
+
+namespace ttf::fusion {
+
+// A scalar with its variance; `known` once something was measured.
+struct Scalar {
+  double value = 0.0;
+  double variance = 0.0;
+  bool known = false;
+};
+Scalar predicted(const Scalar& scalar, double noise, double dt);
+
+struct Track {
+  TrackId id{};
+  Estimate estimate;
+  Scalar heading;                 // [rad], the direction it faces
+  Extent extent;
+  std::uint32_t hits = 0;         // bit i: the scan i scans ago had an observation of it
+  int scans = 0;                  // since birth, the first included
+  int misses = 0;                 // scans in a row without an observation
+  bool confirmed = false;
+};
+
+// The direction an object faces [rad]: the direction of motion weighed with the measured axis, and with its turn; sigma is that
+// of an angle of which nothing is known where neither tells.
+struct Facing {
+  double heading = 0.0;
+  double sigma = 0.0;
+};
+Facing facing_of(const Estimate& estimate, const Scalar& axis);
+
+// An object's axis is measured up to half a turn: the turn that fits the expected direction better is meant.
+double nearest_half_turn(double axis, double expected);
+
+struct TrackView {
+  TrackId id{};
+  GlobalTime valid_at{};
+  State state = State::Zero();
+  Covariance covariance = Covariance::Zero();
+  // Speed: magnitude of the velocity; acceleration: along the heading.
+  double heading = 0.0, sigma_heading = 0.0;
+  double speed = 0.0, sigma_speed = 0.0;
+  double acceleration = 0.0, sigma_acceleration = 0.0;
+  // What is typical of vehicles, with its spread, where has_ is clear.
+  double length = 0.0, sigma_length = 0.0;
+  double width = 0.0, sigma_width = 0.0;
+  bool has_length = false, has_width = false;
+  bool confirmed = false;
+};
+// A track whose state is of `time`, predicted to `at`; never backwards.
+TrackView view_of(const Track& track, GlobalTime time, GlobalTime at, const TrackerConfig& config);
+
+}  // namespace ttf::fusion
