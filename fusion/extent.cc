@@ -8,14 +8,23 @@ namespace {
 
 constexpr double kWorstAspectSigma = 0.3;   // [rad]
 constexpr double kCompatible = 3.0;         // sigmas
+constexpr double kFlattest = 4.0;           // sigmas of the aspect
 
-// One measured combination h' (length, width), innovation nu, variance r: Joseph form.
-void correct(Extent& extent, const Eigen::Vector2d& h, double nu, double r) {
+// One measured combination h' (length, width) with innovation nu, variance `white` + `repeating`: Joseph form.
+void correct(Extent& extent, const Eigen::Vector2d& h, double nu, double white, double repeating) {
   const Eigen::Vector2d ph = extent.covariance * h;
-  const Eigen::Vector2d gain = ph / (h.dot(ph) + r);
+  const double before = h.dot(ph);
+  if (before <= repeating) return;
+  const double variance = std::max(white + repeating, before * repeating / (before - repeating));
+  const Eigen::Vector2d gain = ph / (before + variance);
   const Eigen::Matrix2d a = Eigen::Matrix2d::Identity() - gain * h.transpose();
   extent.size += gain * nu;
-  extent.covariance = (a * extent.covariance * a.transpose() + r * gain * gain.transpose()).eval();
+  extent.covariance = (a * extent.covariance * a.transpose() + variance * gain * gain.transpose()).eval();
+}
+
+void correct_directly(Extent& extent, const Eigen::Vector2d& h, double measured, double sigma) {
+  const double half = 0.5 * sigma * sigma;
+  correct(extent, h, measured - h.dot(extent.size), half, half);
 }
 
 }  // namespace
@@ -31,11 +40,11 @@ void predict(Extent& extent, double noise, double dt) {
 }
 
 void correct_length(Extent& extent, double length, double sigma) {
-  correct(extent, Eigen::Vector2d::UnitX(), length - extent.size(0), sigma * sigma);
+  correct_directly(extent, Eigen::Vector2d::UnitX(), length, sigma);
 }
 
 void correct_width(Extent& extent, double width, double sigma) {
-  correct(extent, Eigen::Vector2d::UnitY(), width - extent.size(1), sigma * sigma);
+  correct_directly(extent, Eigen::Vector2d::UnitY(), width, sigma);
 }
 
 Subtended subtended(double range, double aspect, const Eigen::Vector2d& size) {
@@ -73,12 +82,18 @@ void correct_span(Extent& extent, const Aspect& aspect, double span, double sigm
                right = subtended(aspect.range, aspect.angle - aspect.sigma_angle, extent.size).angle;
   const double by_aspect = std::max(std::abs(left - expected.angle), std::abs(right - expected.angle));
   const double by_range = expected.angle * aspect.sigma_range / aspect.range;
-  const double repeating = by_aspect * by_aspect + by_range * by_range;
+  double repeating = by_aspect * by_aspect + by_range * by_range;
   const double before = expected.by_size.dot(extent.covariance * expected.by_size);
-  if (before <= repeating) return;
-  const double nu = span - expected.angle, variance = sigma * sigma + repeating;
-  if (nu * nu > kCompatible * kCompatible * (before + variance)) return;
-  correct(extent, expected.by_size, nu, std::max(variance, before * repeating / (before - repeating)));
+  const double nu = span - expected.angle;
+  if (nu * nu > kCompatible * kCompatible * (before + sigma * sigma + repeating)) return;
+  Eigen::Vector2d told = expected.by_size;
+  const double foreshortening[] = {std::abs(std::sin(aspect.angle)), std::abs(std::cos(aspect.angle))};
+  for (Eigen::Index k = 0; k < 2; ++k)
+    if (foreshortening[k] < kFlattest * aspect.sigma_angle) {
+      repeating += told(k) * told(k) * extent.covariance(k, k);
+      told(k) = 0.0;
+    }
+  correct(extent, told, nu, sigma * sigma, repeating);
 }
 
 }  // namespace ttf::fusion

@@ -33,7 +33,8 @@ struct Extent {
 // By dt >= 0 seconds; noise: spectral density of both random walks [m^2/s].
 void predict(Extent& extent, double noise, double dt);
 
-// Measured value and sigma > 0, [m].
+// Measured value and sigma > 0, [m]. Half of the variance counts as repeating: the raster of the beams on the outline, and how
+// a fit errs under one aspect.
 void correct_length(Extent& extent, double length, double sigma);
 void correct_width(Extent& extent, double width, double sigma);
 
@@ -44,7 +45,8 @@ struct Aspect {
   double angle = 0.0, sigma_angle = 0.0;
 };
 
-// Measured span and sigma > 0, [rad]. Not used: where the aspect is known worse than to 0.3 rad, where the outline surrounds
+// Measured span and sigma > 0, [rad]; white. A side seen more flatly than four sigmas of the aspect is not told of: its size would
+// be the ratio of two things of which neither is known. Not used at all: where the aspect is known worse than to 0.3 rad, where the outline surrounds
 // the sensor, and where the span does not belong to such an object (three sigma).
 void correct_span(Extent& extent, const Aspect& aspect, double span, double sigma);
 

@@ -22,6 +22,8 @@ TEST(Triangulation, UndoesTheProjection) {
       EXPECT_NEAR(o.x - k.half_length_m * std::cos(bearing), depth, 1e-9);
       EXPECT_NEAR(o.y - k.half_length_m * std::sin(bearing), depth * std::tan(bearing), 1e-9);
       EXPECT_NEAR(o.width, 1.8, 1e-9);
+      EXPECT_NEAR(o.span, 1.8 * std::cos(bearing) / depth, 1e-12) << "1.8 m across the line of sight, seen from depth / cos";
+      EXPECT_NEAR(o.sigma_span, k.width_sigma_px * std::cos(bearing) / k.focal_px, 1e-12);
     }
 }
 
