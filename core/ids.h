@@ -12,10 +12,11 @@ enum class NodeId : std::uint8_t {};      // index in Cluster::nodes
 enum class PduId : std::uint8_t {};       // index in Cluster::pdus
 enum class SensorId : std::uint8_t {};    // index in Cluster::sensors
 enum class ObjectId : std::uint16_t {};   // index in the world's objects; truth, never on a bus
-enum class TrackId : std::uint16_t {};    // given by the tracker at birth, never reused within a run
+enum class TrackId : std::uint16_t {};    // given when a track is first confirmed (fusion/identities.h)
 
 inline constexpr PduId kNoPdu{0xff};
 inline constexpr SensorId kNoSensor{0xff};
+inline constexpr TrackId kNoTrack{0xffff};
 
 // One act of measuring: the sequence-th measurement of a sensor, counted from 0.
 // Every list that descends from it (raw data, observations) carries the same sequence number.

@@ -5,7 +5,7 @@
 namespace ttf::fusion {
 
 Timeline::Timeline(const TrackerConfig& config, std::size_t max_observations)
-    : tracker_(config, max_observations), base_(tracker_.max_tracks()) {
+    : tracker_(config, max_observations), identities_(tracker_.max_tracks()), base_(tracker_.max_tracks()) {
   const std::size_t entries = config.history_scans + 1;
   entries_.reserve(entries);
   for (std::size_t i = 0; i < entries; ++i) {
@@ -37,6 +37,7 @@ Timeline::Insertion Timeline::insert(const Scan& scan) {
   entries_[slot].scan.assign(scan);
   order_.insert(order_.begin() + static_cast<std::ptrdiff_t>(position), slot);
   for (std::size_t i = position; i < order_.size(); ++i) process(i);
+  identities_.name(entries_[order_.back()].after, entries_[order_.front()].scan.measured);
   if (free_.empty()) {
     const Entry& oldest = entries_[order_.front()];
     base_.assign(oldest.after);

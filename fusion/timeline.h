@@ -4,13 +4,14 @@
 //   tracks  ^        ^        ^               ^  current
 //
 // Inserting at the end is a step of the tracker; inserting before goes back to the tracks before the gap and takes in
-// again all scans from there, so the result is bit-identical to in-order processing for every order of arrival. The
-// oldest scan is dropped into the base when the history is full; older scans than the base cannot be taken in.
+// again all scans from there, so the result is bit-identical to in-order processing for every order of arrival; only the names
+// of the tracks (fusion/identities.h) are kept from what was before. The oldest scan is dropped into the base when the history is full; older scans than the base cannot be taken in.
 #pragma once
 
 #include <cstddef>
 #include <vector>
 
+#include "fusion/identities.h"
 #include "fusion/tracker.h"
 
 namespace ttf::fusion {
@@ -42,6 +43,7 @@ class Timeline {
 
   enum class Insertion { kInOrder, kLate, kTooOld };
   Insertion insert(const Scan& scan);
+  // The newest tracks, confirmed ones with their ids.
   const TrackSet& current() const;
   bool contains(const MeasurementId& id) const;
 
@@ -54,6 +56,7 @@ class Timeline {
   void process(std::size_t position);
 
   Tracker tracker_;
+  Identities identities_;
   std::vector<Entry> entries_;            // storage, used in any order
   std::vector<std::size_t> order_;        // chronological
   std::vector<std::size_t> free_;

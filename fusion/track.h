@@ -19,8 +19,16 @@ struct Scalar {
 };
 Scalar predicted(const Scalar& scalar, double noise, double dt);
 
+// One observation among all: the index-th of a measurement.
+struct ObservationId {
+  MeasurementId measurement;
+  std::uint16_t index = 0;
+  bool operator==(const ObservationId&) const = default;
+};
+
 struct Track {
-  TrackId id{};
+  TrackId id = kNoTrack;          // once it has one (fusion/identities.h)
+  ObservationId birth, newest;    // the first observation it took, and the last
   Estimate estimate;
   Scalar heading;                 // [rad], the direction it faces
   Extent extent;

@@ -30,7 +30,6 @@ void TrackSet::assign(const TrackSet& other) {
   TTF_CHECK(other.tracks.size() <= tracks.capacity(), "{} tracks into {}", other.tracks.size(), tracks.capacity());
   tracks.assign(other.tracks.begin(), other.tracks.end());
   time = other.time;
-  next_id = other.next_id;
   started = other.started;
 }
 
@@ -62,6 +61,7 @@ void Tracker::step(TrackSet& set, const Scan& scan) {
     track.misses = observation >= 0 ? 0 : track.misses + 1;
     if (observation >= 0) {
       const Observation& z = scan.observations[static_cast<std::size_t>(observation)];
+      track.newest = {scan.id, static_cast<std::uint16_t>(observation)};
       correct(track, z, innovate(track.estimate, z));
     }
   }
@@ -146,7 +146,7 @@ void Tracker::give_birth(TrackSet& set, const Scan& scan) {
     if (columns[o] >= 0 || near_track_[o] || set.tracks.size() == max_tracks_) continue;
     const Observation& z = scan.observations[o];
     Track track;
-    track.id = static_cast<TrackId>(set.next_id++);
+    track.birth = track.newest = {scan.id, static_cast<std::uint16_t>(o)};
     track.estimate = initial_estimate(z, config_);
     if (z.has_heading) track.heading = {z.heading, z.sigma_heading * z.sigma_heading, true};
     correct_extent(track, z);

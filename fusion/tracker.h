@@ -21,7 +21,6 @@ namespace ttf::fusion {
 struct TrackSet {
   std::vector<Track> tracks;      // in order of birth
   GlobalTime time{};              // the tracks' states are of this instant
-  std::uint16_t next_id = 0;
   bool started = false;
 
   explicit TrackSet(std::size_t capacity = 0) { tracks.reserve(capacity); }

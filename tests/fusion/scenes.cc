@@ -74,10 +74,10 @@ bool same(const Scalar& a, const Scalar& b) {
 }  // namespace
 
 bool same_bits(const TrackSet& a, const TrackSet& b) {
-  return a.time == b.time && a.next_id == b.next_id && a.started == b.started &&
+  return a.time == b.time && a.started == b.started &&
          std::equal(a.tracks.begin(), a.tracks.end(), b.tracks.begin(), b.tracks.end(),
                     [](const Track& s, const Track& t) {
-                      return s.id == t.id && same(s.estimate.x, t.estimate.x) &&
+                      return s.birth == t.birth && s.newest == t.newest && same(s.estimate.x, t.estimate.x) &&
                              same(s.estimate.p, t.estimate.p) && same(s.heading, t.heading) &&
                              same(s.extent.size, t.extent.size) &&
                              same(s.extent.covariance, t.extent.covariance) && s.hits == t.hits &&
