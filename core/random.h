@@ -40,7 +40,9 @@ std::array<std::uint32_t, 4> philox4x32_10(std::array<std::uint32_t, 4> counter,
 // Reads one stream from its beginning. A value type: copying forks the position, not the state of the world.
 class RandomStream {
  public:
-  explicit RandomStream(StreamKey key) : key_(key) {}
+  // From block `first` on: blocks are four 32-bit words, two uniform numbers or, every second time, two normal ones. For streams
+  // that are cut into parts of known length, each of which can be read without the others.
+  explicit RandomStream(StreamKey key, std::uint32_t first = 0) : key_(key), block_(first) {}
 
   std::uint64_t bits();
   double uniform();                           // in [0, 1), 53 random bits
@@ -52,7 +54,7 @@ class RandomStream {
   std::uint32_t word();
 
   StreamKey key_;
-  std::uint32_t block_ = 0;
+  std::uint32_t block_;
   std::array<std::uint32_t, 4> words_{};
   int used_ = 4;
   double spare_normal_ = 0.0;

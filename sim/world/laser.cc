@@ -26,7 +26,6 @@ void measure_laser(const LaserConfig& config, std::span<const ObjectState> objec
                    std::vector<HitPoint>& hits, std::vector<ObjectId>& truth) {
   hits.clear();
   truth.clear();
-  RandomStream noise({seed, replication, Purpose::kSensorNoise, sensor, sequence});
   const auto half = static_cast<int>(config.half_field_rad / config.azimuth_step_rad);
   for (int beam = -half; beam <= half; ++beam) {
     const double azimuth = beam * config.azimuth_step_rad;
@@ -44,6 +43,10 @@ void measure_laser(const LaserConfig& config, std::span<const ObjectState> objec
     }
     if (hit == nullptr) continue;
     const double loss = std::min(1.0, config.miss_at_100m * nearest * nearest * 1e-4);
+    // A layer takes a uniform number and a normal one: two words and, every second time, four.
+    constexpr std::uint32_t kBlocksOfABeam = 4;
+    RandomStream noise({seed, replication, Purpose::kSensorNoise, sensor, sequence},
+                       kBlocksOfABeam * static_cast<std::uint32_t>(beam + half));
     for (int layer = 0; layer < config.layers; ++layer) {
       const bool lost = noise.uniform() < loss;
       const double range = nearest + config.range_bias_m + config.range_sigma_m * noise.normal();

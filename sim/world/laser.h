@@ -3,7 +3,8 @@
 // Defaults are of the class of the paper's Ibeo ALASCA XT as its maker's data sheet and papers that used it describe it:
 // 12.5 Hz, four layers within 3.2 degrees, 0.25 degree azimuth steps ahead, single-shot range noise of some centimetres, range
 // of dark targets far below the 200 m of bright ones. Rays are cast at the objects' outlines; the nearest one is hit, so
-// objects hide each other. Noise is keyed by the measurement's number: every paradigm sees the same draws.
+// objects hide each other. Noise is keyed by the measurement's number and the beam's: a beam's draws are the same whatever else the scan
+// meets, so that paradigms which see the scene a little earlier or later see the same noise.
 #pragma once
 
 #include <cstdint>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace ttf::world {
 
@@ -38,8 +39,8 @@ std::optional<AzimuthSpan> azimuth_span(const ObjectState& state) {
   const double middle = std::atan2(state.y, state.x);
   AzimuthSpan span{0, 0};
   for (const Corner& corner : corners(state)) {
-    const double offset = std::remainder(std::atan2(corner.y, corner.x) - middle, 2.0 * M_PI);
-    if (std::abs(offset) > 0.5 * M_PI) return std::nullopt;
+    const double offset = std::remainder(std::atan2(corner.y, corner.x) - middle, 2.0 * std::numbers::pi);
+    if (std::abs(offset) > 0.5 * std::numbers::pi) return std::nullopt;
     span.low = std::min(span.low, offset);
     span.high = std::max(span.high, offset);
   }

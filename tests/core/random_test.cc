@@ -61,5 +61,15 @@ TEST(RandomStream, IntegersCoverTheirRangeEvenly) {
   EXPECT_EQ(stream.integer(5, 5), 5);
 }
 
+// A part read by itself is what reading on would have given: two uniform numbers to a block.
+TEST(RandomStream, APartOfAStreamIsReadWithoutTheOthers) {
+  const StreamKey key{.seed = 5, .entity = 3, .index = 9};
+  RandomStream whole(key);
+  for (std::uint32_t block = 0; block < 50; ++block) {
+    RandomStream part(key, block);
+    for (int k = 0; k < 2; ++k) EXPECT_EQ(part.bits(), whole.bits()) << block;
+  }
+}
+
 }  // namespace
 }  // namespace ttf

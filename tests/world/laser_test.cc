@@ -205,5 +205,34 @@ TEST(Laser, DrawsBelongToSensorSequenceAndReplication) {
   EXPECT_EQ(ranges(7, 0, 0), seventh) << "not a function of the measurement's number alone";
 }
 
+// What else the scan meets, and where it begins to, shifts no beam's noise.
+TEST(Laser, DrawsBelongToTheBeam) {
+  const LaserConfig config;
+  const ObjectState far = box(0, 40.0, 6.0, 0.0, 4.4, 1.8), right = box(1, 15.0, -5.0, 0.0, 4.4, 1.8);
+  const Scan alone = scan(config, {far}, 3), both = scan(config, {far, right}, 3);
+  std::size_t i = 0;
+  for (std::size_t k = 0; k < both.hits.size(); ++k) {
+    if (both.truth[k] != ObjectId{0}) continue;
+    ASSERT_LT(i, alone.hits.size());
+    EXPECT_EQ(both.hits[k].azimuth, alone.hits[i].azimuth);
+    EXPECT_EQ(both.hits[k].range, alone.hits[i].range);
+    ++i;
+  }
+  EXPECT_EQ(i, alone.hits.size());
+  EXPECT_GT(both.hits.size(), alone.hits.size() + 20);
+}
+
+// The beams' parts of the stream do not overlap: neighbours' noise is not the same, nor shifted by a layer.
+TEST(Laser, BeamsDrawIndependently) {
+  LaserConfig config;
+  config.miss_at_100m = 0.0;
+  const Scan s = scan(config, {box(0, 15.0, 0.0, 0.0, 1.0, 20.0)});
+  std::vector<double> noise;
+  for (const HitPoint& hit : s.hits) noise.push_back(hit.range - 14.5 / std::cos(hit.azimuth));
+  ASSERT_GT(noise.size(), 400u);
+  for (std::size_t a = 0; a < noise.size(); ++a)
+    for (std::size_t b = a + 1; b < std::min(noise.size(), a + 12); ++b) ASSERT_NE(noise[a], noise[b]);
+}
+
 }  // namespace
 }  // namespace ttf::world
