@@ -53,17 +53,15 @@ class TimelineStrategy : public Strategy {
       return before(scan.id, scan.measured, pending_[w].id, pending_[w].measured);
     });
     waiting_.insert(place, slot);
-    for (std::size_t s = 0; s < sensors_.size(); ++s)
-      if (sensors_[s].sensor == scan.id.sensor) {
-        newest_received_[s] = any_received_[s] ? std::max(newest_received_[s], scan.measured) : scan.measured;
-        any_received_[s] = 1;
-      }
   }
 
   void fuse(GlobalTime now) final {
     report_.assign(between_.begin(), between_.end());
     between_.clear();
     for (std::size_t s = 0; s < sensors_.size(); ++s) settled_[s] = sensors_[s].settling.settled(now);
+    // A stamp from the future tells nothing of what else may still come from its sensor.
+    for (const std::size_t slot : waiting_)
+      if (pending_[slot].measured <= now) receive(pending_[slot]);
     std::size_t kept = 0;
     bool blocked = false;
     for (std::size_t i = 0; i < waiting_.size(); ++i) {
@@ -116,6 +114,14 @@ class TimelineStrategy : public Strategy {
  private:
   static void note(std::vector<FusedScan>& report, const FusedScan& what) {
     if (report.size() < report.capacity()) report.push_back(what);
+  }
+
+  void receive(const StoredScan& scan) {
+    for (std::size_t s = 0; s < sensors_.size(); ++s) {
+      if (sensors_[s].sensor != scan.id.sensor) continue;
+      newest_received_[s] = any_received_[s] ? std::max(newest_received_[s], scan.measured) : scan.measured;
+      any_received_[s] = 1;
+    }
   }
 
   void take(const StoredScan& scan, std::vector<FusedScan>& report) {
