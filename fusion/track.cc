@@ -50,6 +50,7 @@ TrackView view_of(const Track& track, GlobalTime time, GlobalTime at, const Trac
   view.state = estimate.x;
   view.covariance = estimate.p;
   view.confirmed = track.confirmed;
+  view.coasting = track.misses >= config.coast_misses;
 
   const double vx = estimate.x(2), vy = estimate.x(3);
   view.speed = std::hypot(vx, vy);

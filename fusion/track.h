@@ -63,6 +63,7 @@ struct TrackView {
   double width = 0.0, sigma_width = 0.0;
   bool has_length = false, has_width = false;
   bool confirmed = false;
+  bool coasting = false;          // not observed of late: predicted only
 };
 // A track whose state is of `time`, predicted to `at`; never backwards.
 TrackView view_of(const Track& track, GlobalTime time, GlobalTime at, const TrackerConfig& config);

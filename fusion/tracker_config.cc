@@ -16,6 +16,7 @@ TrackerConfig load_tracker(YamlMap& yaml) {
   c.confirm_window = static_cast<int>(yaml.integer_or("confirm_window", c.confirm_window, {1, 32}, "scans"));
   c.confirm_hits =
       static_cast<int>(yaml.integer_or("confirm_hits", c.confirm_hits, {1, c.confirm_window}, "scans"));
+  c.coast_misses = static_cast<int>(yaml.integer_or("coast_misses", c.coast_misses, {1, 1000}, "scans"));
   c.delete_misses = static_cast<int>(yaml.integer_or("delete_misses", c.delete_misses, {1, 1000}, "scans"));
   c.delete_position_sigma =
       yaml.number_or("delete_position_sigma", c.delete_position_sigma, {0.1, 100.0}, "m");

@@ -20,6 +20,9 @@ struct TrackerConfig {
   double gate_probability = 0.9973;         // that the right observation is in its gate (three sigma in 1D)
   int confirm_hits = 3;                     // M of the last N scans confirm a track
   int confirm_window = 5;
+  // Scans in a row without an observation after which an image calls a track coasting: one more than the
+  // scans a faster sensor makes between two of a slower, which may be the only one to see the object.
+  int coast_misses = 3;
   int delete_misses = 8;               // scans in a row without an observation end a confirmed track
   double delete_position_sigma = 5.0;  // [m] so does this much uncertainty
   int max_objects = 25;                // confirmed tracks: what the image's list carries

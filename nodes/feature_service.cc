@@ -4,10 +4,24 @@
 #include <cmath>
 #include <limits>
 
-#include "nodes/fusion_host.h"
 #include "nodes/signals.h"
 
 namespace ttf::nodes {
+namespace {
+
+// From the origin to the outline of a rectangle, towards its centre; zero within it.
+double clearance(const records::ImageObject& object, double range) {
+  const double length = object.status & records::kImageHasLength ? object.length : kAssumedLength_m;
+  const double width = object.status & records::kImageHasWidth ? object.width : kAssumedWidth_m;
+  const double aspect = object.heading - std::atan2(object.y, object.x);
+  // Half the chord along the line of sight: it leaves the rectangle through the sides or through the ends.
+  constexpr double kAlongTheSides = 1e-9;
+  const double through_ends = 0.5 * length / std::max(kAlongTheSides, std::abs(std::cos(aspect)));
+  const double through_sides = 0.5 * width / std::max(kAlongTheSides, std::abs(std::sin(aspect)));
+  return std::max(0.0, range - std::min(through_ends, through_sides));
+}
+
+}  // namespace
 
 FeatureConfig load_feature(YamlMap& yaml) {
   FeatureConfig config;
@@ -19,16 +33,14 @@ FeatureConfig load_feature(YamlMap& yaml) {
 
 records::FeatureObject judge(const records::ImageObject& object, const FeatureConfig& config) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
-  records::FeatureObject result;
-  result.image = object;
-  const double range = std::hypot(object.x, object.y);
-  const double distance = std::max(0.0, range - 0.5 * object.length);
-  const double relative_x = object.speed * std::cos(object.heading) - config.own_speed_mps;
-  const double relative_y = object.speed * std::sin(object.heading);
-  const double closing = range > 0.0 ? -(relative_x * object.x + relative_y * object.y) / range : 0.0;
-  result.time_gap_s = config.own_speed_mps > 0.0 && object.x > 0.0 ? distance / config.own_speed_mps : kNone;
   // Closing slower than walking pace is no collision course: the sign of a speed near zero is noise.
   constexpr double kSlowestClosing_mps = 0.5;
+  records::FeatureObject result;
+  result.image = object;
+  const double range = std::hypot(object.x, object.y), distance = clearance(object, range);
+  const double vx = object.speed * std::cos(object.heading), vy = object.speed * std::sin(object.heading);
+  const double closing = range > 0.0 ? -(vx * object.x + vy * object.y) / range : 0.0;
+  result.time_gap_s = config.own_speed_mps > 0.0 && object.x > 0.0 ? distance / config.own_speed_mps : kNone;
   result.time_to_collision_s = closing > kSlowestClosing_mps ? distance / closing : kNone;
   result.warning = object.x > 0.0 && std::abs(object.y) <= config.corridor_half_width_m &&
                    result.time_to_collision_s < config.warning_time_s;

@@ -1,26 +1,31 @@
 // The feature service: reads the real-time image when its schedule says so and judges each object ahead.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <vector>
 
 #include "core/strict_yaml.h"
+#include "nodes/image_codec.h"
 #include "nodes/step.h"
 #include "schedules/cluster.h"
 
 namespace ttf::nodes {
 
 struct FeatureConfig {
-  double own_speed_mps = 0.0;          // of the sensor car along x; it stands in the paper's drives
+  double own_speed_mps = 0.0;          // of the sensor car along x, over ground; it stands in the paper's drives
   double corridor_half_width_m = 1.8;  // objects farther off the line of travel do not warn: half a 3.6 m lane
   double warning_time_s = 2.7;         // time to collision below which it warns (ISO 15623 class forward collision warning)
 };
 FeatureConfig load_feature(YamlMap& yaml);
 
-// Time gap: distance ahead / own speed. Time to collision: distance / closing speed along the line of sight. Both
-// infinite where the denominator is not positive. The object is taken at its near edge, half its length before its
-// centre.
+// Sizes that stand in where the image says that none was measured: a passenger car's.
+inline constexpr double kAssumedLength_m = 4.4, kAssumedWidth_m = 1.8;
+
+// What the image says is measured in the sensor car's frame, so its velocities are relative to the sensor car: the own speed is in
+// them already. Clearance: distance along the line of sight to the outline.
+//   time to collision  clearance / closing speed, the closing speed being - d(range)/dt, as ISO 15623 has it for constant speeds
+//   time gap           clearance / own speed of what is ahead, as ISO 15622 has it: the time until the sensor car is where the
+//                      object's near edge is now
+// Infinite where the denominator is not positive (time to collision: not above what noise makes of zero).
 records::FeatureObject judge(const records::ImageObject& object, const FeatureConfig& config);
 
 // Port `image`.
@@ -31,7 +36,7 @@ class FeatureService final : public Step {
 
  private:
   FeatureConfig config_;
-  std::array<std::size_t, 17> signals_;
+  ImageSignals signals_;
   std::vector<records::FeatureObject> objects_;
 };
 

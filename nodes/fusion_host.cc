@@ -140,26 +140,6 @@ void FusionStep::record_result(const StepContext& context) const {
                                        static_cast<std::uint16_t>(strategy.tentative_count())});
 }
 
-std::array<std::size_t, 17> bind_image(const schedules::Cluster& cluster, const schedules::PduLayout& layout) {
-  return bind_element<17>(cluster, layout,
-                          {"id", "x", "y", "heading", "speed", "acceleration", "length", "width", "sigma_x", "sigma_y",
-                           "correlation", "sigma_heading", "sigma_speed", "sigma_acceleration", "sigma_length",
-                           "sigma_width", "status"});
-}
-
-records::ImageObject decode_image_object(const schedules::PduLayout& layout, const bus::ListView& list, int index,
-                                         const std::array<std::size_t, 17>& signals) {
-  const auto value = [&](std::size_t s) { return element_value(layout, list, index, signals[s]); };
-  records::ImageObject object;
-  object.track = static_cast<TrackId>(std::lround(value(0)));
-  double* const fields[] = {&object.x, &object.y, &object.heading, &object.speed, &object.acceleration,
-                            &object.length, &object.width, &object.sigma_x, &object.sigma_y,
-                            &object.correlation_xy, &object.sigma_heading, &object.sigma_speed,
-                            &object.sigma_acceleration, &object.sigma_length, &object.sigma_width};
-  for (std::size_t f = 0; f < std::size(fields); ++f) *fields[f] = value(f + 1);
-  return object;
-}
-
 ImageOutput::ImageOutput(const schedules::Cluster& cluster, const schedules::Task& task,
                          std::shared_ptr<FusionHost> host)
     : cluster_(cluster), host_(std::move(host)) {
@@ -184,12 +164,7 @@ void ImageOutput::run(StepContext& context) {
   objects_.clear();
   for (int i = 0; i < count; ++i) {
     const fusion::TrackView& view = views_[static_cast<std::size_t>(i)];
-    const double sigma_x = std::sqrt(view.covariance(0, 0)), sigma_y = std::sqrt(view.covariance(1, 1));
-    const double values[] = {static_cast<double>(index_of(view.id)), view.state(0), view.state(1), view.heading,
-                             view.speed, view.acceleration, view.length, view.width, sigma_x, sigma_y,
-                             view.covariance(0, 1) / (sigma_x * sigma_y), view.sigma_heading, view.sigma_speed,
-                             view.sigma_acceleration, view.sigma_length, view.sigma_width};
-    for (std::size_t s = 0; s < std::size(values); ++s) out.set(i, signals_[s], values[s]);
+    encode_image_object(view, out, i, signals_);
     objects_.push_back(decode_image_object(out.layout(), out.view(), i, signals_));
     context.sink->on(records::TrackState{context.stamp, host_->step, view.id, use,
                                          std::span<const double, 6>(view.state.data(), 6),

@@ -5,12 +5,12 @@
 // service will use it, which the schedule says beforehand; predicting never touches the filter state.
 #pragma once
 
-#include <array>
 #include <memory>
 #include <vector>
 
 #include "fusion/strategy.h"
 #include "fusion/tracker_config.h"
+#include "nodes/image_codec.h"
 #include "nodes/observation_codec.h"
 #include "nodes/step.h"
 #include "schedules/cluster.h"
@@ -52,15 +52,10 @@ class ImageOutput final : public Step {
   const schedules::Cluster& cluster_;
   std::shared_ptr<FusionHost> host_;
   schedules::CycleInstant use_;                  // when the feature service reads
-  std::array<std::size_t, 17> signals_;
+  ImageSignals signals_;
   std::uint32_t sequence_ = 0;
   std::vector<fusion::TrackView> views_;
   std::vector<records::ImageObject> objects_;
 };
-
-// Element `index` of an image list, as whoever receives it understands it.
-records::ImageObject decode_image_object(const schedules::PduLayout& layout, const bus::ListView& list, int index,
-                                         const std::array<std::size_t, 17>& signals);
-std::array<std::size_t, 17> bind_image(const schedules::Cluster& cluster, const schedules::PduLayout& layout);
 
 }  // namespace ttf::nodes

@@ -55,7 +55,8 @@ records::ImageObject object_of(const ttfusion::ImageObject& in, Narrow& narrow) 
           in.sigma_speed(),
           in.sigma_acceleration(),
           in.sigma_length(),
-          in.sigma_width()};
+          in.sigma_width(),
+          narrow.to<std::uint8_t>(in.status(), std::uint8_t{0}, std::uint8_t{15})};
 }
 
 std::span<const std::byte> bytes_of(const std::string& in) {
@@ -146,7 +147,7 @@ bool Decoder::decode(RecordKind kind, std::string_view bytes, records::Sink& sin
       const auto& in = payloads_.list_hop;
       return hand_on(
           records::ListHop{stamp_of(in.stamp(), narrow),
-                           narrow.choice(in.hop(), records::Hop::kWritten, records::Hop::kStale),
+                           narrow.choice(in.hop(), records::Hop::kWritten, records::Hop::kDiscarded),
                            narrow.id<PduId>(in.pdu()), narrow.id<SensorId>(in.sensor()), in.sequence(),
                            narrow.to<std::int8_t>(in.can_bus())});
     }

@@ -37,6 +37,7 @@ void fill(ttfusion::ImageObject& out, const records::ImageObject& in) {
   out.set_sigma_acceleration(in.sigma_acceleration);
   out.set_sigma_length(in.sigma_length);
   out.set_sigma_width(in.sigma_width);
+  out.set_status(in.status);
 }
 
 LogTimes times_of(const records::Stamp& stamp) { return {stamp.true_time.ns, stamp.global.ns}; }

@@ -82,8 +82,9 @@ enum class Hop : std::uint8_t {
   kReceived = 3,   // complete in the receiver's CNI
   kTorn = 4,       // displaced before all its fragments were there: lost
   kRead = 5,       // a task read it at its start, for the first time
-  kOverwritten = 6,// a newer list replaced it before it was ever read
-  kStale = 7       // a fragment of it came when a newer list had begun to arrive; not used
+  kOverwritten = 6,  // a newer list replaced it before it was ever read
+  kStale = 7,        // a fragment of it came when a newer list had begun to arrive; not used
+  kDiscarded = 8     // a task read it and could not use it: raw data whose strobe was not seen have no time
 };
 struct ListHop {
   Stamp stamp;
@@ -171,12 +172,18 @@ struct ObservationSeen {
   double x = 0, y = 0, sxx = 0, sxy = 0, syy = 0;
 };
 
-// The real-time image of one object as decoded from the bus.
+// The real-time image of one object as decoded from the bus, in the sensor car's frame: velocities are relative to it. Status:
+// the sum of the bits below. Length and width are what is typical of vehicles where they were not measured.
+inline constexpr std::uint8_t kImageConfirmed = 1;   // else tentative
+inline constexpr std::uint8_t kImageCoasting = 2;    // not observed of late: predicted only
+inline constexpr std::uint8_t kImageHasLength = 4;   // length was measured
+inline constexpr std::uint8_t kImageHasWidth = 8;
 struct ImageObject {
   TrackId track{};
   double x = 0, y = 0, heading = 0, speed = 0, acceleration = 0, length = 0, width = 0;
   double sigma_x = 0, sigma_y = 0, correlation_xy = 0, sigma_heading = 0, sigma_speed = 0, sigma_acceleration = 0,
          sigma_length = 0, sigma_width = 0;
+  std::uint8_t status = 0;
 };
 struct ImageWritten {
   Stamp stamp;

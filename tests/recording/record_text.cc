@@ -33,7 +33,7 @@ class Line {
     else if constexpr (std::is_same_v<T, records::ImageObject>)
       all(value.track, value.x, value.y, value.heading, value.speed, value.acceleration, value.length,
           value.width, value.sigma_x, value.sigma_y, value.correlation_xy, value.sigma_heading,
-          value.sigma_speed, value.sigma_acceleration, value.sigma_length, value.sigma_width);
+          value.sigma_speed, value.sigma_acceleration, value.sigma_length, value.sigma_width, value.status);
     else if constexpr (std::is_same_v<T, records::FeatureObject>)
       all(value.image, value.time_gap_s, value.time_to_collision_s, value.warning);
     else if constexpr (requires { value.ns; })
@@ -96,6 +96,7 @@ class Draw {
             &object.width, &object.sigma_x, &object.sigma_y, &object.correlation_xy, &object.sigma_heading,
             &object.sigma_speed, &object.sigma_acceleration, &object.sigma_length, &object.sigma_width})
         *field = number();
+      object.status = get<std::uint8_t>() & 15;
       return object;
     } else if constexpr (std::is_same_v<T, records::FeatureObject>)
       return {get<records::ImageObject>(), number(), number(), get<bool>()};
@@ -237,7 +238,7 @@ void emit(records::Sink& sink, int kind, Values values, std::uint32_t index, std
     case 4:
       return sink.on(records::SlotProblem{stamp, d.get<I64>(), d.get<U16>(), d.get<U8>(), d.get<U8>()});
     case 5:
-      return sink.on(records::ListHop{stamp, d.choice(records::Hop::kWritten, records::Hop::kStale), d.get<PduId>(),
+      return sink.on(records::ListHop{stamp, d.choice(records::Hop::kWritten, records::Hop::kDiscarded), d.get<PduId>(),
                                       d.get<SensorId>(), d.get<U32>(), d.get<std::int8_t>()});
     case 6:
       return sink.on(
