@@ -60,7 +60,8 @@ const Row kRows[] = {
     {"  fused late (retrodicted)", [](const StrategyResult& r) { return number(r.summary.fused_late); }},
     {"  times held back", [](const StrategyResult& r) { return number(r.summary.held); }},
     {"  dropped", [](const StrategyResult& r) {
-       return number(r.summary.dropped + r.outcome.counts.torn_lists + r.outcome.counts.overwritten_lists);
+       return number(r.summary.dropped + r.outcome.counts.torn_lists + r.outcome.counts.overwritten_lists +
+                     r.outcome.counts.discarded_lists);
      }},
     {"objects compared / missed / spurious", [](const StrategyResult& r) {
        return fmt::format("{} / {} / {}", r.summary.matched, r.summary.missed, r.summary.spurious);
@@ -134,7 +135,8 @@ nlohmann::ordered_json to_json(const nodes::Scenario& scenario, std::uint64_t se
     one["observations"] = {{"received", s.received}, {"out_of_sequence", s.out_of_sequence}, {"fused", s.fused},
                            {"late", s.fused_late}, {"held", s.held}, {"dropped", s.dropped},
                            {"duplicates", s.duplicates}, {"torn", result.outcome.counts.torn_lists},
-                           {"overwritten", result.outcome.counts.overwritten_lists}};
+                           {"overwritten", result.outcome.counts.overwritten_lists},
+                           {"discarded", result.outcome.counts.discarded_lists}};
     one["objects"] = {{"compared", s.matched}, {"missed", s.missed}, {"spurious", s.spurious}};
     one["uses"] = s.uses;
     one["uses_with_warning"] = s.warnings;

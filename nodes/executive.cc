@@ -197,7 +197,10 @@ void Executive::activate(std::size_t task, Microticks now) {
   state.waiting = true;
   state.activated = now;
   state.activated_at = stamp(now);
-  ready_.push_back(task);
+  const auto later = std::find_if(ready_.begin(), ready_.end(), [&](std::size_t other) {
+    return tasks_[other].activated > now || (tasks_[other].activated == now && other > task);
+  });
+  ready_.insert(later, task);
 }
 
 void Executive::fill_inputs(TaskState& task) {
@@ -207,6 +210,7 @@ void Executive::fill_inputs(TaskState& task) {
     Input& input = task.inputs[i];
     input.list = list.latest();
     input.fresh = list.mark_read();
+    input.discarded = false;
     task.unread[i].reset();
     if (input.fresh)
       hop(task.run.start, records::Hop::kRead, binding.pdu, input.list->sequence,
@@ -234,6 +238,13 @@ void Executive::start_next(Microticks now) {
     context.strobes = strobes_;
     context.sink = &sink_;
     state.step->run(context);
+    for (std::size_t i = 0; i < state.inputs.size(); ++i) {
+      const Input& input = state.inputs[i];
+      if (!input.discarded) continue;
+      ++counts_.discarded_lists;
+      const auto& can_bus = state.task->reads[i].can_bus;
+      hop(now, records::Hop::kDiscarded, input.pdu, input.list->sequence, can_bus ? static_cast<int>(*can_bus) : -1);
+    }
 
     Duration execution = state.task->worst_case;
     if (state.task->draw == schedules::ExecutionDraw::kUniform) {

@@ -1,8 +1,11 @@
 // One node at work: its controllers, its CNI buffers and its tasks, driven from outside in its own microticks.
 //
 // The executive obeys one law under every crank: a task reads its inputs when it starts, and its outputs become visible at
-// its end. One processor, no preemption; tasks activated while it is busy wait in order of activation (ties: file
-// order), and an activation that meets a still waiting one of the same task is an overrun, counted.
+// its end. One processor, no preemption; tasks activated while it is busy wait, and an activation that meets a still
+// waiting one of the same task is an overrun, counted.
+//
+// Waiting tasks start in order of their activation. Of those activated at one microtick the one that stands earlier in the
+// file is first, whatever activated them: a message, the end of another task, an instant of the schedule or a sensor.
 //
 // At one microtick things happen in this order: arrivals (by the crank), ends of tasks, the bus controller, activations,
 // starts. So what becomes visible at a tick is still sent or read at that tick.
@@ -50,6 +53,7 @@ struct ExecutiveCounts {
   std::uint64_t deadlines_missed = 0;
   std::uint64_t torn_lists = 0;            // displaced before they were complete
   std::uint64_t overwritten_lists = 0;
+  std::uint64_t discarded_lists = 0;       // read, but without a strobe there is no time of measuring
   std::uint64_t slot_problems = 0;
   std::uint64_t saturated_signals = 0;
   std::uint64_t refused_fragments = 0;     // stale or malformed (bus/list_buffer.h), on any bus
@@ -118,7 +122,7 @@ class Executive final : private bus::ControllerEvents {
   std::vector<TaskState> tasks_;
   std::vector<SensorState> sensors_;        // those this node is device or host of
   std::vector<StrobeLatch> strobes_;        // by SensorId
-  std::vector<std::size_t> ready_;          // waiting tasks, oldest first
+  std::vector<std::size_t> ready_;          // waiting tasks, by (activation, place in the file)
   std::optional<std::size_t> running_;
   Microticks running_end_{};
   std::int64_t armed_cycle_ = -1;

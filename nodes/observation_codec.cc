@@ -8,13 +8,6 @@
 namespace ttf::nodes {
 namespace {
 
-template <std::size_t N>
-std::vector<std::size_t> bind(const schedules::Cluster& cluster, const schedules::PduLayout& layout,
-                              const std::array<std::string_view, N>& names) {
-  const auto signals = bind_element<N>(cluster, layout, names);
-  return {signals.begin(), signals.end()};
-}
-
 // Half the code's step: what fixed-point coding adds to the uncertainty is far below any sensor's, but a sigma of zero
 // would be a certainty nobody has.
 double at_least_resolution(double sigma, double resolution) { return std::max(sigma, 0.5 * resolution); }
@@ -28,16 +21,16 @@ ObservationCodec::ObservationCodec(const schedules::Cluster& cluster, PduId pdu)
                                                                   : Form::kPosition) {
   switch (form_) {
     case Form::kLaser:
-      signals_ = bind<12>(cluster, *layout_,
+      signals_ = bind_elements<12>(cluster, *layout_,
                           {"x", "y", "sigma_x", "sigma_y", "correlation", "width", "sigma_width", "heading",
                            "sigma_heading", "length", "sigma_length", "valid"});
       break;
     case Form::kPosition:
-      signals_ = bind<7>(cluster, *layout_,
+      signals_ = bind_elements<7>(cluster, *layout_,
                          {"x", "y", "sigma_x", "sigma_y", "correlation", "span", "sigma_span"});
       break;
     case Form::kRadar:
-      signals_ = bind<6>(cluster, *layout_,
+      signals_ = bind_elements<6>(cluster, *layout_,
                          {"range", "bearing", "range_rate", "sigma_range", "sigma_bearing", "sigma_range_rate"});
       break;
   }

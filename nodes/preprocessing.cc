@@ -13,13 +13,6 @@ const schedules::PduLayout& layout_of(const schedules::Cluster& cluster,
   return cluster.pdu(binding_of(bindings, port).pdu);
 }
 
-// The strobe time of the list's measurement; a list whose strobe was not seen has no time and is not used.
-std::optional<GlobalTime> measured_at(const StepContext& context, SensorId sensor) {
-  const Input& raw = context.inputs[0];
-  if (!raw.fresh || !raw.list) return std::nullopt;
-  return context.strobes[index_of(sensor)].time_of(raw.list->sequence);
-}
-
 // Where there are more objects than the list holds, the nearest ones are kept, in a stable order.
 template <class Object>
 void keep_nearest(std::vector<Object>& objects, int limit) {

@@ -16,16 +16,9 @@ bool is_radar(const schedules::PduLayout& layout) {
   return schedules::find_signal(layout.element, "range").has_value();
 }
 
-template <std::size_t N>
-std::vector<std::size_t> bind(const schedules::Cluster& cluster, const schedules::PduLayout& layout,
-                              const std::array<std::string_view, N>& names) {
-  const auto signals = bind_element<N>(cluster, layout, names);
-  return {signals.begin(), signals.end()};
-}
-
 std::vector<std::size_t> bind_raw(const schedules::Cluster& cluster, const schedules::PduLayout& layout) {
-  return is_radar(layout) ? bind<3>(cluster, layout, {"range", "bearing", "range_rate"})
-                          : bind<2>(cluster, layout, {"x", "y"});
+  return is_radar(layout) ? bind_elements<3>(cluster, layout, {"range", "bearing", "range_rate"})
+                          : bind_elements<2>(cluster, layout, {"x", "y"});
 }
 
 std::size_t signals_of(const recording::RecordedObservation& row) {
@@ -126,18 +119,17 @@ RecordedPreprocessing::RecordedPreprocessing(const schedules::Cluster& cluster, 
   const schedules::PduLayout& objects = cluster.pdu(binding_of(task.writes, "objects").pdu);
   radar_ = is_radar(raw);
   raw_ = bind_raw(cluster, raw);
-  signals_ = radar_ ? bind<6>(cluster, objects,
+  signals_ = radar_ ? bind_elements<6>(cluster, objects,
                               {"range", "bearing", "range_rate", "sigma_range", "sigma_bearing", "sigma_range_rate"})
-                    : bind<12>(cluster, objects,
+                    : bind_elements<12>(cluster, objects,
                                {"x", "y", "sigma_x", "sigma_y", "heading", "length", "width", "correlation",
                                 "sigma_heading", "sigma_length", "sigma_width", "valid"});
 }
 
 void RecordedPreprocessing::run(StepContext& context) {
-  const Input& raw = context.inputs[0];
-  if (!raw.fresh || !raw.list) return;
-  const auto measured = context.strobes[index_of(sensor_)].time_of(raw.list->sequence);
+  const auto measured = measured_at(context, sensor_);
   if (!measured) return;
+  const Input& raw = context.inputs[0];
   Output& out = context.outputs[0];
   const int count = std::min(element_count(*raw.layout, *raw.list), out.layout().max_elements);
   out.begin(raw.list->sequence, count, *measured);

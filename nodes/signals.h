@@ -34,6 +34,14 @@ std::array<std::size_t, N> bind_element(const schedules::Cluster& cluster, const
   return signals;
 }
 
+// The same, for code whose number of signals depends on the PDU.
+template <std::size_t N>
+std::vector<std::size_t> bind_elements(const schedules::Cluster& cluster, const schedules::PduLayout& layout,
+                                       const std::array<std::string_view, N>& names) {
+  const auto signals = bind_element<N>(cluster, layout, names);
+  return {signals.begin(), signals.end()};
+}
+
 // The layout of the PDU bound to `port` of a task; ports are checked to exist before (schedules/ports.h).
 const schedules::PortBinding& binding_of(const std::vector<schedules::PortBinding>& bindings, std::string_view port);
 

@@ -87,6 +87,14 @@ std::optional<GlobalTime> StrobeLatch::time_of(std::uint32_t sequence) const {
   return entry.at;
 }
 
+std::optional<GlobalTime> measured_at(StepContext& context, SensorId sensor) {
+  Input& raw = context.inputs[0];
+  if (!raw.fresh || !raw.list) return std::nullopt;
+  const auto measured = context.strobes[index_of(sensor)].time_of(raw.list->sequence);
+  raw.discarded = !measured;
+  return measured;
+}
+
 GlobalTime time_stamp(const schedules::PduLayout& layout, const bus::ListView& list, GlobalTime near) {
   const std::size_t signal = wire::header_signal(layout, "timestamp");
   const int bits = layout.header[signal].bits;

@@ -26,6 +26,7 @@ struct Input {
   const schedules::PduLayout* layout = nullptr;
   std::optional<bus::ListView> list;   // the newest complete list, if any ever arrived
   bool fresh = false;                  // first time this task sees it
+  bool discarded = false;              // set by a step that cannot use the list it was given; counted and recorded
 };
 
 // An output port: a list under construction. Capacity is the layout's maximum, taken once.
@@ -92,6 +93,10 @@ class Step {
   virtual ~Step() = default;
   virtual void run(StepContext& context) = 0;
 };
+
+// The strobe time of the measurement whose raw list is new at the first input; a list whose strobe was not seen has no time and
+// is discarded.
+std::optional<GlobalTime> measured_at(StepContext& context, SensorId sensor);
 
 // Unwraps a list's microsecond time stamp of the "timestamp" header signal: the instant nearest to `near` that
 // has these low bits.

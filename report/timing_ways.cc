@@ -162,7 +162,8 @@ std::vector<Way> measurement_ways(const TimingData& data, const Names& names,
     bool lost = false;
     for (const auto& h : data.hops) {
       if (!belongs(m.id, m.at, names, h.pdu, h.sequence, h.at)) continue;
-      if (h.hop == records::Hop::kTorn || h.hop == records::Hop::kOverwritten) lost = true;
+      if (h.hop == records::Hop::kTorn || h.hop == records::Hop::kOverwritten || h.hop == records::Hop::kDiscarded)
+        lost = true;
       const bool passes = h.hop == records::Hop::kRead || h.hop == records::Hop::kWritten;
       if (!passes || fusion.contains(h.node)) continue;
       const TimingData::Run* run = run_at(data, h.node, h.at);

@@ -256,6 +256,7 @@ nodes::ExecutiveCounts ClusterSimulation::counts() const {
     sum.deadlines_missed += one.deadlines_missed;
     sum.torn_lists += one.torn_lists;
     sum.overwritten_lists += one.overwritten_lists;
+    sum.discarded_lists += one.discarded_lists;
     sum.slot_problems += one.slot_problems;
     sum.saturated_signals += one.saturated_signals;
     sum.refused_fragments += one.refused_fragments;
