@@ -1,0 +1,115 @@
+// Strobe latches, stamps and sequence numbers that wrap, and what an output list holds.
+#include "nodes/step.h"
+
+#include <gtest/gtest.h>
+
+#include "core/random.h"
+#include "schedules/loader.h"
+#include "tests/bus/layouts.h"
+
+namespace ttf::nodes {
+namespace {
+
+TEST(StrobeLatch, KnowsTheNewestSixteenMeasurements) {
+  StrobeLatch latch;
+  EXPECT_FALSE(latch.time_of(0)) << "nothing yet, not even number 0";
+  for (std::uint32_t k = 0; k < 40; ++k) {
+    latch.strobe(k, GlobalTime{1000 + k});
+    for (std::uint32_t asked = 0; asked < 60; ++asked) {
+      const auto time = latch.time_of(asked);
+      ASSERT_EQ(time.has_value(), asked <= k && asked + 16 > k) << "asked for " << asked << " after " << k;
+      if (time) { EXPECT_EQ(time->ns, 1000 + asked); }
+    }
+  }
+}
+
+TEST(StrobeLatch, ALostStrobeLeavesAGapNotANeighboursTime) {
+  StrobeLatch latch;
+  latch.strobe(3, GlobalTime{30});
+  latch.strobe(5, GlobalTime{50});
+  EXPECT_FALSE(latch.time_of(4));
+  EXPECT_FALSE(latch.time_of(19)) << "the same place in the latch as 3";
+  EXPECT_EQ(latch.time_of(5)->ns, 50);
+}
+
+schedules::PduLayout stamped(int bits) {
+  schedules::PduLayout layout = bus::list_layout(8, 10, 3);
+  layout.header.push_back(bus::signal("timestamp", bits));
+  bus::derive(layout.header, layout.header_bits);
+  layout.header_bits = (layout.header_bits + 7) / 8 * 8;
+  layout.fragment_bytes = (layout.header_bits + 3 * layout.element_bits) / 8;
+  return layout;
+}
+
+// Any instant comes back to the microsecond from its low bits, whatever instant within half a wrap it is looked at from.
+TEST(TimeStamp, UnwrapsToTheNearestInstant) {
+  RandomStream draw({.seed = 9});
+  for (const int bits : {16, 24, 32}) {
+    const schedules::PduLayout layout = stamped(bits);
+    const std::int64_t half = (std::int64_t{1} << bits) / 2;
+    Output out("out", PduId{0}, layout);
+    for (int k = 0; k < 2000; ++k) {
+      const std::int64_t us = draw.integer(-5 * half, 50 * half);
+      out.begin(0, 1, GlobalTime{us * 1000});
+      const std::int64_t off = k == 0 ? half - 1 : k == 1 ? -half + 1 : draw.integer(-half + 1, half - 1);
+      ASSERT_EQ(time_stamp(layout, out.view(), GlobalTime{(us + off) * 1000}).ns, us * 1000) << bits << " bits, " << us << " " << off;
+    }
+  }
+}
+
+TEST(TimeStamp, RoundsToTheNearestMicrosecondAlsoBeforeTheStart) {
+  const schedules::PduLayout layout = stamped(32);
+  Output out("out", PduId{0}, layout);
+  for (const auto& [ns, us] : {std::pair{1499, 1}, {1500, 2}, {-499, 0}, {-501, -1}, {-1501, -2}}) {
+    out.begin(0, 1, GlobalTime{ns});
+    EXPECT_EQ(time_stamp(layout, out.view(), GlobalTime{0}).ns, us * 1000) << ns;
+  }
+}
+
+// Sequence numbers keep their low bits on the bus; the list in the CNI counts on.
+TEST(Output, SequenceNumbersWrapInTheHeaderOnly) {
+  const schedules::PduLayout layout = bus::list_layout(4, 10, 3);
+  Output out("out", PduId{0}, layout);
+  bus::IncomingList incoming(layout);
+  for (std::uint32_t k = 0; k < 100; ++k) {
+    out.begin(k, 5, GlobalTime{});
+    EXPECT_EQ(out.view().sequence, k);
+    for (int f = 0; f < out.view().fragments; ++f)
+      incoming.arrive(out.view().bytes.subspan(static_cast<std::size_t>(f * layout.fragment_bytes),
+                                               static_cast<std::size_t>(layout.fragment_bytes)));
+    ASSERT_TRUE(incoming.latest().has_value());
+    EXPECT_EQ(incoming.latest()->sequence, k) << "unwrapped";
+  }
+}
+
+TEST(Output, HoldsWhatWasSetAndNothingOfTheListBefore) {
+  const schedules::PduLayout layout = bus::list_layout();
+  Output out("out", PduId{0}, layout);
+  out.begin(1, 10, GlobalTime{});
+  for (int i = 0; i < 10; ++i) out.set(i, 0, 100.0 + i);
+  EXPECT_EQ(element_count(layout, out.view()), 10);
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(element_value(layout, out.view(), i, 0), 100.0 + i);
+  EXPECT_EQ(out.view().fragments, 4);
+  out.begin(2, 4, GlobalTime{});
+  EXPECT_EQ(element_count(layout, out.view()), 4);
+  EXPECT_EQ(out.view().fragments, 2);
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(element_value(layout, out.view(), i, 0), 0.0);
+  out.begin(3, 0, GlobalTime{});
+  EXPECT_EQ(out.view().fragments, 1) << "an empty list is a message too";
+}
+
+TEST(Output, SaturatesAndCounts) {
+  const schedules::PduLayout layout = bus::list_layout();
+  Output out("out", PduId{0}, layout);
+  out.begin(1, 3, GlobalTime{});
+  out.set(0, 0, 1e9);
+  out.set(1, 0, -3.0);
+  out.set(2, 0, 65535.0);
+  EXPECT_EQ(element_value(layout, out.view(), 0, 0), 65535.0);
+  EXPECT_EQ(element_value(layout, out.view(), 1, 0), 0.0);
+  EXPECT_EQ(out.take_saturated(), 2);
+  EXPECT_EQ(out.take_saturated(), 0);
+}
+
+}  // namespace
+}  // namespace ttf::nodes
