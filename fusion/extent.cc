@@ -6,11 +6,12 @@
 namespace ttf::fusion {
 namespace {
 
-constexpr double kWorstAspectSigma = 0.3;   // [rad]
-constexpr double kCompatible = 3.0;         // sigmas
-constexpr double kFlattest = 4.0;           // sigmas of the aspect
+constexpr double kWorstAspectSigma = 0.3;  // [rad]
+constexpr double kCompatible = 3.0;        // sigmas
+constexpr double kFlattest = 4.0;          // sigmas of the aspect
 
-// One measured combination h' (length, width) with innovation nu, variance `white` + `repeating`: Joseph form.
+// One measured combination h' (length, width) with innovation nu, variance `white` + `repeating`: Joseph
+// form.
 void correct(Extent& extent, const Eigen::Vector2d& h, double nu, double white, double repeating) {
   const Eigen::Vector2d ph = extent.covariance * h;
   const double before = h.dot(ph);
@@ -32,7 +33,9 @@ void correct_directly(Extent& extent, const Eigen::Vector2d& h, double measured,
 bool Extent::knows_length() const {
   return covariance(0, 0) <= 0.25 * kTypicalLengthSigma * kTypicalLengthSigma;
 }
-bool Extent::knows_width() const { return covariance(1, 1) <= 0.25 * kTypicalWidthSigma * kTypicalWidthSigma; }
+bool Extent::knows_width() const {
+  return covariance(1, 1) <= 0.25 * kTypicalWidthSigma * kTypicalWidthSigma;
+}
 
 void predict(Extent& extent, double noise, double dt) {
   extent.covariance(0, 0) += noise * dt;
@@ -55,10 +58,12 @@ Subtended subtended(double range, double aspect, const Eigen::Vector2d& size) {
   Eigen::Vector2d low_by = Eigen::Vector2d::Zero(), high_by = Eigen::Vector2d::Zero();
   for (const double u : {0.5, -0.5})
     for (const double v : {0.5, -0.5}) {
-      const double along = range + c * u * size(0) - s * v * size(1), across = s * u * size(0) + c * v * size(1);
+      const double along = range + c * u * size(0) - s * v * size(1),
+                   across = s * u * size(0) + c * v * size(1);
       if (along <= 0.0) return {};
       const double azimuth = std::atan2(across, along), squared = along * along + across * across;
-      const Eigen::Vector2d by((along * s * u - across * c * u) / squared, (along * c * v + across * s * v) / squared);
+      const Eigen::Vector2d by((along * s * u - across * c * u) / squared,
+                               (along * c * v + across * s * v) / squared);
       if (azimuth < low) {
         low = azimuth;
         low_by = by;
@@ -77,7 +82,8 @@ void correct_span(Extent& extent, const Aspect& aspect, double span, double sigm
   if (aspect.sigma_angle > kWorstAspectSigma) return;
   const Subtended expected = subtended(aspect.range, aspect.angle, extent.size);
   if (expected.angle <= 0.0) return;
-  // Seen end on, the span is smallest, and grows to either side: the larger difference, not the derivative, which is none.
+  // Seen end on, the span is smallest, and grows to either side: the larger difference, not the derivative,
+  // which is none.
   const double left = subtended(aspect.range, aspect.angle + aspect.sigma_angle, extent.size).angle,
                right = subtended(aspect.range, aspect.angle - aspect.sigma_angle, extent.size).angle;
   const double by_aspect = std::max(std::abs(left - expected.angle), std::abs(right - expected.angle));

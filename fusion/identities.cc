@@ -20,7 +20,8 @@ void Identities::name(TrackSet& set, GlobalTime oldest) {
   };
   for (Track& track : set.tracks) {
     track.id = kNoTrack;
-    const auto same = std::find_if(known_.begin(), known_.end(), [&](const Identity& i) { return i.birth == track.birth; });
+    const auto same =
+        std::find_if(known_.begin(), known_.end(), [&](const Identity& i) { return i.birth == track.birth; });
     if (same != known_.end()) take(*same, track);
   }
   for (Track& track : set.tracks) {
@@ -40,9 +41,9 @@ void Identities::name(TrackSet& set, GlobalTime oldest) {
 
 Identities::Identity& Identities::room() {
   if (known_.size() == known_.capacity()) {
-    const auto longest_dead = std::min_element(known_.begin(), known_.end(), [](const Identity& a, const Identity& b) {
-      return a.alive != b.alive ? b.alive : a.seen < b.seen;
-    });
+    const auto longest_dead = std::min_element(
+        known_.begin(), known_.end(),
+        [](const Identity& a, const Identity& b) { return a.alive != b.alive ? b.alive : a.seen < b.seen; });
     TTF_CHECK(!longest_dead->alive, "{} tracks alive", known_.size());
     known_.erase(longest_dead);
   }
@@ -51,7 +52,8 @@ Identities::Identity& Identities::room() {
 
 TrackId Identities::next() {
   const auto taken = [&](TrackId id) {
-    return id == kNoTrack || std::any_of(known_.begin(), known_.end(), [&](const Identity& i) { return i.alive && i.id == id; });
+    return id == kNoTrack || std::any_of(known_.begin(), known_.end(),
+                                         [&](const Identity& i) { return i.alive && i.id == id; });
   };
   while (taken(static_cast<TrackId>(next_))) ++next_;
   return static_cast<TrackId>(next_++);

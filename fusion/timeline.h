@@ -1,11 +1,13 @@
-// The tracker's past, so that it can be gone back to: recent scans in chronological order and the tracks after each.
+// The tracker's past, so that it can be gone back to: recent scans in chronological order and the tracks
+// after each.
 //
 //      base | scan 0 | scan 1 | ... | scan n-1
 //   tracks  ^        ^        ^               ^  current
 //
-// Inserting at the end is a step of the tracker; inserting before goes back to the tracks before the gap and takes in
-// again all scans from there, so the result is bit-identical to in-order processing for every order of arrival; only the names
-// of the tracks (fusion/identities.h) are kept from what was before. The oldest scan is dropped into the base when the history is full; older scans than the base cannot be taken in.
+// Inserting at the end is a step of the tracker; inserting before goes back to the tracks before the gap and
+// takes in again all scans from there, so the result is bit-identical to in-order processing for every order
+// of arrival; only the names of the tracks (fusion/identities.h) are kept from what was before. The oldest
+// scan is dropped into the base when the history is full; older scans than the base cannot be taken in.
 #pragma once
 
 #include <cstddef>
@@ -57,13 +59,13 @@ class Timeline {
 
   Tracker tracker_;
   Identities identities_;
-  std::vector<Entry> entries_;            // storage, used in any order
-  std::vector<std::size_t> order_;        // chronological
+  std::vector<Entry> entries_;      // storage, used in any order
+  std::vector<std::size_t> order_;  // chronological
   std::vector<std::size_t> free_;
   TrackSet base_;
   MeasurementId base_id_{};
   GlobalTime base_time_{};
-  bool base_is_scan_ = false;             // something was dropped into the base
+  bool base_is_scan_ = false;  // something was dropped into the base
 };
 
 }  // namespace ttf::fusion

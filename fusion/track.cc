@@ -22,7 +22,8 @@ Facing facing_of(const Estimate& estimate, const Scalar& axis) {
   // Variance of an angle of which nothing is known.
   constexpr double kUnknown = std::numbers::pi * std::numbers::pi / 3.0;
   const double vx = estimate.x(2), vy = estimate.x(3), speed = std::hypot(vx, vy);
-  const Eigen::Vector2d along = speed > 1e-9 ? Eigen::Vector2d(vx / speed, vy / speed) : Eigen::Vector2d(1.0, 0.0);
+  const Eigen::Vector2d along =
+      speed > 1e-9 ? Eigen::Vector2d(vx / speed, vy / speed) : Eigen::Vector2d(1.0, 0.0);
   const Eigen::Vector2d across(-along(1), along(0));
   // The direction of motion tells the heading the better, the faster the object is.
   const double course = std::atan2(along(1), along(0));
@@ -54,8 +55,8 @@ TrackView view_of(const Track& track, GlobalTime time, GlobalTime at, const Trac
 
   const double vx = estimate.x(2), vy = estimate.x(3);
   view.speed = std::hypot(vx, vy);
-  const Eigen::Vector2d along = view.speed > 1e-9 ? Eigen::Vector2d(vx / view.speed, vy / view.speed)
-                                                  : Eigen::Vector2d(1.0, 0.0);
+  const Eigen::Vector2d along =
+      view.speed > 1e-9 ? Eigen::Vector2d(vx / view.speed, vy / view.speed) : Eigen::Vector2d(1.0, 0.0);
   const Eigen::Matrix2d velocity = estimate.p.block<2, 2>(2, 2);
   view.sigma_speed = std::sqrt(along.dot(velocity * along));
 

@@ -27,19 +27,19 @@ struct ObservationId {
 };
 
 struct Track {
-  TrackId id = kNoTrack;          // once it has one (fusion/identities.h)
-  ObservationId birth, newest;    // the first observation it took, and the last
+  TrackId id = kNoTrack;        // once it has one (fusion/identities.h)
+  ObservationId birth, newest;  // the first observation it took, and the last
   Estimate estimate;
-  Scalar heading;                 // [rad], the direction it faces
+  Scalar heading;  // [rad], the direction it faces
   Extent extent;
-  std::uint32_t hits = 0;         // bit i: the scan i scans ago had an observation of it
-  int scans = 0;                  // since birth, the first included
-  int misses = 0;                 // scans in a row without an observation
+  std::uint32_t hits = 0;  // bit i: the scan i scans ago had an observation of it
+  int scans = 0;           // since birth, the first included
+  int misses = 0;          // scans in a row without an observation
   bool confirmed = false;
 };
 
-// The direction an object faces [rad]: the direction of motion weighed with the measured axis, and with its turn; sigma is that
-// of an angle of which nothing is known where neither tells.
+// The direction an object faces [rad]: the direction of motion weighed with the measured axis, and with its
+// turn; sigma is that of an angle of which nothing is known where neither tells.
 struct Facing {
   double heading = 0.0;
   double sigma = 0.0;
@@ -63,7 +63,7 @@ struct TrackView {
   double width = 0.0, sigma_width = 0.0;
   bool has_length = false, has_width = false;
   bool confirmed = false;
-  bool coasting = false;          // not observed of late: predicted only
+  bool coasting = false;  // not observed of late: predicted only
 };
 // A track whose state is of `time`, predicted to `at`; never backwards.
 TrackView view_of(const Track& track, GlobalTime time, GlobalTime at, const TrackerConfig& config);

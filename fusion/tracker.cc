@@ -27,7 +27,8 @@ constexpr double kConfirmedBonus = 100.0;
 }  // namespace
 
 void TrackSet::assign(const TrackSet& other) {
-  TTF_CHECK(other.tracks.size() <= tracks.capacity(), "{} tracks into {}", other.tracks.size(), tracks.capacity());
+  TTF_CHECK(other.tracks.size() <= tracks.capacity(), "{} tracks into {}", other.tracks.size(),
+            tracks.capacity());
   tracks.assign(other.tracks.begin(), other.tracks.end());
   time = other.time;
   started = other.started;
@@ -98,7 +99,8 @@ void Tracker::associate(const TrackSet& set, const Scan& scan) {
       if (!innovation.valid || innovation.distance_squared > gate) continue;
       if (track.confirmed) near_track_[o] = 1;
       // Never exactly zero: a pair on the gate's edge is still better than none.
-      const double gain = gate - innovation.distance_squared + 1e-9 + (track.confirmed ? kConfirmedBonus : 0.0);
+      const double gain =
+          gate - innovation.distance_squared + 1e-9 + (track.confirmed ? kConfirmedBonus : 0.0);
       candidates_.push_back({static_cast<int>(o), static_cast<int>(t), gain});
     }
   }
@@ -113,7 +115,7 @@ void Tracker::correct(Track& track, const Observation& z, const Innovation& inno
   update(track.estimate, z, innovation);
   if (z.has_heading) {
     const double vx = track.estimate.x(2), vy = track.estimate.x(3);
-    const double expected = track.heading.known ? track.heading.value
+    const double expected = track.heading.known        ? track.heading.value
                             : std::hypot(vx, vy) > 1.0 ? std::atan2(vy, vx)
                                                        : z.heading;
     const double measured = nearest_half_turn(z.heading, expected);
@@ -123,7 +125,8 @@ void Tracker::correct(Track& track, const Observation& z, const Innovation& inno
   correct_extent(track, z);
 }
 
-// The span needs the aspect: it comes last, when position, course and axis know what this observation says of them.
+// The span needs the aspect: it comes last, when position, course and axis know what this observation says of
+// them.
 void Tracker::correct_extent(Track& track, const Observation& z) const {
   if (z.has_length) correct_length(track.extent, z.length, z.sigma_length);
   if (z.has_width) correct_width(track.extent, z.width, z.sigma_width);
@@ -133,13 +136,14 @@ void Tracker::correct_extent(Track& track, const Observation& z) const {
   const Facing facing = facing_of(track.estimate, track.heading);
   const Eigen::Vector2d sight(x / range, y / range);
   const double range_variance = sight.dot(track.estimate.p.topLeftCorner<2, 2>() * sight);
-  correct_span(track.extent,
-               {range, std::sqrt(range_variance), wrap_angle(facing.heading - std::atan2(y, x)), facing.sigma}, z.span,
-               z.sigma_span);
+  correct_span(
+      track.extent,
+      {range, std::sqrt(range_variance), wrap_angle(facing.heading - std::atan2(y, x)), facing.sigma}, z.span,
+      z.sigma_span);
 }
 
-// An observation no track took becomes a tentative track, unless it lies in the gate of a confirmed one: that is a second
-// echo of an object which is known already.
+// An observation no track took becomes a tentative track, unless it lies in the gate of a confirmed one: that
+// is a second echo of an object which is known already.
 void Tracker::give_birth(TrackSet& set, const Scan& scan) {
   const auto columns = assignment_.column_of();
   for (std::size_t o = 0; o < scan.observations.size(); ++o) {
@@ -157,9 +161,9 @@ void Tracker::give_birth(TrackSet& set, const Scan& scan) {
 }
 
 void Tracker::prune(TrackSet& set) const {
-  const std::uint32_t window =
-      config_.confirm_window >= 32 ? ~0u : (1u << config_.confirm_window) - 1u;
-  auto confirmed = std::count_if(set.tracks.begin(), set.tracks.end(), [](const Track& t) { return t.confirmed; });
+  const std::uint32_t window = config_.confirm_window >= 32 ? ~0u : (1u << config_.confirm_window) - 1u;
+  auto confirmed =
+      std::count_if(set.tracks.begin(), set.tracks.end(), [](const Track& t) { return t.confirmed; });
   for (Track& track : set.tracks)
     if (!track.confirmed && confirmed < config_.max_objects &&
         std::popcount(track.hits & window) >= config_.confirm_hits) {

@@ -1,8 +1,9 @@
-// The multi-object tracker all strategies share: prediction, gating, global nearest neighbour, M-of-N confirmation, deletion.
+// The multi-object tracker all strategies share: prediction, gating, global nearest neighbour, M-of-N
+// confirmation, deletion.
 //
-// A step is a pure function of the tracks, the scan and the configuration; tracks are values, so that a strategy can keep
-// snapshots and go back. Heading and extent are random-walk filters beside the linear Cartesian state. Storage is taken at
-// construction: nothing allocates afterwards.
+// A step is a pure function of the tracks, the scan and the configuration; tracks are values, so that a
+// strategy can keep snapshots and go back. Heading and extent are random-walk filters beside the linear
+// Cartesian state. Storage is taken at construction: nothing allocates afterwards.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +20,8 @@
 namespace ttf::fusion {
 
 struct TrackSet {
-  std::vector<Track> tracks;      // in order of birth
-  GlobalTime time{};              // the tracks' states are of this instant
+  std::vector<Track> tracks;  // in order of birth
+  GlobalTime time{};          // the tracks' states are of this instant
   bool started = false;
 
   explicit TrackSet(std::size_t capacity = 0) { tracks.reserve(capacity); }
@@ -48,7 +49,7 @@ class Tracker {
 
   TrackerConfig config_;
   std::size_t max_observations_, max_tracks_;
-  double gate_[4] = {};           // by dimension of the observation
+  double gate_[4] = {};  // by dimension of the observation
   Assignment assignment_;
   std::vector<Candidate> candidates_;
   std::vector<char> near_track_;  // per observation: inside the gate of a confirmed track

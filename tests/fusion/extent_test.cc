@@ -40,9 +40,11 @@ TEST(Subtended, IsTheOutlinesAndItsDerivativesAreTheNumericOnes) {
       EXPECT_NEAR(s.angle, walked(range, aspect, size), 2e-6);
       for (Eigen::Index d = 0; d < 2; ++d) {
         const Eigen::Vector2d step = h * Eigen::Vector2d::Unit(d);
-        EXPECT_NEAR(s.by_size(d),
-                    (subtended(range, aspect, size + step).angle - subtended(range, aspect, size - step).angle) / (2 * h),
-                    1e-7);
+        EXPECT_NEAR(
+            s.by_size(d),
+            (subtended(range, aspect, size + step).angle - subtended(range, aspect, size - step).angle) /
+                (2 * h),
+            1e-7);
       }
     }
 }
@@ -93,7 +95,8 @@ TEST(Extent, ErrorsThatRepeatAreNotAveragedAway) {
       Extent extent;
       correct_length(extent, 4.4 + 0.2 * stream.normal(), 0.2);
       for (int k = 0; k < 200; ++k)
-        correct_span(extent, seen(20.0, angle + off, sigma), span_of(20.0, angle) + 0.002 * stream.normal(), 0.002);
+        correct_span(extent, seen(20.0, angle + off, sigma), span_of(20.0, angle) + 0.002 * stream.normal(),
+                     0.002);
       const Eigen::Vector2d error = extent.size - Eigen::Vector2d(4.4, 1.8);
       squares += error.dot(extent.covariance.inverse() * error);
       ++n;

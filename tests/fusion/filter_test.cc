@@ -5,6 +5,7 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "tests/fusion/scenes.h"
@@ -12,7 +13,7 @@
 namespace ttf::fusion {
 namespace {
 
-constexpr double kPi = M_PI;
+constexpr double kPi = std::numbers::pi;
 const MotionModel kModels[] = {MotionModel::kConstantVelocity, MotionModel::kConstantAcceleration};
 
 TEST(Predict, MatchesTheIntegratedNoise) {

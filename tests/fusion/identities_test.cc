@@ -36,12 +36,14 @@ TEST(Identities, AreGivenAtConfirmationAndCountUp) {
   }
 }
 
-// Sensor 1 is three scans late, all the time, and sees lanes that sensor 0 does not: births before the others', late.
+// Sensor 1 is three scans late, all the time, and sees lanes that sensor 0 does not: births before the
+// others', late.
 //
 //   sensor 0   x0    x40    x80    x120   x160 ...        5 objects
 //   sensor 1     x20 ------------------> 145  ...         10 objects, the 5 among them
 TEST(Identities, ATrackKeepsItsIdThroughManyLateScans) {
-  const Lanes few{.objects = 5, .miss_probability = 0.1, .seed = 3}, many{.objects = 10, .miss_probability = 0.1, .seed = 4};
+  const Lanes few{.objects = 5, .miss_probability = 0.1, .seed = 3},
+      many{.objects = 10, .miss_probability = 0.1, .seed = 4};
   Timeline timeline({}, 16), in_order({}, 16);
   std::map<TrackId, int> object_of;
   std::map<int, std::set<TrackId>> ids_of;
@@ -54,7 +56,8 @@ TEST(Identities, ATrackKeepsItsIdThroughManyLateScans) {
     in_order.insert(scan(1, k, between, many.see(between, k)).view());
     if (k >= 3) {
       const GlobalTime past = at_ms(40 * (k - 3) + 20);
-      late += timeline.insert(scan(1, k - 3, past, many.see(past, k - 3)).view()) == Timeline::Insertion::kLate;
+      late +=
+          timeline.insert(scan(1, k - 3, past, many.see(past, k - 3)).view()) == Timeline::Insertion::kLate;
     }
     births(timeline.current());
     for (const Track& track : timeline.current().tracks) {
@@ -64,13 +67,15 @@ TEST(Identities, ATrackKeepsItsIdThroughManyLateScans) {
         if ((many.truth(object, t) - track.estimate.x).head<2>().norm() < 2.0) nearest = object;
       ASSERT_GE(nearest, 0) << "scan " << k;
       const auto [known, first] = object_of.try_emplace(track.id, nearest);
-      ASSERT_EQ(known->second, nearest) << "id " << index_of(track.id) << " went to another object at scan " << k;
+      ASSERT_EQ(known->second, nearest)
+          << "id " << index_of(track.id) << " went to another object at scan " << k;
       ids_of[nearest].insert(track.id);
     }
   }
   EXPECT_EQ(late, 197);
   ASSERT_EQ(ids_of.size(), 10u);
-  for (const auto& [object, ids] : ids_of) EXPECT_EQ(ids.size(), 1u) << "object " << object << " changed its id";
+  for (const auto& [object, ids] : ids_of)
+    EXPECT_EQ(ids.size(), 1u) << "object " << object << " changed its id";
   // What is still under way in order is late here: then both have taken in the same scans.
   for (std::uint32_t k = 197; k < 200; ++k) {
     const GlobalTime past = at_ms(40 * k + 20);
@@ -86,7 +91,9 @@ TEST(Identities, ATrackKeepsItsIdThroughManyLateScans) {
 //   sensor 1   x20 ------------------> 130
 TEST(Identities, ALateScanMayMoveTheBirthButNotTheId) {
   Timeline timeline({}, 4);
-  const auto car = [](std::int64_t ms) { return std::vector{position(20.0 + 0.005 * static_cast<double>(ms), 0.0, 0.2)}; };
+  const auto car = [](std::int64_t ms) {
+    return std::vector{position(20.0 + 0.005 * static_cast<double>(ms), 0.0, 0.2)};
+  };
   for (std::uint32_t k = 1; k <= 3; ++k) timeline.insert(scan(0, k, at_ms(40 * k), car(40 * k)).view());
   ASSERT_EQ(timeline.current().tracks.size(), 1u);
   const TrackId id = timeline.current().tracks[0].id;
@@ -127,7 +134,8 @@ TEST(Identities, AreNotGivenAgain) {
   std::uint32_t sequence = 0;
   for (int episode = 0; episode < 2000; ++episode) {
     for (int k = 0; k < 3; ++k, ++sequence)
-      timeline.insert(scan(0, sequence, at_ms(40 * sequence), {position(20.0 + 40.0 * (episode % 2), 0.0, 0.2)}).view());
+      timeline.insert(
+          scan(0, sequence, at_ms(40 * sequence), {position(20.0 + 40.0 * (episode % 2), 0.0, 0.2)}).view());
     bool fresh = false;
     for (const Track& track : timeline.current().tracks)
       if (track.misses == 0) fresh = seen.insert(track.id).second;

@@ -93,8 +93,8 @@ bool same_bits(const std::vector<TrackView>& a, const std::vector<TrackView>& b)
            same(s.sigma_speed, t.sigma_speed) && same(s.acceleration, t.acceleration) &&
            same(s.sigma_acceleration, t.sigma_acceleration) && same(s.length, t.length) &&
            same(s.sigma_length, t.sigma_length) && same(s.width, t.width) &&
-           same(s.sigma_width, t.sigma_width) && s.confirmed == t.confirmed &&
-           s.coasting == t.coasting && s.has_length == t.has_length && s.has_width == t.has_width;
+           same(s.sigma_width, t.sigma_width) && s.confirmed == t.confirmed && s.coasting == t.coasting &&
+           s.has_length == t.has_length && s.has_width == t.has_width;
   });
 }
 

@@ -39,7 +39,8 @@ Covariance driving_noise(MotionModel motion, double q, double dt);
 // A draw from N(mean, covariance), covariance positive semi-definite.
 State draw(const State& mean, const Covariance& covariance, RandomStream& stream);
 
-// The states of two sets of tracks, images, reports are the same to the last bit. Sets: whatever their tracks are called.
+// The states of two sets of tracks, images, reports are the same to the last bit. Sets: whatever their tracks
+// are called.
 bool same_bits(const TrackSet& a, const TrackSet& b);
 bool same_bits(const std::vector<TrackView>& a, const std::vector<TrackView>& b);
 

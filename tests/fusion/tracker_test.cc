@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -166,7 +167,7 @@ TEST(Tracker, HeadingIsMeasuredUpToHalfATurnAndAveraged) {
   for (int k = 0; k < n; ++k) {
     Observation z = position(20.0, 0.0, 0.1);
     z.has_heading = z.has_length = true;
-    z.heading = wrap_angle(3.1 + 0.05 * stream.normal() + (stream.uniform() < 0.5 ? 0.0 : M_PI));
+    z.heading = wrap_angle(3.1 + 0.05 * stream.normal() + (stream.uniform() < 0.5 ? 0.0 : std::numbers::pi));
     z.sigma_heading = 0.05;
     z.length = 4.0 + 0.3 * stream.normal();
     z.sigma_length = 0.3;
@@ -176,7 +177,7 @@ TEST(Tracker, HeadingIsMeasuredUpToHalfATurnAndAveraged) {
   ASSERT_EQ(bench.set.tracks.size(), 1u);
   const Track& track = bench.set.tracks[0];
   const double off = wrap_angle(track.heading.value - 3.1);
-  EXPECT_LT(std::min(std::abs(off), M_PI - std::abs(off)), 4.0 * 0.05 / std::sqrt(n));
+  EXPECT_LT(std::min(std::abs(off), std::numbers::pi - std::abs(off)), 4.0 * 0.05 / std::sqrt(n));
   EXPECT_NEAR(track.heading.variance, 0.05 * 0.05 / n, 1e-12);
   EXPECT_NEAR(track.extent.size(0), length_sum / n, 0.3) << "half of the variance may be common to all";
   EXPECT_NEAR(track.extent.covariance(0, 0), 0.5 * 0.3 * 0.3, 0.02 * 0.3 * 0.3);
@@ -206,13 +207,13 @@ TEST(View, AxisTellsTheHeadingOfWhatStandsAndCourseTellsItsFront) {
   EXPECT_NEAR(view_of(standing, at_ms(0), at_ms(0), TrackerConfig{}).heading, 2.0, 1e-12);
   // Driving along +x with an axis measured half a turn off: weighed on the side it drives to.
   Track driving = moving_track(10.0, 0.0, 1.0);
-  driving.heading = {M_PI - 0.2, 0.01, true};  // course variance is 0.01 too
+  driving.heading = {std::numbers::pi - 0.2, 0.01, true};  // course variance is 0.01 too
   const TrackView view = view_of(driving, at_ms(0), at_ms(0), TrackerConfig{});
   EXPECT_NEAR(view.heading, -0.1, 1e-12);
   EXPECT_NEAR(view.sigma_heading, std::sqrt(0.005), 1e-12);
   Track unknown = moving_track(0.0, 0.0, 0.5);
-  EXPECT_NEAR(view_of(unknown, at_ms(0), at_ms(0), TrackerConfig{}).sigma_heading, M_PI / std::sqrt(3.0),
-              1e-12);
+  EXPECT_NEAR(view_of(unknown, at_ms(0), at_ms(0), TrackerConfig{}).sigma_heading,
+              std::numbers::pi / std::sqrt(3.0), 1e-12);
 }
 
 TEST(View, AccelerationIsAlongTheHeading) {

@@ -1,4 +1,5 @@
-// Lists that come to a node over its CAN: read once, overwritten, and discarded where no strobe tells their time.
+// Lists that come to a node over its CAN: read once, overwritten, and discarded where no strobe tells their
+// time.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +18,8 @@ struct NoCan final : bus::CanPort {
 
 // The paper's camera host with its own step, on wires of its own.
 struct CameraHost {
-  schedules::Cluster cluster = schedules::load_cluster(std::string(TTF_SOURCE_DIR) + "/schedules/paper_synchronised.yaml");
+  schedules::Cluster cluster =
+      schedules::load_cluster(std::string(TTF_SOURCE_DIR) + "/schedules/paper_synchronised.yaml");
   NodeId id = *cluster.find_node("camera_pre");
   SensorId camera = *cluster.find_sensor("camera");
   const schedules::PduLayout& layout = cluster.pdu(*cluster.find_pdu("camera_frame"));
@@ -34,12 +36,15 @@ struct CameraHost {
     const schedules::Task& task = cluster.node(id).tasks[0];
     const ExecutiveConfig config{&cluster, id, timebase::Oscillator(25'000, 0, 0), {{1000}, 0}, 1, 0, {}};
     executive = std::make_unique<Executive>(
-        config, std::vector<std::shared_ptr<Step>>{std::make_shared<CameraPreprocessing>(cluster, task, CameraCalibration{})},
+        config,
+        std::vector<std::shared_ptr<Step>>{
+            std::make_shared<CameraPreprocessing>(cluster, task, CameraCalibration{})},
         &port, std::vector<bus::CanPort*>(cluster.can_buses.size(), &can), lines, heard);
   }
   void wait(Duration duration) {
     const Microticks end = now + Microticks{duration.ns / 25};
-    for (Microticks next = executive->next_event(); next <= end; next = executive->next_event()) executive->advance(next);
+    for (Microticks next = executive->next_event(); next <= end; next = executive->next_event())
+      executive->advance(next);
     now = end;
   }
   // One detection, as the camera sends it.
@@ -51,7 +56,8 @@ struct CameraHost {
     executive->receive_can(camera_can, {272, false, raw.view().bytes}, now);
   }
   long hops(records::Hop what) const {
-    return std::count_if(heard.hops.begin(), heard.hops.end(), [&](const Runs::Hop& h) { return h.what == what; });
+    return std::count_if(heard.hops.begin(), heard.hops.end(),
+                         [&](const Runs::Hop& h) { return h.what == what; });
   }
 };
 
@@ -72,7 +78,7 @@ TEST(ExecutiveLists, AListWithoutAStrobeIsDiscardedCountedAndRecorded) {
   CameraHost host;
   host.executive->strobe(host.camera, 0, host.now);
   host.wait(Duration::milliseconds(1));
-  host.frame(1);   // of which the strobe was lost
+  host.frame(1);  // of which the strobe was lost
   host.wait(Duration::milliseconds(60));
   EXPECT_EQ(host.hops(records::Hop::kRead), 1);
   EXPECT_EQ(host.hops(records::Hop::kWritten), 0);
@@ -91,7 +97,7 @@ TEST(ExecutiveLists, WhatANewerListReplacesUnreadIsCounted) {
   for (std::uint32_t k = 0; k < 3; ++k) {
     host.executive->strobe(host.camera, k, host.now);
     host.frame(k);
-    host.wait(Duration::milliseconds(1));   // the first is being processed
+    host.wait(Duration::milliseconds(1));  // the first is being processed
   }
   host.wait(Duration::milliseconds(120));
   EXPECT_EQ(host.hops(records::Hop::kReceived), 3);

@@ -1,4 +1,5 @@
-// The executive's law and its rules of order. Times in microseconds from the start of cycle 0; macroticks are microseconds.
+// The executive's law and its rules of order. Times in microseconds from the start of cycle 0; macroticks are
+// microseconds.
 #include "nodes/executive.h"
 
 #include <gtest/gtest.h>
@@ -15,15 +16,18 @@ using Ran = Runs::Run;
 TEST(Executive, TasksStartAtTheInstantsOfTheSchedule) {
   OneNode node({at(300, task("third", 10)), at(100, task("first", 10)), at(200, task("second", 10), 2)});
   node.run_to(2, 0);
-  EXPECT_EQ(node.heard.runs,
-            (std::vector<Ran>{{1, 100, 100, 110, true}, {2, 200, 200, 210, true}, {0, 300, 300, 310, true},
-                              {1, 1100, 1100, 1110, true}, {0, 1300, 1300, 1310, true}}));
+  EXPECT_EQ(node.heard.runs, (std::vector<Ran>{{1, 100, 100, 110, true},
+                                               {2, 200, 200, 210, true},
+                                               {0, 300, 300, 310, true},
+                                               {1, 1100, 1100, 1110, true},
+                                               {0, 1300, 1300, 1310, true}}));
 }
 
 TEST(Executive, AChainRunsLinkByLinkEachAtTheEndOfTheLast) {
   OneNode node({after("b", task("c", 30)), at(100, task("a", 10)), after("a", task("b", 20))});
   node.run_to(1, 0);
-  EXPECT_EQ(node.heard.runs, (std::vector<Ran>{{1, 100, 100, 110, true}, {2, 110, 110, 130, true}, {0, 130, 130, 160, true}}));
+  EXPECT_EQ(node.heard.runs,
+            (std::vector<Ran>{{1, 100, 100, 110, true}, {2, 110, 110, 130, true}, {0, 130, 130, 160, true}}));
 }
 
 //   a 100 ======= 150
@@ -32,7 +36,8 @@ TEST(Executive, AChainRunsLinkByLinkEachAtTheEndOfTheLast) {
 TEST(Executive, HasOneProcessorAndStartsInOrderOfActivation) {
   OneNode node({at(120, task("c", 10)), at(110, task("b", 20)), at(100, task("a", 50))});
   node.run_to(1, 0);
-  EXPECT_EQ(node.heard.runs, (std::vector<Ran>{{2, 100, 100, 150, true}, {1, 110, 150, 170, true}, {0, 120, 170, 180, true}}));
+  EXPECT_EQ(node.heard.runs,
+            (std::vector<Ran>{{2, 100, 100, 150, true}, {1, 110, 150, 170, true}, {0, 120, 170, 180, true}}));
 }
 
 // At 150 three are activated at once: by the end of a, by the schedule, and by the schedule again.
@@ -70,11 +75,13 @@ TEST(Executive, AnActivationThatMeetsAWaitingOneIsAnOverrun) {
 }
 
 TEST(Executive, AMissedDeadlineIsRecordedAndCounted) {
-  OneNode node({at(100, task("a", 50, 50)), at(110, task("b", 20, 59)), at(300, task("c", 60, 59)), at(500, task("d", 0, 0))});
+  OneNode node({at(100, task("a", 50, 50)), at(110, task("b", 20, 59)), at(300, task("c", 60, 59)),
+                at(500, task("d", 0, 0))});
   node.run_to(1, 0);
-  EXPECT_EQ(node.heard.runs,
-            (std::vector<Ran>{{0, 100, 100, 150, true}, {1, 110, 150, 170, false}, {2, 300, 300, 360, false},
-                              {3, 500, 500, 500, true}}))
+  EXPECT_EQ(node.heard.runs, (std::vector<Ran>{{0, 100, 100, 150, true},
+                                               {1, 110, 150, 170, false},
+                                               {2, 300, 300, 360, false},
+                                               {3, 500, 500, 500, true}}))
       << "a deadline counts from the activation, waiting included, and is met on the tick";
   EXPECT_EQ(node.executive->counts().deadlines_missed, 2u);
 }
@@ -89,8 +96,9 @@ TEST(Executive, ExecutionTimesAreDrawnBetweenTheirBoundsAlikeForASeed) {
   second.run_to(200, 0);
   ASSERT_EQ(first.heard.runs.size(), 200u);
   EXPECT_EQ(first.heard.runs, second.heard.runs);
-  const auto [shortest, longest] = std::minmax_element(first.heard.runs.begin(), first.heard.runs.end(),
-                                                       [](const Ran& a, const Ran& b) { return a.end - a.start < b.end - b.start; });
+  const auto [shortest, longest] =
+      std::minmax_element(first.heard.runs.begin(), first.heard.runs.end(),
+                          [](const Ran& a, const Ran& b) { return a.end - a.start < b.end - b.start; });
   EXPECT_GE(shortest->end - shortest->start, 100);
   EXPECT_LT(shortest->end - shortest->start, 110);
   EXPECT_LE(longest->end - longest->start, 300);

@@ -32,7 +32,8 @@ FeatureConfig driving(double own_speed) {
 TEST(FeatureService, TimeToCollisionIsClearanceByClosingSpeed) {
   for (const double own : {0.0, 10.0, 25.0}) {
     const records::FeatureObject f = judge(car(22.0, 0.0, kPi, 10.0), driving(own));
-    EXPECT_NEAR(f.time_to_collision_s, 2.0, 1e-12) << "own speed " << own << ": the image's velocity is relative already";
+    EXPECT_NEAR(f.time_to_collision_s, 2.0, 1e-12)
+        << "own speed " << own << ": the image's velocity is relative already";
     EXPECT_TRUE(f.warning);
   }
 }
@@ -43,13 +44,15 @@ TEST(FeatureService, TimeGapIsClearanceByOwnSpeed) {
   EXPECT_NEAR(f.time_gap_s, 2.0, 1e-12);
   EXPECT_TRUE(std::isinf(f.time_to_collision_s));
   EXPECT_FALSE(f.warning);
-  EXPECT_TRUE(std::isinf(judge(car(22.0, 0.0, 0.0, 0.0), driving(0.0)).time_gap_s)) << "who stands has no gap";
+  EXPECT_TRUE(std::isinf(judge(car(22.0, 0.0, 0.0, 0.0), driving(0.0)).time_gap_s))
+      << "who stands has no gap";
   EXPECT_TRUE(std::isinf(judge(car(-22.0, 0.0, 0.0, 0.0), driving(10.0)).time_gap_s)) << "nor what is behind";
 }
 
 TEST(FeatureService, WhatOpensOrStandsIsNoCollision) {
   EXPECT_TRUE(std::isinf(judge(car(22.0, 0.0, 0.0, 5.0), driving(0.0)).time_to_collision_s));
-  EXPECT_TRUE(std::isinf(judge(car(22.0, 0.0, kPi, 0.4), driving(0.0)).time_to_collision_s)) << "noise about zero";
+  EXPECT_TRUE(std::isinf(judge(car(22.0, 0.0, kPi, 0.4), driving(0.0)).time_to_collision_s))
+      << "noise about zero";
   EXPECT_NEAR(judge(car(22.0, 0.0, kPi, 0.6), driving(0.0)).time_to_collision_s, 20.0 / 0.6, 1e-9);
 }
 
@@ -62,9 +65,12 @@ TEST(FeatureService, ClosesAlongTheLineOfSight) {
   EXPECT_FALSE(f.warning) << "15 m beside the line of travel";
 }
 
-// The near edge: the rear of what drives ahead, the side of what crosses, in between where the line of sight meets it.
+// The near edge: the rear of what drives ahead, the side of what crosses, in between where the line of sight
+// meets it.
 TEST(FeatureService, ClearanceEndsAtTheOutline) {
-  const auto clearance = [](double heading) { return 10.0 * judge(car(22.0, 0.0, heading, 0.0), driving(10.0)).time_gap_s; };
+  const auto clearance = [](double heading) {
+    return 10.0 * judge(car(22.0, 0.0, heading, 0.0), driving(10.0)).time_gap_s;
+  };
   EXPECT_NEAR(clearance(0.0), 20.0, 1e-9);
   EXPECT_NEAR(clearance(kPi), 20.0, 1e-9);
   EXPECT_NEAR(clearance(kPi / 2), 21.0, 1e-9);

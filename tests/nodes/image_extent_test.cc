@@ -1,5 +1,5 @@
-// What the image says of an object's size, against the truth: within what it states, over the paper's drives and cars that
-// cross.
+// What the image says of an object's size, against the truth: within what it states, over the paper's drives
+// and cars that cross.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -56,7 +56,8 @@ Sizes driven(const Drive& drive) {
   return sizes;
 }
 
-// Sizes hardly change from use to use, so that the samples are far from independent: a mean of 1.6 is nothing unusual.
+// Sizes hardly change from use to use, so that the samples are far from independent: a mean of 1.6 is nothing
+// unusual.
 void expect_honest(const Told& told) {
   EXPECT_GT(told.uses, 500);
   EXPECT_LE(told.normalised_squares, 1.6 * told.known + 10.0);

@@ -1,4 +1,5 @@
-// One node on a silent bus, its tasks made for a test: 1 ms cycles of 1000 macroticks of 40 microticks of 25 ns.
+// One node on a silent bus, its tasks made for a test: 1 ms cycles of 1000 macroticks of 40 microticks of 25
+// ns.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -33,7 +34,7 @@ struct Runs final : records::Sink {
   using records::Sink::on;
   struct Run {
     int task;
-    std::int64_t activated, start, end;   // us of true time from the start of cycle 0
+    std::int64_t activated, start, end;  // us of true time from the start of cycle 0
     bool deadline_met;
     bool operator==(const Run&) const = default;
   };
@@ -50,7 +51,9 @@ struct Runs final : records::Sink {
   void on(const records::TaskRun& run) override {
     runs.push_back({run.task, us(run.activated), us(run.start.true_time), us(run.end), run.deadline_met});
   }
-  void on(const records::ListHop& hop) override { hops.push_back({hop.hop, hop.sequence, us(hop.stamp.true_time)}); }
+  void on(const records::ListHop& hop) override {
+    hops.push_back({hop.hop, hop.sequence, us(hop.stamp.true_time)});
+  }
 };
 
 // [us], always the worst case.
@@ -63,7 +66,8 @@ inline schedules::Task task(std::string name, std::int64_t execution, std::int64
   return t;
 }
 inline schedules::Task at(int macrotick, schedules::Task t, int repetition = 1) {
-  t.activation = {schedules::ActivationKind::kTime, {0, repetition, Macroticks{macrotick}}, "", kNoSensor, ""};
+  t.activation = {
+      schedules::ActivationKind::kTime, {0, repetition, Macroticks{macrotick}}, "", kNoSensor, ""};
   return t;
 }
 inline schedules::Task after(std::string other, schedules::Task t) {
@@ -81,8 +85,10 @@ struct OneNode {
   explicit OneNode(std::vector<schedules::Task> tasks, std::vector<std::shared_ptr<Step>> steps = {}) {
     while (steps.size() < tasks.size()) steps.push_back(std::make_shared<Scripted>());
     cluster.nodes[0].tasks = std::move(tasks);
-    const ExecutiveConfig config{&cluster, NodeId{0}, timebase::Oscillator(25'000, 0, 0), {{1000}, 0}, 1, 0, {}};
-    executive = std::make_unique<Executive>(config, std::move(steps), &port, std::vector<bus::CanPort*>{}, lines, heard);
+    const ExecutiveConfig config{&cluster, NodeId{0}, timebase::Oscillator(25'000, 0, 0), {{1000}, 0}, 1,
+                                 0,        {}};
+    executive = std::make_unique<Executive>(config, std::move(steps), &port, std::vector<bus::CanPort*>{},
+                                            lines, heard);
   }
   // From event to event, as a crank does.
   void run_to(std::int64_t cycle, std::int64_t macrotick = 0) {

@@ -18,7 +18,9 @@ TEST(StrobeLatch, KnowsTheNewestSixteenMeasurements) {
     for (std::uint32_t asked = 0; asked < 60; ++asked) {
       const auto time = latch.time_of(asked);
       ASSERT_EQ(time.has_value(), asked <= k && asked + 16 > k) << "asked for " << asked << " after " << k;
-      if (time) { EXPECT_EQ(time->ns, 1000 + asked); }
+      if (time) {
+        EXPECT_EQ(time->ns, 1000 + asked);
+      }
     }
   }
 }
@@ -41,7 +43,8 @@ schedules::PduLayout stamped(int bits) {
   return layout;
 }
 
-// Any instant comes back to the microsecond from its low bits, whatever instant within half a wrap it is looked at from.
+// Any instant comes back to the microsecond from its low bits, whatever instant within half a wrap it is
+// looked at from.
 TEST(TimeStamp, UnwrapsToTheNearestInstant) {
   RandomStream draw({.seed = 9});
   for (const int bits : {16, 24, 32}) {
@@ -52,7 +55,8 @@ TEST(TimeStamp, UnwrapsToTheNearestInstant) {
       const std::int64_t us = draw.integer(-5 * half, 50 * half);
       out.begin(0, 1, GlobalTime{us * 1000});
       const std::int64_t off = k == 0 ? half - 1 : k == 1 ? -half + 1 : draw.integer(-half + 1, half - 1);
-      ASSERT_EQ(time_stamp(layout, out.view(), GlobalTime{(us + off) * 1000}).ns, us * 1000) << bits << " bits, " << us << " " << off;
+      ASSERT_EQ(time_stamp(layout, out.view(), GlobalTime{(us + off) * 1000}).ns, us * 1000)
+          << bits << " bits, " << us << " " << off;
     }
   }
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "core/errors.h"
@@ -26,7 +27,7 @@ std::vector<world::ObjectState> fan() {
 TEST(LaserPreprocessor, FindsEachCarOnce) {
   LaserPreprocessor preprocessor({}, kMostPoints);
   const std::vector<world::ObjectState> cars = {car_at(20.0, -6.0, 0.0), car_at(35.0, 0.0, 0.3, 4.4, 1.8, 1),
-                                                car_at(15.0, 6.0, M_PI / 2, 4.4, 1.8, 2)};
+                                                car_at(15.0, 6.0, std::numbers::pi / 2, 4.4, 1.8, 2)};
   std::vector<LaserObject> objects;
   for (std::uint32_t sequence = 0; sequence < 20; ++sequence) {
     preprocessor.process(emulated_scan({}, cars, sequence), objects);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "core/random.h"
@@ -25,7 +26,7 @@ LaserObject fitted(const world::ObjectState& car, std::uint32_t sequence,
 }
 
 // Heading of a long axis is known up to half a turn.
-double axis_difference(double a, double b) { return std::remainder(a - b, M_PI); }
+double axis_difference(double a, double b) { return std::remainder(a - b, std::numbers::pi); }
 
 double squared_distance(const LaserObject& o, double ex, double ey) {
   const double determinant = o.sxx * o.syy - o.sxy * o.sxy;
@@ -71,11 +72,11 @@ TEST(RectangleFit, ARearAloneLeavesTheLengthOpen) {
 }
 
 TEST(RectangleFit, ASideAloneLeavesTheWidthOpen) {
-  const LaserObject o = fitted(car_at(15.0, 0.0, M_PI / 2), 1);
+  const LaserObject o = fitted(car_at(15.0, 0.0, std::numbers::pi / 2), 1);
   EXPECT_TRUE(o.has_length);
   EXPECT_FALSE(o.has_width);
   EXPECT_NEAR(o.length, 4.4, 3.0 * o.sigma_length);
-  EXPECT_NEAR(axis_difference(o.heading, M_PI / 2), 0.0, 3.0 * o.sigma_heading);
+  EXPECT_NEAR(axis_difference(o.heading, std::numbers::pi / 2), 0.0, 3.0 * o.sigma_heading);
   EXPECT_EQ(o.width, RectangleConfig{}.nominal_width_m);
 }
 
@@ -118,7 +119,7 @@ TEST(RectangleFit, TheCentresCovarianceIsHonestFromEveryAspect) {
     double sum = 0.0;
     for (int k = 0; k < kCars; ++k) {
       const double range = fleet.uniform(12.0, 50.0), azimuth = fleet.uniform(-0.4, 0.4);
-      const double heading = azimuth + 2.0 * M_PI * (aspect + fleet.uniform(-0.5, 0.5)) / kAspects;
+      const double heading = azimuth + 2.0 * std::numbers::pi * (aspect + fleet.uniform(-0.5, 0.5)) / kAspects;
       const double length = config.nominal_length_m + config.length_sigma_m * fleet.normal();
       const double width = config.nominal_width_m + config.width_sigma_m * fleet.normal();
       const auto car = car_at(range * std::cos(azimuth), range * std::sin(azimuth), heading, length, width);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "tests/preprocessing/emulated_scan.h"
@@ -31,7 +32,7 @@ Cut cut(const std::vector<ScanPoint>& scan) {
 TEST(Segmentation, AnEmptyScanHasNone) { EXPECT_TRUE(cut({}).segments.empty()); }
 
 TEST(Segmentation, OneReturnIsOneSegment) {
-  const Cut c = cut({{2, M_PI / 6, 10.0}});
+  const Cut c = cut({{2, std::numbers::pi / 6, 10.0}});
   ASSERT_EQ(c.segments.size(), 1U);
   EXPECT_NEAR(c.points[0].x, 8.660254, 1e-6);
   EXPECT_NEAR(c.points[0].y, 5.0, 1e-12);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "core/random.h"
@@ -114,7 +115,7 @@ TEST(Triangulation, CovarianceIsHonestForTheEmulatedCamera) {
   for (std::uint32_t frame = 0; frame < 3000; ++frame) {
     const double range = draw.uniform(12.0, 40.0), azimuth = draw.uniform(-0.35, 0.35);
     // Every second car is followed or met, the others are turned anyhow.
-    const double heading = azimuth + (frame % 2 == 0 ? draw.uniform(-0.05, 0.05) : draw.uniform(-M_PI, M_PI));
+    const double heading = azimuth + (frame % 2 == 0 ? draw.uniform(-0.05, 0.05) : draw.uniform(-std::numbers::pi, std::numbers::pi));
     const auto car = car_at(range * std::cos(azimuth), range * std::sin(azimuth), heading);
     world::measure_camera(camera, std::vector<world::ObjectState>{car}, 1, 0, 1, frame, detections, truth);
     ASSERT_EQ(detections.size(), 1U);

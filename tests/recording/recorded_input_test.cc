@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 
 #include "core/errors.h"
 #include "core/random.h"
@@ -175,7 +176,7 @@ TEST(LaserRadar, ReadsTheRecordingNobodyHereWrote) {
       ++lasers;
     } else {
       range += std::pow(seen.range - r, 2);
-      bearing += std::pow(std::remainder(seen.bearing - std::atan2(truth.y, truth.x), 2 * M_PI), 2);
+      bearing += std::pow(std::remainder(seen.bearing - std::atan2(truth.y, truth.x), 2 * std::numbers::pi), 2);
       rate += std::pow(seen.range_rate - (truth.x * truth.vx + truth.y * truth.vy) / r, 2);
       ++radars;
     }
@@ -195,7 +196,7 @@ TEST(LidarScans, ReadsTheStreetNobodyHereDrew) {
   std::size_t returns = 0;
   for (const auto& scan : scans) {
     returns += scan.returns.size();
-    for (const auto& hit : scan.returns) ASSERT_LE(std::abs(hit.azimuth_rad), 80.1 * M_PI / 180);
+    for (const auto& hit : scan.returns) ASSERT_LE(std::abs(hit.azimuth_rad), 80.1 * std::numbers::pi / 180);
   }
   EXPECT_EQ(returns, 13'510u);
 }

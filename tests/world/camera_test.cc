@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 namespace ttf::world {
@@ -56,7 +57,7 @@ TEST(Camera, ACarStraightAheadIsSeenAtItsRear) {
 TEST(Camera, ATurnedCarIsSeenInTheMiddleOfItsSilhouette) {
   const CameraConfig config = exact();
   // Broadside, 20 m ahead and to the left: the near side lies at y-parallel x = 20 - 0.9.
-  const auto [detections, truth] = frame(config, {car(0, 20.0, 3.0, M_PI / 2)});
+  const auto [detections, truth] = frame(config, {car(0, 20.0, 3.0, std::numbers::pi / 2)});
   ASSERT_EQ(detections.size(), 1U);
   const double right = std::atan2(3.0 - 2.2, 20.9), left = std::atan2(3.0 + 2.2, 19.1);
   // Right edge: the nearer of the two right corners in angle is the far one (0.8 / 20.9).

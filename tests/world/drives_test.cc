@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "sim/world/camera.h"
@@ -50,7 +51,7 @@ TEST(PaperScenario2, TheCarApproachesAtConstantSpeedAndTurnsAt20Metres) {
   }
   EXPECT_NEAR(turned_at, 20.0, 0.5);
   const ObjectState end = world.state_of(ObjectId{0}, at_ms(3000));
-  EXPECT_GT(std::abs(end.heading - M_PI), 0.4) << "hardly a turn";
+  EXPECT_GT(std::abs(end.heading - std::numbers::pi), 0.4) << "hardly a turn";
   EXPECT_GT(std::abs(end.y - y), 0.8) << "significant movement in both directions";
 }
 

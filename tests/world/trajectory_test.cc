@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <tuple>
 #include <vector>
 
@@ -64,11 +65,11 @@ TEST(Motion, TwoStepsAreOne) {
 
 TEST(Motion, AConstantTurnClosesItsCircle) {
   const ObjectState start = car(5.0, 0.0, 0.5);
-  const ObjectState end = moved(start, 2.0 * M_PI / 0.5);
+  const ObjectState end = moved(start, 2.0 * std::numbers::pi / 0.5);
   EXPECT_NEAR(end.x, start.x, 1e-12);
   EXPECT_NEAR(end.y, start.y, 1e-12);
   // Half way round it is a diameter (2 v / w = 20 m) to the left of where it began.
-  const ObjectState half = moved(start, M_PI / 0.5);
+  const ObjectState half = moved(start, std::numbers::pi / 0.5);
   EXPECT_NEAR(half.x, start.x - 20.0 * std::sin(0.7), 1e-12);
   EXPECT_NEAR(half.y, start.y + 20.0 * std::cos(0.7), 1e-12);
 }
