@@ -243,7 +243,8 @@ void Executive::start_next(Microticks now) {
       if (!input.discarded) continue;
       ++counts_.discarded_lists;
       const auto& can_bus = state.task->reads[i].can_bus;
-      hop(now, records::Hop::kDiscarded, input.pdu, input.list->sequence, can_bus ? static_cast<int>(*can_bus) : -1);
+      hop(state.run.start, records::Hop::kDiscarded, input.pdu, input.list->sequence,
+          can_bus ? static_cast<int>(*can_bus) : -1);
     }
 
     Duration execution = state.task->worst_case;

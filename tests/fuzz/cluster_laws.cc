@@ -11,6 +11,7 @@
 #include "schedules/loader.h"
 #include "schedules/show.h"
 #include "tests/fuzz/harness.h"
+#include "tests/fuzz/nothing_there.h"
 
 namespace ttf::fuzz {
 namespace {
@@ -62,7 +63,7 @@ void check_cluster(const std::string& text) {
   const auto rows = std::make_shared<const recording::RecordedInput>(some_recording());
   for (std::size_t node = 0; node < cluster.nodes.size(); ++node)
     accepted(kFile, [&] {
-      nodes::make_steps({&scenario, &cluster, fusion::StrategyKind::kAdva, 1, 0, nullptr, rows},
+      nodes::make_steps({&scenario, &cluster, fusion::StrategyKind::kAdva, 1, 0, nothing_there(), rows},
                         static_cast<NodeId>(node));
     });
 }

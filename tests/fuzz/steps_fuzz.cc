@@ -16,6 +16,7 @@
 #include "nodes/catalog.h"
 #include "schedules/loader.h"
 #include "tests/fuzz/harness.h"
+#include "tests/fuzz/nothing_there.h"
 
 namespace {
 
@@ -207,7 +208,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   fuzz::Source source(data, size);
   const schedules::Cluster& described = kClusters[source.take<std::uint8_t>() % 2];
   const auto strategy = static_cast<fusion::StrategyKind>(source.take<std::uint8_t>() % 3);
-  Cluster cluster({&kScenario, &described, strategy, 1, 0, nullptr, kRows});
+  Cluster cluster({&kScenario, &described, strategy, 1, 0, fuzz::nothing_there(), kRows});
   while (!source.empty()) {
     switch (source.take<std::uint8_t>() % 4) {
       case 0: cluster.can_frame(source); break;

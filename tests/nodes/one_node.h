@@ -49,7 +49,7 @@ struct Runs final : records::Sink {
   // Cycle 0 starts at microtick 1000.
   static std::int64_t us(TrueTime t) { return (t.ns - 25'000) / 1000; }
   void on(const records::TaskRun& run) override {
-    runs.push_back({run.task, us(run.activated), us(run.start.true_time), us(run.end), run.deadline_met});
+    runs.push_back({run.task, us(run.activated.true_time), us(run.start.true_time), us(run.end.true_time), run.deadline_met});
   }
   void on(const records::ListHop& hop) override {
     hops.push_back({hop.hop, hop.sequence, us(hop.stamp.true_time)});

@@ -36,9 +36,11 @@ class Fill {
   }
 
  private:
-  // Disposition and hop are small choices; everything else takes the next number.
+  // Disposition and hop are small choices, an object's status has four bits; everything else takes the next number.
   std::uint32_t whole(const FieldDescriptor& field) {
-    return field.name() == "disposition" || field.name() == "hop" ? 3 : ++next_;
+    const bool small = field.name() == "disposition" || field.name() == "hop" ||
+                       field.full_name() == "ttfusion.ImageObject.status";
+    return small ? 3 : ++next_;
   }
   void set(Message& message, const FieldDescriptor& field) {
     const auto& reflection = *message.GetReflection();

@@ -53,14 +53,17 @@ struct Followed final : records::Sink {
     }
     if (hop.pdu != objects || hop.sequence != list) return;
     (hop.can_bus < 0 ? written : queued) = hop.stamp.true_time;
-    if (hop.can_bus >= 0 && camera_frame.end > hop.stamp.true_time) missing += under_worst(camera_frame);
   }
   void on(const records::SlotFrameSent& sent) override {
     if (sent.pdu == objects && sent.fragment == 0 && sent.channel == 0)
       slots.emplace_back(sent.cycle, sent.stamp.true_time);
   }
   void on(const records::CanFrameSent& sent) override {
-    if (sent.pdu == camera_objects && !queued) camera_frame = sent;
+    // Reported at its end, it may have been under way when the list was queued.
+    if (sent.pdu == camera_objects && (!queued || sent.start.true_time <= *queued)) {
+      camera_frame = sent;
+      if (queued && sent.end.true_time > *queued) missing += under_worst(sent);
+    }
     if ((sent.pdu == raw || sent.pdu == objects) && sent.sequence == list) missing += under_worst(sent);
   }
   void on(const records::ListFused& scan) override {
@@ -79,7 +82,7 @@ struct Followed final : records::Sink {
   }
   Duration under_worst(const records::CanFrameSent& sent) const {
     return schedules::can_worst_case(cluster.can_buses[sent.bus], static_cast<int>(sent.data.size())) -
-           (sent.end - sent.start);
+           (sent.end.true_time - sent.start.true_time);
   }
   TrueTime action_point(std::int64_t cycle) const {
     for (const auto& [in, at] : slots)
@@ -151,7 +154,7 @@ struct Conspiracy {
     for (int round = 0; round < 12; ++round) {
       Followed seen = run();
       Duration behind = *seen.queued - seen.camera_before;
-      if (worst && !near(*seen.queued - seen.camera_frame.start)) {
+      if (worst && !near(*seen.queued - seen.camera_frame.start.true_time)) {
         if (seen.camera_after && *seen.camera_after - *seen.queued < behind) behind = *seen.queued - *seen.camera_after;
         move(camera, behind - kAim);
         continue;

@@ -24,7 +24,7 @@ struct AllocationsSeen final : records::Sink {
   std::size_t most_hits = 0;
 
   void on(const records::SlotFrameSent&) override { read({}); }
-  void on(const records::TaskRun& run) override { read(run.end); }
+  void on(const records::TaskRun& run) override { read(run.end.true_time); }
   void on(const records::FusionStep&) override { ++fusions; }
   void on(const records::FeatureUsed&) override { ++uses; }
   void on(const records::Measured& measured) override { most_hits = std::max(most_hits, measured.truth_ids.size()); }

@@ -17,8 +17,8 @@ inline bool same(const records::Stamp& a, const records::Stamp& b) {
 // Every field by name: one that is added later does not compile until it is compared, too.
 inline auto bits(const records::ImageObject& object) {
   const auto& [track, x, y, heading, speed, acceleration, length, width, sigma_x, sigma_y, correlation_xy, sigma_heading,
-               sigma_speed, sigma_acceleration, sigma_length, sigma_width] = object;
-  std::vector<std::uint64_t> all{index_of(track)};
+               sigma_speed, sigma_acceleration, sigma_length, sigma_width, status] = object;
+  std::vector<std::uint64_t> all{index_of(track), status};
   for (const double value : {x, y, heading, speed, acceleration, length, width, sigma_x, sigma_y, correlation_xy,
                              sigma_heading, sigma_speed, sigma_acceleration, sigma_length, sigma_width})
     all.push_back(std::bit_cast<std::uint64_t>(value));

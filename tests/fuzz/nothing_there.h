@@ -1,0 +1,19 @@
+// A scene with nothing in it, for the steps of a cluster whose sensors need one to look at.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "nodes/scene.h"
+
+namespace ttf::fuzz {
+
+class NothingThere final : public nodes::Scene {
+ public:
+  void states_at(TrueTime, std::vector<world::ObjectState>& out) const override { out.clear(); }
+  std::size_t objects() const override { return 0; }
+};
+
+inline std::shared_ptr<const nodes::Scene> nothing_there() { return std::make_shared<const NothingThere>(); }
+
+}  // namespace ttf::fuzz
