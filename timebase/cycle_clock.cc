@@ -11,8 +11,8 @@ Int128 floor_div(Int128 a, Int128 b) { return a < 0 ? -((b - 1 - a) / b) : a / b
 
 }  // namespace
 
-CycleClock::CycleClock(CycleGeometry geometry, Microticks start, int rate)
-    : geometry_(geometry), start_(start), rate_(rate) {
+CycleClock::CycleClock(CycleGeometry geometry, Microticks start, int rate, std::int64_t first)
+    : geometry_(geometry), first_(first), cycle_(first), start_(start), rate_(rate) {
   TTF_CHECK(geometry.macro_per_cycle > 0 && geometry.micro_per_cycle > 2 * geometry.macro_per_cycle,
             "{} macroticks, {} microticks", geometry.macro_per_cycle, geometry.micro_per_cycle);
   TTF_CHECK(geometry.offset_correction_start > 0 && geometry.offset_correction_start < geometry.macro_per_cycle,
@@ -44,7 +44,7 @@ Microticks CycleClock::start_of(Macroticks m) const {
 GlobalTime CycleClock::global_time(Microticks t) const {
   const std::int64_t length = geometry_.micro_per_cycle + rate_;
   const std::int64_t into = (t - start_).value;
-  TTF_CHECK(into >= 0 || cycle_ == 0, "{} microticks before the cycle", -into);
+  TTF_CHECK(into >= 0 || cycle_ == first_, "{} microticks before the cycle", -into);
   const std::int64_t correction_start = geometry_.offset_correction_start;
   const std::int64_t before = ceil_div(correction_start * length, geometry_.macro_per_cycle);
   // Elapsed picoseconds of the cycle: linear up to the correction phase, linear at another slope in it and, should
@@ -60,7 +60,7 @@ GlobalTime CycleClock::global_time(Microticks t) const {
                      geometry_.macrotick_ps / correction_phase();
   }
   const Int128 cycle_ps = static_cast<Int128>(geometry_.macro_per_cycle) * geometry_.macrotick_ps;
-  // Rounded down, also for instants just before cycle 0.
+  // Rounded down, also for instants just before the first cycle.
   return {static_cast<std::int64_t>(floor_div(cycle_ps * cycle_ + elapsed_ps, 1000))};
 }
 

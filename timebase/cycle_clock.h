@@ -22,8 +22,9 @@ struct CycleGeometry {
 
 class CycleClock {
  public:
-  // Cycle 0 starts at microtick `start`; `rate` [uT per cycle] is in force from the first cycle on.
-  CycleClock(CycleGeometry geometry, Microticks start, int rate);
+  // Cycle `first` starts at microtick `start`; `rate` [uT per cycle] is in force from it on. A node that joins a running
+  // cluster knows its cycle only modulo gCycleCountMax + 1, and counts on from there.
+  CycleClock(CycleGeometry geometry, Microticks start, int rate, std::int64_t first = 0);
 
   std::int64_t cycle() const { return cycle_; }           // running number, never wraps
   Microticks cycle_start() const { return start_; }
@@ -32,7 +33,7 @@ class CycleClock {
   int rate_correction() const { return rate_; }
   int offset_correction() const { return offset_; }
 
-  // Global time at microtick t of this cycle, [cycle_start, cycle_end), or before cycle 0 (then below zero): whole
+  // Global time at microtick t of this cycle, [cycle_start, cycle_end), or before the first cycle (then earlier than it): whole
   // macroticks plus the share of the current one, in nanoseconds, rounded down.
   GlobalTime global_time(Microticks t) const;
   // First microtick of this cycle at which global_time is at or after `time`; the cycle's end where it is later.
@@ -48,7 +49,7 @@ class CycleClock {
   std::int64_t correction_phase() const;   // its microticks, the correction included
 
   CycleGeometry geometry_;
-  std::int64_t cycle_ = 0;
+  std::int64_t first_, cycle_;
   Microticks start_{0};
   int rate_ = 0;
   int offset_ = 0;

@@ -1,0 +1,53 @@
+// From the startup frames of a running cluster to a clock of one's own (FlexRay 2.1A, chapter 7.2.3 and 8.4:
+// clock synchronisation startup; the state INITIALIZE_SCHEDULE).
+//
+// A startup frame of an even cycle fixes where the cluster's cycle stands, that of the same node in the odd
+// cycle after it how long a cycle lasts in this node's microticks. Both channels are listened to; the first
+// complete pair wins.
+//
+// Readings taken: the first startup frame of an even cycle is the one whose partner is waited for, on each
+// channel by itself; a pair more than pRateCorrectionOut away from pMicroPerCycle is refused, and listening
+// begins anew.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "core/time.h"
+#include "schedules/cluster.h"
+
+namespace ttf::bus {
+
+// A valid startup frame, as a node hears it that has no schedule yet.
+struct StartupFrame {
+  schedules::Channel channel{};
+  int frame_id = 0;
+  int cycle = 0;       // 0..63, from the frame
+  Microticks start{};  // first bit of its TSS
+};
+
+// What it takes to set the clock going, in the middle of an odd cycle.
+struct InitialSchedule {
+  int frame_id = 0;          // of the node that is integrated on
+  int cycle = 0;             // the odd cycle that is under way
+  Microticks cycle_start{};  // when it began
+  int rate = 0;              // rate correction in force [uT per cycle]
+};
+
+class ScheduleInitialisation {
+ public:
+  ScheduleInitialisation(const schedules::GlobalParameters& flexray, const schedules::NodeParameters& node);
+
+  void reset();
+  std::optional<InitialSchedule> hear(const StartupFrame& frame);
+  // An even cycle's frame has been heard, its partner is due (E-Ray: INITIALIZE_SCHEDULE is under way).
+  bool under_way() const { return even_[0].has_value() || even_[1].has_value(); }
+
+ private:
+  const schedules::GlobalParameters& flexray_;
+  const schedules::NodeParameters& node_;
+  std::array<std::optional<StartupFrame>, 2> even_;  // by channel
+};
+
+}  // namespace ttf::bus
