@@ -1,31 +1,33 @@
-// A FlexRay communication controller in normal active state: it keeps the node's synchronised clock, sends what is in the
-// CNI in its own static slots, judges and stores what it receives, and corrects its clock.
+// A FlexRay communication controller: it starts the cluster or integrates into it, keeps the node's synchronised clock, sends
+// what is in the CNI in its own slots of both segments, judges and stores what it receives, and corrects its clock.
 //
-// Driven from outside in its own microticks, so that the same controller runs in virtual and in real time:
+// Why it is in its state is protocol operation control's business (bus/poc.h); this class gives that its events, and does
+// what it says. Driven from outside in its own microticks, so that the same controller runs in virtual and in real time:
 //
 //   while (running) { wait until controller.next_event() or a reception; advance() / receive(); }
 //
 //   L1  next_event() is never in the past of the last advance(), and advance(t) does everything due up to t
 //   L2  receive() is called with the medium's order (flexray_port.h L3); a frame is judged at its end
-//   L3  in a slot it owns it always sends (a null frame where the CNI has no such fragment), elsewhere never
+//   L3  in a static slot it owns it always sends (a null frame where the CNI has no such fragment), in a dynamic slot what
+//       has not left yet, elsewhere never; and never anything that protocol operation control does not allow
 //   L4  nothing here allocates after construction
 //
-// Start-up, wake-up, error states and the dynamic segment are not part of this class: nodes begin as if integrated.
+// Readings taken where the sources leave room: a startup frame sent before normal operation is a null frame. A second
+// communication element in a static slot is a syntax error of that slot, also where the first was a valid frame. Signals outside
+// every slot are reported under slot 0. A node alone with its own sync frame misses no term of clock correction. Cycle 0
+// of a leading coldstart node starts one macrotick after the end of its CAS.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
-#include <vector>
 
+#include "bus/cni.h"
 #include "bus/flexray_port.h"
-#include "bus/list_buffer.h"
+#include "bus/poc.h"
 #include "core/ids.h"
 #include "core/time.h"
-#include "recording/records/records.h"
 #include "schedules/cluster.h"
 #include "timebase/clock_sync.h"
 #include "timebase/cycle_clock.h"
@@ -42,10 +44,12 @@ enum SlotStatus : std::uint8_t {
   kNoFrame = 16,
 };
 
-// What the controller tells its host. Called from advance() and receive().
+// What the controller tells its host. Called from advance(), receive() and the commands.
 class ControllerEvents {
  public:
   virtual ~ControllerEvents() = default;
+  virtual void cycle_started(std::int64_t cycle, Microticks at) { (void)cycle, (void)at; }
+  // slot 0: outside every slot.
   virtual void slot_problem(std::int64_t cycle, int slot, schedules::Channel channel, SlotStatus status, Microticks at) {
     (void)cycle, (void)slot, (void)channel, (void)status, (void)at;
   }
@@ -64,6 +68,8 @@ class ControllerEvents {
                                const timebase::Correction& rate, Microticks at) {
     (void)cycle, (void)offset, (void)rate, (void)at;
   }
+  // Protocol operation control went from one state to another.
+  virtual void state_changed(PocKind from, const PocStep& step, Microticks at) { (void)from, (void)step, (void)at; }
 };
 
 struct InitialClock {
@@ -73,23 +79,32 @@ struct InitialClock {
 
 class FlexRayController {
  public:
-  FlexRayController(const schedules::Cluster& cluster, NodeId node, InitialClock clock, FlexRayPort& port,
-                    ControllerEvents& events);
+  // In default config; nothing happens until one of the two below.
+  FlexRayController(const schedules::Cluster& cluster, NodeId node, FlexRayPort& port, ControllerEvents& events);
   ~FlexRayController();
 
+  // As if start-up were over: normal active from cycle 0 on.
+  void start_integrated(const InitialClock& clock);
+  // Power-on, and what a host commands then: configuration, RUN and, for a coldstart node, ALLOW_COLDSTART.
+  void start_cold(Microticks now);
+  // A command of the host: kConfig to kFreeze of PocEventKind.
+  void command(PocEventKind command, Microticks now);
+
+  // Far in the future where nothing is due without a reception.
   Microticks next_event() const;
   void advance(Microticks now);
   void receive(const Reception& reception);
 
-  const timebase::CycleClock& clock() const { return clock_; }
+  // Nothing before a schedule has been derived or begun, and after it has been dropped.
+  const std::optional<timebase::CycleClock>& clock() const;
+  const PocState& state() const;
+  // Whether the clock is the cluster's, which the host may rely on.
+  bool synchronised() const;
   OutgoingList& outgoing(PduId pdu);            // must be a PDU this node sends
   IncomingList& incoming(PduId pdu);            // any other PDU on FlexRay
 
  private:
   struct State;
-  void send_slot(Microticks at);
-  void close_static_segment(Microticks at);
-  timebase::CycleClock clock_;
   std::unique_ptr<State> state_;
 };
 

@@ -1,42 +1,59 @@
 // The FlexRay port: what a controller and a medium owe each other. One small interface, many media (simulated, SocketCAN,
 // DDS); all pass the laws below (tests/laws/).
 //
-// Instants are microticks of the node that states them. Converting them to true time or to a real clock is the business
-// of whoever turns the crank.
-//   L1  every transmission reaches every other controller on that channel exactly once, bytes unchanged
+// The wall is where FlexRay's own is between coding and frame processing (2.1A, chapters 3 and 6): bits, symbols and CRCs
+// are the medium's, slots, cycles and clocks the controller's. Instants are microticks of the node that states them;
+// converting them to true time or to a real clock is the business of whoever turns the crank.
+//   L1  every transmission reaches every other controller on that channel exactly once, unchanged
 //   L2  a controller does not hear itself
-//   L3  receptions reach one controller in the order of their end; ties: channel, then sender
-//   L4  a frame is delivered at its end, never before it has left completely
-//   L5  the medium keeps no reference to the bytes after transmit() returns
+//   L3  receptions reach one controller in the order of their end; ties: channel (on one channel there are none: L6)
+//   L4  a signal is delivered at its end, never before it has left completely
+//   L5  the medium keeps no reference to the bytes after transmit() returns, the controller none after receive()
+//   L6  signals that overlap at a receiver reach it as one undecodable signal from the first start to the last end;
+//       overlapping collision avoidance symbols remain one such symbol
+//   L7  carrier() is true from the start of a reception (not before it) until it is delivered
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
+#include "bus/wire/flexray_frame.h"
 #include "core/time.h"
 #include "schedules/cluster.h"
 
 namespace ttf::bus {
 
+enum class Signal : std::uint8_t {
+  kFrame,
+  kCas,           // collision avoidance symbol, media access test symbol: the same bits
+  kWakeup,        // a wake-up pattern
+  kUndecodable,   // activity that is neither: noise, a collision, a frame without an end
+};
+
 struct Transmission {
   schedules::Channel channel{};
-  Microticks start{};                  // the action point: first bit of the frame's TSS leaves
-  int slot = 0;
-  std::span<const std::byte> bytes;    // header, payload, trailer
+  Signal signal = Signal::kFrame;
+  Microticks start{};                  // the action point: first bit leaves
+  Microticks end{};                    // last bit has left, a dynamic frame's trailing sequence included
+  int slot = 0;                        // for the log
+  std::span<const std::byte> bytes;    // of a frame: header, payload, trailer
 };
 
 struct Reception {
   schedules::Channel channel{};
-  Microticks start{};                  // when the first bit of the TSS arrived, receiver's clock
-  Microticks end{};                    // when the last bit of the FES arrived, receiver's clock
-  std::span<const std::byte> bytes;
+  Signal signal = Signal::kFrame;
+  Microticks start{};                  // when the first bit arrived, receiver's clock
+  Microticks end{};                    // when the last bit arrived, receiver's clock
+  wire::DecodedFrame frame;            // of a frame
 };
 
 class FlexRayPort {
  public:
   virtual ~FlexRayPort() = default;
   virtual void transmit(const Transmission& transmission) = 0;
+  // Whether something is arriving just now.
+  virtual bool carrier(schedules::Channel channel) const = 0;
 };
 
 }  // namespace ttf::bus

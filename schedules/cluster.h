@@ -18,12 +18,6 @@
 
 namespace ttf::schedules {
 
-enum class Channel : std::uint8_t { kA = 0, kB = 1 };
-enum class Channels : std::uint8_t { kA = 1, kB = 2, kAB = 3 };
-constexpr bool includes(Channels set, Channel one) {
-  return (static_cast<unsigned>(set) >> static_cast<unsigned>(one)) & 1u;
-}
-
 std::string_view channels_text(Channels channels);   // "A", "B", "AB"
 
 // A periodic instant in global time: macrotick `offset` of every cycle c with c mod repetition == base_cycle.

@@ -9,6 +9,12 @@
 
 namespace ttf::schedules {
 
+enum class Channel : std::uint8_t { kA = 0, kB = 1 };
+enum class Channels : std::uint8_t { kA = 1, kB = 2, kAB = 3 };
+constexpr bool includes(Channels set, Channel one) {
+  return (static_cast<unsigned>(set) >> static_cast<unsigned>(one)) & 1u;
+}
+
 // Global parameters: the same in every node of the cluster.
 struct GlobalParameters {
   int gColdStartAttempts = 8;
@@ -59,6 +65,8 @@ constexpr int frame_bits(const GlobalParameters& flexray, int payload_words) {
 
 // Node parameters: of one controller.
 struct NodeParameters {
+  Channels pChannels = Channels::kAB;   // the controller is attached to
+  Channel pWakeupChannel = Channel::kA; // it sends its wake-up pattern on
   std::int64_t pdMicrotick_ps = 25'000;
   int pSamplesPerMicrotick = 2;
   int pMicroPerCycle = 200'000;         // [uT] nominal, before rate correction

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -15,8 +16,20 @@ namespace ttf::bus {
 using schedules::Channel;
 
 struct NoPort final : FlexRayPort {
-  void transmit(const Transmission&) override {}
+  void transmit(const Transmission& transmission) override {
+    sent.push_back({transmission.channel, transmission.signal, transmission.start, transmission.end});
+  }
+  bool carrier(Channel channel) const override { return busy[index_of(channel)]; }
+
+  struct Sent { Channel channel; Signal signal; Microticks start, end; };
+  std::vector<Sent> sent;
+  std::array<bool, 2> busy{};
 };
+
+// A frame as the medium hands it over.
+inline Reception received(Channel channel, Microticks start, Microticks end, std::span<const std::byte> bytes) {
+  return {channel, Signal::kFrame, start, end, wire::decode_frame(channel, bytes)};
+}
 
 // Cycle 0 starts at its microtick 1000, so macrotick m of cycle c is at 1000 + 40 * (1000 c + m).
 struct Alone {
@@ -26,7 +39,9 @@ struct Alone {
   FlexRayController controller;
 
   explicit Alone(int node = 0, schedules::Cluster made = small_cluster(4))
-      : cluster(std::move(made)), controller(cluster, static_cast<NodeId>(node), {{1000}, 0}, port, heard) {}
+      : cluster(std::move(made)), controller(cluster, static_cast<NodeId>(node), port, heard) {
+    controller.start_integrated({{1000}, 0});
+  }
 
   static Microticks at(std::int64_t cycle, std::int64_t macrotick) {
     return {1000 + 40 * (1000 * cycle + macrotick)};
@@ -81,7 +96,7 @@ struct Frame {
   void arrive(Alone& alone) const {
     const auto wire_bytes = bytes();
     alone.controller.advance({start + length - 1});
-    alone.controller.receive({channel, {start}, {start + length}, wire_bytes});
+    alone.controller.receive(received(channel, {start}, {start + length}, wire_bytes));
   }
 };
 

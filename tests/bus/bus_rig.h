@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <tuple>
@@ -67,7 +68,15 @@ struct Heard final : ControllerEvents {
   std::vector<Sent> sent;
   std::vector<Arrived> arrived;
   std::vector<Corrected> corrected;
+  struct Changed { PocKind from, to; PocReason reason, consequence; Microticks at; };
+  std::vector<std::int64_t> cycles;
+  std::vector<Changed> changed;
 
+  std::vector<std::pair<std::int64_t, Microticks>> cycle_starts;
+  void cycle_started(std::int64_t cycle, Microticks at) override {
+    cycles.push_back(cycle);
+    cycle_starts.emplace_back(cycle, at);
+  }
   void slot_problem(std::int64_t cycle, int slot, schedules::Channel channel, SlotStatus status, Microticks) override {
     problems.push_back({cycle, slot, channel, status});
   }
@@ -84,25 +93,31 @@ struct Heard final : ControllerEvents {
                        Microticks) override {
     corrected.push_back({cycle, offset, rate});
   }
+  void state_changed(PocKind from, const PocStep& step, Microticks at) override {
+    changed.push_back({from, step.next.kind, step.reason, step.consequence, at});
+  }
 };
 
-// Two channels on which every frame arrives everywhere after one and the same delay.
+// Two channels on which every signal arrives everywhere after one and the same delay. Overlapping signals are merged by
+// comparing all with all.
 class TestMedium {
  public:
   struct Arrival {
     TrueTime start, end;
     schedules::Channel channel;
     std::size_t sender, receiver;
+    Signal signal = Signal::kFrame;
     std::vector<std::byte> bytes;
     auto order() const { return std::tuple(end, channel, sender, receiver); }
   };
 
-  TestMedium(const schedules::GlobalParameters& flexray, std::vector<timebase::Oscillator> oscillators, Duration delay)
-      : flexray_(flexray), oscillators_(std::move(oscillators)), delay_(delay) {
+  TestMedium(std::vector<timebase::Oscillator> oscillators, Duration delay)
+      : oscillators_(std::move(oscillators)), delay_(delay) {
     for (std::size_t n = 0; n < oscillators_.size(); ++n) ports_.push_back(std::make_unique<Port>(*this, n));
   }
   FlexRayPort& port(std::size_t node) { return *ports_[node]; }
   const timebase::Oscillator& oscillator(std::size_t node) const { return oscillators_[node]; }
+  void set_now(TrueTime now) { now_ = now; }   // what carrier() goes by
 
   std::optional<TrueTime> next() const {
     if (pending_.empty()) return std::nullopt;
@@ -116,7 +131,26 @@ class TestMedium {
   }
   Reception reception(const Arrival& arrival) const {
     const timebase::Oscillator& clock = oscillators_[arrival.receiver];
-    return {arrival.channel, clock.ticks_at(arrival.start), clock.ticks_at(arrival.end), arrival.bytes};
+    Reception made{arrival.channel, arrival.signal, clock.ticks_at(arrival.start), clock.ticks_at(arrival.end), {}};
+    if (arrival.signal == Signal::kFrame) made.frame = wire::decode_frame(arrival.channel, arrival.bytes);
+    return made;
+  }
+  // What arrives at one receiver, or everywhere but at its sender.
+  void put(Arrival arrival) {
+    for (auto other = pending_.begin(); other != pending_.end();) {
+      if (other->receiver != arrival.receiver || other->channel != arrival.channel || other->end <= arrival.start ||
+          other->start >= arrival.end) {
+        ++other;
+        continue;
+      }
+      if (other->signal != Signal::kCas || arrival.signal != Signal::kCas) arrival.signal = Signal::kUndecodable;
+      arrival.start = std::min(arrival.start, other->start);
+      arrival.end = std::max(arrival.end, other->end);
+      arrival.sender = std::min(arrival.sender, other->sender);
+      arrival.bytes.clear();
+      other = pending_.erase(other);
+    }
+    pending_.push_back(std::move(arrival));
   }
 
  private:
@@ -125,38 +159,48 @@ class TestMedium {
     std::size_t node;
     Port(TestMedium& m, std::size_t n) : medium(m), node(n) {}
     void transmit(const Transmission& transmission) override { medium.transmit(node, transmission); }
+    bool carrier(schedules::Channel channel) const override {
+      return std::any_of(medium.pending_.begin(), medium.pending_.end(), [&](const Arrival& arrival) {
+        return arrival.receiver == node && arrival.channel == channel && arrival.start <= medium.now_;
+      });
+    }
   };
 
   void transmit(std::size_t sender, const Transmission& t) {
-    const auto bits = flexray_.gdTSSTransmitter + 1 + 10 * static_cast<std::int64_t>(t.bytes.size()) + 2;
-    const Duration length{(bits * flexray_.gdBit_ps + 999) / 1000};
     const TrueTime start = oscillators_[sender].time_of(t.start) + delay_;
+    const TrueTime end = oscillators_[sender].time_of(t.end) + delay_;
     for (std::size_t receiver = 0; receiver < ports_.size(); ++receiver)
       if (receiver != sender)
-        pending_.push_back({start, start + length, t.channel, sender, receiver, {t.bytes.begin(), t.bytes.end()}});
+        put({start, end, t.channel, sender, receiver, t.signal, {t.bytes.begin(), t.bytes.end()}});
   }
   std::vector<Arrival>::const_iterator first() const {
     return std::min_element(pending_.begin(), pending_.end(),
                             [](const Arrival& a, const Arrival& b) { return a.order() < b.order(); });
   }
 
-  schedules::GlobalParameters flexray_;
   std::vector<timebase::Oscillator> oscillators_;
   Duration delay_;
+  TrueTime now_{};
   std::vector<std::unique_ptr<Port>> ports_;
   std::vector<Arrival> pending_;
 };
 
-// Controllers on a test medium in virtual time. All cycles 0 start within a microtick of 1 ms, rates uncorrected.
+// Controllers on a test medium in virtual time: integrated, all cycles 0 starting within a microtick of 1 ms and rates
+// uncorrected; or powered on one after the other.
 class Rig {
  public:
   Rig(schedules::Cluster cluster, const std::vector<std::int64_t>& drifts_ppb, Duration delay = {})
-      : cluster_(std::move(cluster)), medium_(cluster_.flexray, oscillators(drifts_ppb), delay) {
+      : Rig(std::move(cluster), drifts_ppb, delay, std::vector<TrueTime>(drifts_ppb.size(), kNoPower)) {
+    for (std::size_t n = 0; n < drifts_ppb.size(); ++n)
+      controllers_[n]->start_integrated({medium_.oscillator(n).ticks_at(kStart) + Microticks{1}, 0});
+  }
+  Rig(schedules::Cluster cluster, const std::vector<std::int64_t>& drifts_ppb, Duration delay,
+      std::vector<TrueTime> power_on)
+      : cluster_(std::move(cluster)), medium_(oscillators(drifts_ppb), delay), power_on_(std::move(power_on)) {
     for (std::size_t n = 0; n < drifts_ppb.size(); ++n) {
       heard_.push_back(std::make_unique<Heard>());
-      const InitialClock clock{medium_.oscillator(n).ticks_at(kStart) + Microticks{1}, 0};
-      controllers_.push_back(std::make_unique<FlexRayController>(cluster_, static_cast<NodeId>(n), clock,
-                                                                 medium_.port(n), *heard_[n]));
+      controllers_.push_back(
+          std::make_unique<FlexRayController>(cluster_, static_cast<NodeId>(n), medium_.port(n), *heard_[n]));
     }
   }
 
@@ -172,18 +216,26 @@ class Rig {
       // Arrivals first where they coincide.
       if (arrival && *arrival <= due(node)) {
         if (*arrival > end) return;
+        medium_.set_now(*arrival);
         TestMedium::Arrival frame = medium_.pop();
         if (!on_the_way || on_the_way(frame)) controllers_[frame.receiver]->receive(medium_.reception(frame));
       } else {
-        if (due(node) > end) return;
-        controllers_[node]->advance(medium_.oscillator(node).ticks_at(due(node)));
+        const TrueTime now = due(node);
+        if (now > end) return;
+        medium_.set_now(now);
+        const Microticks ticks = medium_.oscillator(node).ticks_at(now);
+        if (power_on_[node] == now) {
+          power_on_[node] = kNoPower;
+          controllers_[node]->start_cold(ticks);
+        }
+        controllers_[node]->advance(ticks);
       }
     }
   }
   void run_cycles(std::int64_t cycles) { run_until(kStart + Duration::milliseconds(cycles)); }
 
   GlobalTime global_time(std::size_t node, TrueTime at) const {
-    return controllers_[node]->clock().global_time(medium_.oscillator(node).ticks_at(at));
+    return controllers_[node]->clock()->global_time(medium_.oscillator(node).ticks_at(at));
   }
   Duration precision(TrueTime at) const {
     GlobalTime low = global_time(0, at), high = low;
@@ -197,10 +249,18 @@ class Rig {
   Heard& heard(std::size_t node) { return *heard_[node]; }
   const schedules::Cluster& cluster() const { return cluster_; }
 
+  TestMedium& medium() { return medium_; }
+  void power_on(std::size_t node, TrueTime at) { power_on_[node] = at; }
+
   static constexpr TrueTime kStart{1'000'000};
+  static constexpr TrueTime kNoPower{std::numeric_limits<std::int64_t>::max()};
 
  private:
-  TrueTime due(std::size_t node) const { return medium_.oscillator(node).time_of(controllers_[node]->next_event()); }
+  TrueTime due(std::size_t node) const {
+    const Microticks next = controllers_[node]->next_event();
+    const bool never = next.value == std::numeric_limits<std::int64_t>::max();
+    return std::min(never ? kNoPower : medium_.oscillator(node).time_of(next), power_on_[node]);
+  }
   static std::vector<timebase::Oscillator> oscillators(const std::vector<std::int64_t>& drifts_ppb) {
     std::vector<timebase::Oscillator> made;
     for (std::size_t n = 0; n < drifts_ppb.size(); ++n)
@@ -210,6 +270,7 @@ class Rig {
 
   schedules::Cluster cluster_;
   TestMedium medium_;
+  std::vector<TrueTime> power_on_;
   std::vector<std::unique_ptr<Heard>> heard_;
   std::vector<std::unique_ptr<FlexRayController>> controllers_;
 };

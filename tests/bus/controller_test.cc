@@ -155,10 +155,15 @@ TEST(Controller, L1_NextEventIsNeverInThePast) {
 
 TEST(Controller, L4_NothingAllocatesAfterConstruction) {
   struct Silent final : ControllerEvents {};
+  struct SilentPort final : FlexRayPort {
+    void transmit(const Transmission&) override {}
+    bool carrier(Channel) const override { return false; }
+  };
   const schedules::Cluster cluster = small_cluster(4);
-  NoPort port;
+  SilentPort port;
   Silent events;
-  FlexRayController controller(cluster, NodeId{1}, {{1000}, 0}, port, events);
+  FlexRayController controller(cluster, NodeId{1}, port, events);
+  controller.start_integrated({{1000}, 0});
   std::vector<std::vector<std::byte>> frames;
   MadeList list(cluster.pdus[0], 1, 10, 0), mine(cluster.pdus[1], 1, 3, 0);
   for (int fragment = 0; fragment < 4; ++fragment) {
@@ -171,12 +176,12 @@ TEST(Controller, L4_NothingAllocatesAfterConstruction) {
   const std::int64_t before = support::allocations();
   controller.outgoing(kOddList).write(mine.view());
   controller.advance(Alone::at(0, 80));
-  controller.receive({Channel::kA, Alone::at(0, 7), Alone::at(0, 33), sync});
+  controller.receive(received(Channel::kA, Alone::at(0, 7), Alone::at(0, 33), sync));
   for (int fragment = 0; fragment < 4; ++fragment) {
     const int slot_start = 84 * (4 + fragment);
     controller.advance(Alone::at(0, slot_start + 80));
-    controller.receive({Channel::kA, Alone::at(0, slot_start + 7), Alone::at(0, slot_start + 33),
-                        frames[static_cast<std::size_t>(fragment)]});
+    controller.receive(received(Channel::kA, Alone::at(0, slot_start + 7), Alone::at(0, slot_start + 33),
+                        frames[static_cast<std::size_t>(fragment)]));
   }
   const bool complete = controller.incoming(kList).latest().has_value();
   controller.advance(Alone::at(50, 0));

@@ -16,15 +16,16 @@ class TestMediumBench final : public FlexRayBench {
     while (medium_.next() && medium_.oscillator(0).ticks_at(*medium_.next()) <= now) {
       const auto arrival = medium_.pop();
       const bus::Reception reception = medium_.reception(arrival);
-      reached_.push_back({arrival.receiver, reception.channel, reception.start, reception.end,
-                          {reception.bytes.begin(), reception.bytes.end()}});
+      reached_.push_back({arrival.receiver, reception.channel, reception.signal, reception.start, reception.end,
+                          arrival.bytes});
     }
+    medium_.set_now(medium_.oscillator(0).time_of(now));
   }
   const std::vector<Reached>& reached() const override { return reached_; }
 
  private:
   schedules::GlobalParameters flexray_;
-  bus::TestMedium medium_{flexray_, std::vector<timebase::Oscillator>(4, {25'000, 0, 0}), Duration{700}};
+  bus::TestMedium medium_{std::vector<timebase::Oscillator>(4, {25'000, 0, 0}), Duration{700}};
   std::vector<Reached> reached_;
 };
 

@@ -49,7 +49,7 @@ TEST(ControllerJudges, SyntaxErrors) {
     const Frame frame = Frame::status(2, 0);
     auto bytes = frame.bytes();
     bytes[byte] ^= std::byte{0x10};
-    node.controller.receive({Channel::kA, {frame.start}, {frame.start + 1000}, bytes});
+    node.controller.receive(received(Channel::kA, {frame.start}, {frame.start + 1000}, bytes));
     node.run_to(1);
     ASSERT_FALSE(node.heard.problems.empty());
     EXPECT_EQ(node.heard.problems[0].slot, 2);
@@ -60,7 +60,8 @@ TEST(ControllerJudges, SyntaxErrors) {
 TEST(ControllerJudges, AFrameOfTheOtherChannelIsASyntaxError) {
   Alone node;
   const Frame frame = Frame::status(2, 0, Channel::kA);
-  node.controller.receive({Channel::kB, {frame.start}, {frame.start + 1000}, frame.bytes()});
+  const auto bytes = frame.bytes();
+  node.controller.receive(received(Channel::kB, {frame.start}, {frame.start + 1000}, bytes));
   node.run_to(1);
   const auto swapped = std::find_if(node.heard.problems.begin(), node.heard.problems.end(), [](const auto& problem) {
     return problem.slot == 2 && problem.channel == Channel::kB;
@@ -84,7 +85,8 @@ TEST(ControllerJudges, ContentErrors) {
   EXPECT_EQ(wire::decode_frame(Channel::kA, startup_only.bytes()).error, wire::FrameError::kNone);
   EXPECT_EQ(status_of(startup_only, 2), kContentError);
   EXPECT_EQ(status_of(Frame::status(10, 0), 10), kContentError);              // nobody's slot
-  EXPECT_EQ(status_of(Frame::status(5, 0), 5), kContentError);                // the receiver's own
+  // The receiver's own: it is sending itself, and cannot make out anything.
+  EXPECT_EQ(status_of(Frame::status(5, 0), 5), kTransmissionConflict | kSyntaxError);
   EXPECT_EQ(status_of(Frame::status(9, 0), 9), kContentError);                // not in even cycles
   EXPECT_EQ(status_of(Frame::status(9, 1, Channel::kB), 9, 1), kContentError);   // not on B
   EXPECT_EQ(status_of(Frame::status(9, 1), 9, 1), kValidFrame);
@@ -100,13 +102,13 @@ TEST(ControllerJudges, BoundaryViolations) {
   EXPECT_EQ(status_of(frame, 2), kValidFrame);
   frame.start = end - frame.length + 1;
   EXPECT_EQ(status_of(frame, 2), kBoundaryViolation);
-  // One microtick early it begins in slot 1 and ends in slot 2: slot 1 is violated, slot 2 heard nothing.
+  // One microtick early it begins in slot 1 and ends in slot 2: the boundary of both is violated.
   frame.start = begin - 1;
   EXPECT_EQ(status_of(frame, 1), kBoundaryViolation);
-  EXPECT_EQ(status_of(frame, 2), kNoFrame);
+  EXPECT_EQ(status_of(frame, 2), kBoundaryViolation);
 }
 
-TEST(ControllerJudges, ASecondFrameInASlotIsAConflict) {
+TEST(ControllerJudges, ASecondCommunicationElementInASlotIsASyntaxError) {
   Alone node;
   Frame first = Frame::status(2, 0), second = Frame::status(2, 0);
   first.arrive(node);
@@ -114,7 +116,7 @@ TEST(ControllerJudges, ASecondFrameInASlotIsAConflict) {
   second.arrive(node);
   node.run_to(1);
   EXPECT_EQ(node.heard.problems[0].slot, 2);
-  EXPECT_EQ(node.heard.problems[0].status, kTransmissionConflict);
+  EXPECT_EQ(node.heard.problems[0].status, kSyntaxError);
 }
 
 TEST(ControllerJudges, WrongFramesReachNeitherTheHostNorTheClock) {

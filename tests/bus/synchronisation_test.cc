@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bus/wire/flexray_frame.h"
-#include "tests/bus/bus_rig.h"
+#include "tests/bus/alone.h"
 
 namespace ttf::bus {
 namespace {
@@ -15,9 +15,6 @@ using schedules::Channel;
 // (34 + 20 * gClusterDriftDamping) * gdMaxMicrotick: the assumed precision without propagation delay.
 constexpr Duration kAssumedPrecision{(34 + 20 * 2) * 25};
 
-struct NoPort final : FlexRayPort {
-  void transmit(const Transmission&) override {}
-};
 
 // Node 3 by itself; sync frames of nodes 0..2 arrive as the test says, late by so many microticks.
 struct Listener {
@@ -27,26 +24,28 @@ struct Listener {
   FlexRayController controller;
 
   explicit Listener(schedules::Cluster made = small_cluster(4))
-      : cluster(std::move(made)), controller(cluster, NodeId{3}, {{0}, 0}, port, heard) {}
+      : cluster(std::move(made)), controller(cluster, NodeId{3}, port, heard) {
+    controller.start_integrated({{0}, 0});
+  }
 
   // In the running cycle, which must not be past its slot.
   void sync_frame(int slot, int late, Channel channel) {
     wire::FrameHeader header;
     header.frame_id = static_cast<std::uint16_t>(slot);
-    header.cycle = static_cast<std::uint8_t>(controller.clock().cycle() % 64);
+    header.cycle = static_cast<std::uint8_t>(controller.clock()->cycle() % 64);
     header.sync = header.startup = true;
     const std::vector<std::byte> payload(16);
     std::vector<std::byte> bytes(wire::kMaxFrameBytes);
     bytes.resize(wire::encode_frame(header, channel, payload, bytes));
-    const Microticks start = controller.clock().start_of({84 * (slot - 1) + 7}) + Microticks{late};
-    controller.receive({channel, start, start + Microticks{1000}, bytes});
+    const Microticks start = controller.clock()->start_of({84 * (slot - 1) + 7}) + Microticks{late};
+    controller.receive(received(channel, start, start + Microticks{1000}, bytes));
   }
   void both(int slot, int late) {
     sync_frame(slot, late, Channel::kA);
     sync_frame(slot, late, Channel::kB);
   }
-  void next_cycle() { controller.advance(controller.clock().cycle_end()); }
-  void end_static_segment() { controller.advance(controller.clock().start_of({840})); }
+  void next_cycle() { controller.advance(controller.clock()->cycle_end()); }
+  void end_static_segment() { controller.advance(controller.clock()->start_of({840})); }
 };
 
 // Own frame 0 and those late by 10, 20 and 300: one dropped at each end, (10 + 20) / 2.
@@ -56,15 +55,15 @@ TEST(Deviations, OffsetIsTheMidpointWithTheOwnFrameAsZero) {
   node.both(1, 10);
   node.both(2, 300);
   node.both(3, 20);
-  const Microticks start = node.controller.clock().cycle_start();
-  const Microticks correction_phase = node.controller.clock().start_of({900});
+  const Microticks start = node.controller.clock()->cycle_start();
+  const Microticks correction_phase = node.controller.clock()->start_of({900});
   node.end_static_segment();
   ASSERT_EQ(node.heard.corrected.size(), 1u);
   EXPECT_EQ(node.heard.corrected[0].cycle, 1);
   EXPECT_EQ(node.heard.corrected[0].offset.value, 15);
   // Applied in the odd cycle's end: before the correction phase nothing moves.
-  EXPECT_EQ(node.controller.clock().start_of({900}), correction_phase);
-  EXPECT_EQ(node.controller.clock().cycle_end(), start + Microticks{kMicroPerCycle + 15});
+  EXPECT_EQ(node.controller.clock()->start_of({900}), correction_phase);
+  EXPECT_EQ(node.controller.clock()->cycle_end(), start + Microticks{kMicroPerCycle + 15});
 }
 
 TEST(Deviations, TheSmallerChannelCounts) {
@@ -81,7 +80,7 @@ TEST(Deviations, EvenCyclesDoNotCorrectTheOffset) {
   node.both(1, 50);
   node.end_static_segment();
   EXPECT_TRUE(node.heard.corrected.empty());
-  EXPECT_EQ(node.controller.clock().offset_correction(), 0);
+  EXPECT_EQ(node.controller.clock()->offset_correction(), 0);
   node.next_cycle();   // an odd cycle in which nothing arrives: its own frame only
   node.end_static_segment();
   EXPECT_EQ(node.heard.corrected[0].offset.value, 0);
@@ -123,15 +122,15 @@ TEST(Rates, ComeFromOddMinusEvenAndHoldFromTheNextEvenCycle) {
   node.end_static_segment();
   ASSERT_EQ(node.heard.corrected.size(), 1u);
   EXPECT_EQ(node.heard.corrected[0].rate.value, 38);   // 40, damped by 2
-  EXPECT_EQ(node.controller.clock().rate_correction(), 0);   // not yet in force
+  EXPECT_EQ(node.controller.clock()->rate_correction(), 0);   // not yet in force
   node.next_cycle();
-  EXPECT_EQ(node.controller.clock().cycle(), 2);
-  EXPECT_EQ(node.controller.clock().rate_correction(), 38);
+  EXPECT_EQ(node.controller.clock()->cycle(), 2);
+  EXPECT_EQ(node.controller.clock()->rate_correction(), 38);
   node.next_cycle();
-  EXPECT_EQ(node.controller.clock().rate_correction(), 38);   // both cycles of the pair
+  EXPECT_EQ(node.controller.clock()->rate_correction(), 38);   // both cycles of the pair
   node.next_cycle();
   // Nobody was heard in the pair; its own frame alone says no change, damping takes two.
-  EXPECT_EQ(node.controller.clock().rate_correction(), 36);
+  EXPECT_EQ(node.controller.clock()->rate_correction(), 36);
 }
 
 TEST(Rates, DeviationsOfAnEarlierPairAreForgotten) {
@@ -236,7 +235,7 @@ TEST(WithoutSynchronisation, TheDifferenceGrowsAsDriftTimesTime) {
   EXPECT_GT(rig.heard(0).corrected[0].offset.value, 0);
   EXPECT_LT(rig.heard(1).corrected[0].offset.value, 0);
   EXPECT_GT(rig.heard(0).corrected[0].rate.value, 0);
-  EXPECT_EQ(rig.controller(0).clock().rate_correction(), 0);
+  EXPECT_EQ(rig.controller(0).clock()->rate_correction(), 0);
   // And in the end they miss each other's slots.
   EXPECT_FALSE(rig.heard(0).problems.empty());
 }

@@ -1,0 +1,183 @@
+// Frame and symbol processing: what arrives, where it belongs, and whether it may be there (FlexRay 2.1A, chapter 6).
+#include <cstdlib>
+
+#include "bus/controller_state.h"
+
+namespace ttf::bus {
+namespace {
+
+using schedules::Channel;
+using schedules::FrameSlot;
+
+constexpr int kIdleDelimiterBits = 11;   // cChannelIdleDelimiter
+
+bool receiver_on(PocKind kind) {
+  switch (kind) {
+    case PocKind::kDefaultConfig:
+    case PocKind::kConfig:
+    case PocKind::kReady:
+    case PocKind::kHalt: return false;
+    default: return true;
+  }
+}
+
+bool has_header(const Reception& reception) {
+  return reception.signal == Signal::kFrame && reception.frame.error != wire::FrameError::kTooShort &&
+         reception.frame.error != wire::FrameError::kHeaderCrc;
+}
+
+}  // namespace
+
+void FlexRayController::State::receive(const Reception& reception) {
+  if (!receiver_on(poc.kind)) return;
+  const auto c = index_of(reception.channel);
+  // A controller that sends cannot make out what others send.
+  const bool conflict = sending_from[c] != kNever && reception.start < sending_to[c] && reception.end > sending_from[c];
+  if (!clock || in_startup(poc.kind)) {
+    tell({PocEventKind::kChannelActive}, reception.end);
+    if (conflict && wakeup_sent != kNever) {
+      wakeup_sent = kNever;
+      tell({PocEventKind::kWakeupCollision}, reception.end);
+    } else if (!conflict) {
+      if (reception.signal == Signal::kCas) tell({PocEventKind::kCasReceived}, reception.end);
+      if (reception.signal == Signal::kWakeup && reception.channel == p.pWakeupChannel)
+        tell({PocEventKind::kWakeupPatternReceived}, reception.end);
+      if (has_header(reception)) tell({PocEventKind::kHeaderReceived}, reception.end);
+    }
+  }
+  if (clock)
+    judge(reception, conflict);
+  else if (!conflict)
+    hear(reception);
+  const bool idle = !port.carrier(Channel::kA) && !port.carrier(Channel::kB);
+  if (!clock && idle) tell({PocEventKind::kChannelsIdle}, reception.end + bits(kIdleDelimiterBits));
+}
+
+// Without a schedule only startup frames matter: two of them make one.
+void FlexRayController::State::hear(const Reception& reception) {
+  const wire::FrameHeader& header = reception.frame.header;
+  if (reception.signal != Signal::kFrame || reception.frame.error != wire::FrameError::kNone || !header.startup ||
+      !header.sync || header.frame_id > g.gNumberOfStaticSlots || header.payload_words != g.gPayloadLengthStatic)
+    return;
+  const StartupFrame heard{reception.channel, header.frame_id, header.cycle, reception.start};
+  const PocEvent event = PocEvent::startup_frame(header.frame_id, header.cycle);
+  if (poc.kind == PocKind::kColdstartListen || poc.kind == PocKind::kIntegrationListen) {
+    tell(event, reception.end);
+    if (poc.kind != PocKind::kInitialiseSchedule) return;
+    initialisation.reset();
+    initialisation.hear(heard);
+    partner_overdue = reception.end + Microticks{p.pMicroPerCycle + p.pRateCorrectionOut + 1};
+  } else if (poc.kind == PocKind::kInitialiseSchedule && heard.frame_id == poc.reference) {
+    const auto schedule = initialisation.hear(heard);
+    if (!schedule && heard.cycle % 2 == 0) return;   // the other channel's even frame
+    partner_overdue = kNever;
+    if (!schedule) return tell({PocEventKind::kScheduleNotDerived}, reception.end);
+    tell(event, reception.end);
+    begin_schedule(schedule->cycle_start, schedule->rate, schedule->cycle);
+    start_cycle();
+    // In the middle of a cycle: what is over is over. (Nothing is sent in it anyway.)
+    while (next_event() <= reception.end && segment == Segment::kStatic && next_static < slots.own_static().size()) {
+      ++next_static;
+      skip_to_own_static();
+    }
+  }
+}
+
+int FlexRayController::State::static_slot_at(Microticks at) const {
+  if (at < clock->cycle_start()) return 0;
+  if (at >= clock->start_of(static_end())) return g.gNumberOfStaticSlots + 1;
+  // An estimate on the nominal grid, put right by a slot at most.
+  const std::int64_t into = (at - clock->cycle_start()).value;
+  int slot = static_cast<int>(into * g.gMacroPerCycle / p.pMicroPerCycle / g.gdStaticSlot) + 1;
+  if (slot > g.gNumberOfStaticSlots) slot = g.gNumberOfStaticSlots;
+  while (slot > 1 && clock->start_of(slot_start(slot)) > at) --slot;
+  while (slot < g.gNumberOfStaticSlots && clock->start_of(slot_start(slot + 1)) <= at) ++slot;
+  return slot;
+}
+
+void FlexRayController::State::judge(const Reception& reception, bool conflict) {
+  std::uint8_t errors = conflict ? kTransmissionConflict | kSyntaxError : 0;
+  if (reception.signal != Signal::kFrame || reception.frame.error != wire::FrameError::kNone) errors |= kSyntaxError;
+  const int slot = static_slot_at(reception.start);
+  if (slot >= 1 && slot <= g.gNumberOfStaticSlots) return judge_static(reception, slot, errors);
+  const int minislot = slot == 0 ? 0 : minislots.minislot_at(*clock, reception.start);
+  if (minislot >= 1 && minislot <= minislots.count()) return judge_dynamic(reception, errors);
+
+  // Between the segments, in the symbol window, in the NIT, or from the cycle before.
+  const Macroticks window = minislots.count() > 0 ? minislots.start_of(minislots.count() + 1) : static_end();
+  const bool in_window = g.gdSymbolWindow > 0 && slot != 0 && reception.start >= clock->start_of(window) &&
+                         reception.end <= clock->start_of(window + Macroticks{g.gdSymbolWindow});
+  if (in_startup(poc.kind) || (in_window && reception.signal == Signal::kCas && !conflict)) return;
+  if (!in_window) errors |= kBoundaryViolation;
+  events.slot_problem(clock->cycle(), 0, reception.channel, static_cast<SlotStatus>(errors | kSyntaxError),
+                      reception.end);
+}
+
+void FlexRayController::State::judge_static(const Reception& reception, int slot, std::uint8_t errors) {
+  const auto c = index_of(reception.channel);
+  const wire::FrameHeader& header = reception.frame.header;
+  const FrameSlot* expected = slots.expected(slot, counter(), reception.channel);
+  Seen& status = seen[static_cast<std::size_t>(slot - 1)];
+  const int last = static_slot_at(reception.end - Microticks{1});
+  if (last != slot) {
+    errors |= kBoundaryViolation;
+    if (last <= g.gNumberOfStaticSlots) seen[static_cast<std::size_t>(last - 1)].errors[c] |= kBoundaryViolation;
+  }
+  if (status.element[c]) errors |= kSyntaxError;   // a second communication element
+  status.element[c] = true;
+  if (errors == 0 && (header.frame_id != slot || header.cycle != counter() ||
+                      header.payload_words != g.gPayloadLengthStatic || expected == nullptr ||
+                      (header.startup && !header.sync)))
+    errors |= kContentError;
+  status.errors[c] |= errors;
+  if (errors != 0) {
+    // The segment has been closed without it.
+    if (segment != Segment::kStatic && !in_startup(poc.kind))
+      events.slot_problem(clock->cycle(), slot, reception.channel, static_cast<SlotStatus>(errors), reception.end);
+    return;
+  }
+  status.valid[c] = true;
+  if (header.sync) {
+    // The medium reports when the first bit of the TSS arrived, so no decoding time has to be taken off
+    // (pDecodingCorrection); the bus' mean propagation delay is the schedule's to compensate.
+    const int compensation = reception.channel == Channel::kA ? p.pDelayCompensationA : p.pDelayCompensationB;
+    const auto deviation = static_cast<int>(
+        (reception.start - clock->start_of(action_point(slot)) - Microticks{compensation}).value);
+    sync.heard(slot, reception.channel, deviation, header.startup && std::abs(deviation) <= p.pdAcceptedStartupRange);
+  }
+  if (!store(*expected, reception)) status.errors[c] |= kContentError;   // a frame, but not of this slot's list
+}
+
+void FlexRayController::State::judge_dynamic(const Reception& reception, std::uint8_t errors) {
+  const auto c = index_of(reception.channel);
+  const int compensation = reception.channel == Channel::kA ? p.pDelayCompensationA : p.pDelayCompensationB;
+  const wire::FrameHeader& header = reception.frame.header;
+  Dynamic& d = dynamic[c];
+  const int first = minislots.minislot_at(*clock, reception.start);
+  const int last = minislots.minislot_at(*clock, reception.end - Microticks{compensation});
+  const int slot = d.counter.slot_in(first);
+  if (last > minislots.count()) errors |= kBoundaryViolation;
+  d.counter.occupied(first, last < first ? first : last);
+  plan_dynamic(reception.channel, reception.end);
+
+  const FrameSlot* expected = slots.expected(slot, counter(), reception.channel);
+  if (errors == 0 && (header.frame_id != slot || header.cycle != counter() || header.sync || header.startup ||
+                      expected == nullptr || expected->pdu == kNoPdu || header.null_frame ||
+                      static_cast<int>(reception.frame.payload.size()) < cluster.pdu(expected->pdu).fragment_bytes))
+    errors |= kContentError;
+  if (errors == 0 && !store(*expected, reception)) errors |= kContentError;
+  if (errors != 0 && !in_startup(poc.kind))
+    events.slot_problem(clock->cycle(), slot, reception.channel, static_cast<SlotStatus>(errors), reception.end);
+}
+
+// False: what the frame carries is no fragment of this slot's list.
+bool FlexRayController::State::store(const FrameSlot& slot, const Reception& reception) {
+  if (slot.pdu == kNoPdu || reception.frame.header.null_frame || in_startup(poc.kind)) return true;
+  IncomingList& list = cni.incoming(slot.pdu);
+  const auto bytes = static_cast<std::size_t>(cluster.pdu(slot.pdu).fragment_bytes);
+  const ArrivalEffect effect = list.arrive(reception.frame.payload.first(bytes), slot.fragment);
+  events.list_arrived(slot.pdu, effect, list.arrived(), list.torn(), reception.end);
+  return effect != ArrivalEffect::kMalformed;
+}
+
+}  // namespace ttf::bus

@@ -1,0 +1,130 @@
+// Media access: what leaves, and when (FlexRay 2.1A, chapter 5).
+#include <algorithm>
+
+#include "bus/controller_state.h"
+
+namespace ttf::bus {
+namespace {
+
+using schedules::Channel;
+using schedules::FrameSlot;
+
+constexpr int kCasBits = 30;   // cdCAS
+
+}  // namespace
+
+bool FlexRayController::State::may_send(const FrameSlot& slot) const {
+  switch (mac_mode(poc)) {
+    case MacMode::kNothing: return false;
+    case MacMode::kStartupFrame:
+    case MacMode::kKeySlot: return slot.slot == p.pKeySlotId;
+    case MacMode::kAll: return true;
+  }
+  return false;
+}
+
+// Leaves next_static at the next slot that has its turn in this cycle.
+void FlexRayController::State::skip_to_own_static() {
+  const auto own = slots.own_static();
+  while (next_static < own.size() && !in_cycle(*own[next_static], counter())) ++next_static;
+}
+
+void FlexRayController::State::send_static(Microticks at) {
+  const FrameSlot& slot = *slots.own_static()[next_static];
+  ++next_static;
+  skip_to_own_static();
+  if (!may_send(slot)) return;
+  const bool starting = mac_mode(poc) == MacMode::kStartupFrame;
+  const Cni::Fragment content = starting ? Cni::Fragment{} : cni.fetch(slot, clock->cycle());
+  const bool null_frame = starting || (slot.pdu != kNoPdu && content.payload.empty());
+  const Microticks end = at + bits(wire::frame_bits(g, g.gPayloadLengthStatic));
+  const Channel last_channel = includes(slot.channels, Channel::kB) ? Channel::kB : Channel::kA;
+  if (p.pKeySlotUsedForSync && slot.slot == p.pKeySlotId) sync.own(slot.slot);
+  for (const Channel channel : kChannels)
+    if (includes(slot.channels, channel))
+      send_frame(slot, channel, at, end, content, null_frame, content.last && channel == last_channel);
+}
+
+void FlexRayController::State::send_frame(const FrameSlot& slot, Channel channel, Microticks at, Microticks end,
+                                          const Cni::Fragment& content, bool null_frame, bool last) {
+  const bool is_static = slot.slot <= g.gNumberOfStaticSlots;
+  wire::FrameHeader header;
+  header.frame_id = static_cast<std::uint16_t>(slot.slot);
+  header.cycle = static_cast<std::uint8_t>(counter());
+  header.sync = is_static && p.pKeySlotUsedForSync && slot.slot == p.pKeySlotId;
+  header.startup = header.sync && p.pKeySlotUsedForStartup;
+  header.null_frame = null_frame;
+  const std::size_t length = is_static ? 2 * static_cast<std::size_t>(g.gPayloadLengthStatic)
+                                       : (content.payload.size() + 1) / 2 * 2;
+  std::fill_n(payload.begin(), length, std::byte{0});
+  std::copy(content.payload.begin(), content.payload.end(), payload.begin());
+  const std::size_t size = wire::encode_frame(header, channel, std::span<const std::byte>(payload).first(length), frame);
+  const Transmission transmission{channel, Signal::kFrame, at, end, slot.slot,
+                                  std::span<const std::byte>(frame).first(size)};
+  sending_from[index_of(channel)] = at;
+  sending_to[index_of(channel)] = end;
+  port.transmit(transmission);
+  events.frame_sent(transmission, clock->cycle(), null_frame, slot.pdu, content.sequence, slot.fragment, last);
+}
+
+// Finds this node's next dynamic slot on the channel, as the slot counter stands. A reception changes the counter, and
+// the plan with it.
+void FlexRayController::State::plan_dynamic(Channel channel, Microticks now) {
+  Dynamic& d = dynamic[index_of(channel)];
+  const auto own = slots.own_dynamic(channel);
+  d.due = kNever;
+  for (; d.next < own.size(); ++d.next) {
+    const FrameSlot& slot = *own[d.next];
+    d.minislot = d.counter.minislot_of(slot.slot);
+    if (d.minislot == 0 || !in_cycle(slot, counter())) continue;
+    // Later slots are later still: nothing more goes out in this cycle.
+    if (d.minislot > std::min(p.pLatestTx, minislots.count())) return;
+    d.due = clock->start_of(minislots.action_point(d.minislot));
+    if (d.due >= now) return;
+    d.due = kNever;   // missed: the clocks disagree by more than a minislot
+  }
+}
+
+void FlexRayController::State::send_dynamic(Channel channel, Microticks at) {
+  Dynamic& d = dynamic[index_of(channel)];
+  // A slot before this one is being used: its end will say where the counter goes on.
+  if (port.carrier(channel)) {
+    d.due = kNever;
+    return;
+  }
+  const FrameSlot& slot = *slots.own_dynamic(channel)[d.next];
+  ++d.next;
+  if (may_send(slot) && mac_mode(poc) == MacMode::kAll && cni.pending(slot, channel, clock->cycle())) {
+    const Cni::Fragment content = cni.fetch(slot, clock->cycle());
+    cni.carried(slot, channel);
+    const int words = static_cast<int>((content.payload.size() + 1) / 2);
+    const int last = minislots.dts_end(*clock, at + bits(wire::frame_bits(g, words)), bits(1));
+    // pLatestTx keeps the longest frame within the segment; the checker proves it.
+    const Microticks end = clock->start_of(minislots.action_point(std::min(last, minislots.count())));
+    d.counter.occupied(d.minislot, last);
+    send_frame(slot, channel, at, end, content, false, content.last);
+  }
+  plan_dynamic(channel, at);
+}
+
+void FlexRayController::State::send_symbol(Signal signal, Channel channel, Microticks at, Microticks end) {
+  sending_from[index_of(channel)] = at;
+  sending_to[index_of(channel)] = end;
+  port.transmit({channel, signal, at, end, 0, {}});
+}
+
+void FlexRayController::State::send_cas(Microticks at) {
+  const Microticks end = at + bits(g.gdTSSTransmitter + kCasBits);
+  for (const Channel channel : kChannels)
+    if (includes(p.pChannels, channel)) send_symbol(Signal::kCas, channel, at, end);
+  const Microticks macrotick{(p.pMicroPerCycle + g.gMacroPerCycle - 1) / g.gMacroPerCycle};
+  begin_schedule(end + macrotick, 0, 0);
+  segment = Segment::kBefore;
+}
+
+void FlexRayController::State::send_wakeup_pattern(Microticks at) {
+  wakeup_sent = at + bits(p.pWakeupPattern * (g.gdWakeupSymbolTxLow + g.gdWakeupSymbolTxIdle));
+  send_symbol(Signal::kWakeup, p.pWakeupChannel, at, wakeup_sent);
+}
+
+}  // namespace ttf::bus

@@ -1,0 +1,35 @@
+#include "bus/slot_table.h"
+
+#include <algorithm>
+
+namespace ttf::bus {
+
+using schedules::Channel;
+using schedules::FrameSlot;
+
+SlotTable::SlotTable(const schedules::Cluster& cluster, NodeId node) {
+  for (const FrameSlot& frame : cluster.frames) {
+    if (frame.sender != node) {
+      const auto slots = static_cast<std::size_t>(frame.slot);
+      if (expected_.size() < slots) expected_.resize(slots);
+      expected_[slots - 1].push_back(&frame);
+    } else if (frame.slot <= cluster.flexray.gNumberOfStaticSlots) {
+      own_static_.push_back(&frame);
+    } else {
+      for (const Channel channel : {Channel::kA, Channel::kB})
+        if (includes(frame.channels, channel)) own_dynamic_[index_of(channel)].push_back(&frame);
+    }
+  }
+  const auto by_slot = [](const FrameSlot* a, const FrameSlot* b) { return a->slot < b->slot; };
+  std::stable_sort(own_static_.begin(), own_static_.end(), by_slot);
+  for (auto& own : own_dynamic_) std::stable_sort(own.begin(), own.end(), by_slot);
+}
+
+const FrameSlot* SlotTable::expected(int slot, int counter, Channel channel) const {
+  if (slot < 1 || static_cast<std::size_t>(slot) > expected_.size()) return nullptr;
+  for (const FrameSlot* frame : expected_[static_cast<std::size_t>(slot - 1)])
+    if (in_cycle(*frame, counter) && includes(frame->channels, channel)) return frame;
+  return nullptr;
+}
+
+}  // namespace ttf::bus

@@ -1,0 +1,66 @@
+#include "bus/sync_collector.h"
+
+#include <algorithm>
+
+namespace ttf::bus {
+
+void SyncCollector::reset() {
+  measurements_.even_count = measurements_.odd_count = 0;
+  startup_ = {};
+}
+
+void SyncCollector::start_cycle(int counter) {
+  even_ = counter % 2 == 0;
+  if (even_) reset();
+  // An odd cycle that was entered from nowhere has no even partner: then reset() has emptied that.
+  (even_ ? measurements_.even_count : measurements_.odd_count) = 0;
+  startup_[even_ ? 0 : 1] = {};
+}
+
+void SyncCollector::measure(int frame_id, schedules::Channel channel, int deviation) {
+  auto& list = even_ ? measurements_.even : measurements_.odd;
+  int& count = even_ ? measurements_.even_count : measurements_.odd_count;
+  int index = 0;
+  while (index < count && list[static_cast<std::size_t>(index)].frame_id != frame_id) ++index;
+  if (index == std::min(sync_node_max_, timebase::kMaxSyncNodes)) return;
+  timebase::SyncDeviation& entry = list[static_cast<std::size_t>(index)];
+  if (index == count) {
+    entry = {frame_id, std::nullopt, std::nullopt};
+    ++count;
+  }
+  (channel == schedules::Channel::kA ? entry.a : entry.b) = deviation;
+}
+
+void SyncCollector::own(int frame_id) {
+  measure(frame_id, schedules::Channel::kA, 0);
+  measure(frame_id, schedules::Channel::kB, 0);
+}
+
+void SyncCollector::heard(int frame_id, schedules::Channel channel, int deviation, bool startup) {
+  measure(frame_id, channel, deviation);
+  Ids& ids = startup_[even_ ? 0 : 1];
+  if (!startup || ids.contains(frame_id) || ids.count == timebase::kMaxSyncNodes) return;
+  ids.id[static_cast<std::size_t>(ids.count++)] = frame_id;
+}
+
+std::span<const timebase::SyncDeviation> SyncCollector::odd() const {
+  return {measurements_.odd.data(), static_cast<std::size_t>(measurements_.odd_count)};
+}
+
+bool SyncCollector::Ids::contains(int frame_id) const {
+  return std::find(id.begin(), id.begin() + count, frame_id) != id.begin() + count;
+}
+
+StartupFramesSeen SyncCollector::startup_frames(int reference) const {
+  const Ids& now = startup_[even_ ? 0 : 1];
+  StartupFramesSeen seen;
+  seen.frames = now.count;
+  seen.reference_frame = now.contains(reference);
+  if (even_) return seen;
+  for (int i = 0; i < now.count; ++i)
+    if (startup_[0].contains(now.id[static_cast<std::size_t>(i)])) ++seen.pairs;
+  seen.reference_pair = seen.reference_frame && startup_[0].contains(reference);
+  return seen;
+}
+
+}  // namespace ttf::bus

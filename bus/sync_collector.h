@@ -1,0 +1,45 @@
+// What a controller hears of the cluster's sync and startup frames over a double cycle: the deviations that clock
+// correction works on, and the startup frames that start-up counts (FlexRay 2.1A, chapters 7.2.4 and 8.5).
+#pragma once
+
+#include <array>
+
+#include "bus/poc_event.h"
+#include "schedules/cluster.h"
+#include "timebase/clock_sync.h"
+
+namespace ttf::bus {
+
+class SyncCollector {
+ public:
+  // sync_node_max: gSyncNodeMax; further sync frames of a cycle are not used.
+  explicit SyncCollector(int sync_node_max) : sync_node_max_(sync_node_max) {}
+
+  void reset();                      // nothing of the past counts
+  void start_cycle(int counter);
+  // This node's own sync frame left: it is exactly where it is expected.
+  void own(int frame_id);
+  // A valid sync frame of another node; `deviation` [uT]: observed minus expected start. `startup`: it is a startup frame,
+  // near enough to count as one during start-up (pdAcceptedStartupRange).
+  void heard(int frame_id, schedules::Channel channel, int deviation, bool startup);
+
+  const timebase::SyncMeasurements& measurements() const { return measurements_; }
+  std::span<const timebase::SyncDeviation> odd() const;
+  // Startup frames of other nodes, in the cycle that is ending and as pairs of its double cycle.
+  StartupFramesSeen startup_frames(int reference) const;
+
+ private:
+  struct Ids {
+    std::array<int, timebase::kMaxSyncNodes> id{};
+    int count = 0;
+    bool contains(int frame_id) const;
+  };
+  void measure(int frame_id, schedules::Channel channel, int deviation);
+
+  int sync_node_max_;
+  bool even_ = true;
+  timebase::SyncMeasurements measurements_;
+  std::array<Ids, 2> startup_;       // of the double cycle's even and odd cycle
+};
+
+}  // namespace ttf::bus

@@ -1,0 +1,176 @@
+// Start-up of whole clusters: who leads, who follows, who integrates, in which cycle each is active, and what happens when
+// that cannot be.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/random.h"
+#include "tests/bus/bus_rig.h"
+
+namespace ttf::bus {
+namespace {
+
+// small_cluster with `coldstart` coldstart nodes and `others` that only integrate, parameters as a designer would choose.
+schedules::Cluster startup_cluster(int coldstart, int others = 0) {
+  schedules::Cluster cluster = small_cluster(coldstart + others);
+  for (std::size_t n = 0; n < cluster.nodes.size(); ++n) {
+    schedules::NodeParameters& p = *cluster.nodes[n].flexray;
+    p.pdAcceptedStartupRange = 400;
+    p.pdListenTimeout = 2 * (kMicroPerCycle + 121);
+    p.pAllowPassiveToActive = 2;
+    p.pAllowHaltDueToClock = true;
+    if (n >= static_cast<std::size_t>(coldstart)) p.pKeySlotUsedForStartup = p.pKeySlotUsedForSync = false;
+  }
+  cluster.flexray.gColdStartAttempts = 8;
+  return cluster;
+}
+
+constexpr TrueTime at_ms(double ms) { return {static_cast<std::int64_t>(ms * 1e6)}; }
+
+// The running cycle in which a node became normal active, or -1.
+std::int64_t active_in(Rig& rig, std::size_t node) {
+  for (const auto& change : rig.heard(node).changed)
+    if (change.to == PocKind::kNormalActive) {
+      // Cycle starts are reported right after the change.
+      const auto& cycles = rig.heard(node).cycle_starts;
+      for (const auto& [cycle, at] : cycles)
+        if (at == change.at) return cycle;
+    }
+  return -1;
+}
+
+std::vector<PocKind> path(Rig& rig, std::size_t node) {
+  std::vector<PocKind> kinds;
+  for (const auto& change : rig.heard(node).changed) kinds.push_back(change.to);
+  return kinds;
+}
+
+TEST(Startup, AllPoweredOnInTimeLeaderInSixFollowersInSevenIntegratorsInEight) {
+  Rig rig(startup_cluster(3, 1), {100'000, -200'000, 0, 300'000}, Duration{500},
+          {at_ms(1.0), at_ms(1.2), at_ms(1.4), at_ms(1.1)});
+  rig.run_until(at_ms(40));
+  EXPECT_EQ(active_in(rig, 0), 6);
+  EXPECT_EQ(active_in(rig, 1), 7);
+  EXPECT_EQ(active_in(rig, 2), 7);
+  EXPECT_EQ(active_in(rig, 3), 8);
+  using K = PocKind;
+  EXPECT_EQ(path(rig, 0), (std::vector<K>{K::kConfig, K::kReady, K::kColdstartListen, K::kColdstartCollisionResolution,
+                                          K::kColdstartConsistencyCheck, K::kNormalActive}));
+  EXPECT_EQ(path(rig, 1), (std::vector<K>{K::kConfig, K::kReady, K::kColdstartListen, K::kInitialiseSchedule,
+                                          K::kIntegrationColdstartCheck, K::kColdstartJoin, K::kNormalActive}));
+  EXPECT_EQ(path(rig, 3), (std::vector<K>{K::kConfig, K::kReady, K::kIntegrationListen, K::kInitialiseSchedule,
+                                          K::kIntegrationConsistencyCheck, K::kNormalActive}));
+  EXPECT_LT(rig.precision(at_ms(40)), Duration{2'000});
+  // Nothing is wrong but that the others are not there yet.
+  for (std::size_t n = 0; n < 4; ++n)
+    for (const auto& problem : rig.heard(n).problems) {
+      EXPECT_EQ(problem.status, kNoFrame) << "node " << n;
+      EXPECT_LT(problem.cycle, 8) << "node " << n;
+    }
+}
+
+TEST(Startup, OneColdstartNodeAloneUsesUpItsAttempts) {
+  Rig rig(startup_cluster(1, 1), {0, 0}, Duration{500}, {at_ms(1.0), at_ms(1.0)});
+  rig.run_until(at_ms(500));
+  EXPECT_EQ(active_in(rig, 0), -1);
+  EXPECT_EQ(rig.controller(0).state().kind, PocKind::kIntegrationListen);
+  EXPECT_EQ(rig.heard(0).changed.back().consequence, PocReason::kAttemptsExhausted);
+  const auto attempts = std::count_if(rig.heard(0).changed.begin(), rig.heard(0).changed.end(), [](const auto& change) {
+    return change.to == PocKind::kColdstartCollisionResolution;
+  });
+  EXPECT_EQ(attempts, rig.cluster().flexray.gColdStartAttempts);
+}
+
+TEST(Startup, TwoThatBeginAtTheSameInstantSortThemselvesOut) {
+  Rig rig(startup_cluster(2), {0, 0}, Duration{500}, {at_ms(1.0), at_ms(1.0)});
+  rig.run_until(at_ms(60));
+  EXPECT_EQ(rig.controller(0).state().kind, PocKind::kNormalActive);
+  EXPECT_EQ(rig.controller(1).state().kind, PocKind::kNormalActive);
+}
+
+TEST(Startup, ALateNodeIntegratesIntoTheRunningCluster) {
+  for (const bool coldstart : {true, false}) {
+    Rig rig(startup_cluster(coldstart ? 3 : 2, coldstart ? 0 : 1), {0, 100'000, -300'000}, Duration{500},
+            {at_ms(1.0), at_ms(1.1), at_ms(103.7)});
+    rig.run_until(at_ms(140));
+    ASSERT_EQ(rig.controller(2).state().kind, PocKind::kNormalActive) << coldstart;
+    EXPECT_LT(rig.heard(2).changed.back().at, Microticks{40'000 * 120});
+    // Its cycle counter is the cluster's; how often that has wrapped it cannot know.
+    EXPECT_EQ(rig.controller(2).clock()->cycle() % 64, rig.controller(0).clock()->cycle() % 64);
+    for (std::size_t n = 0; n < 3; ++n) EXPECT_TRUE(std::all_of(rig.heard(n).problems.begin(), rig.heard(n).problems.end(),
+        [](const auto& problem) { return problem.status == kNoFrame && problem.slot == 3; })) << "node " << n;
+  }
+}
+
+TEST(Startup, ARestartedNodeComesBack) {
+  Rig rig(startup_cluster(3), {0, 100'000, -100'000}, Duration{500}, {at_ms(1.0), at_ms(1.1), at_ms(1.2)});
+  rig.run_until(at_ms(50));
+  rig.power_on(2, at_ms(50.3));   // out of the middle of a cycle
+  rig.run_until(at_ms(90));
+  EXPECT_EQ(rig.controller(2).state().kind, PocKind::kNormalActive);
+  EXPECT_EQ(rig.controller(0).state().kind, PocKind::kNormalActive);
+}
+
+TEST(Startup, NoiseDelaysTheColdstartUntilTheNoiseTimerExpires) {
+  Rig rig(startup_cluster(2), {0, 0}, Duration{500}, {at_ms(1.0), at_ms(1.0)});
+  // Noise on channel A, again and again before a listen time-out of 2 ms is over, until 9 ms.
+  for (int i = 0; i < 9; ++i)
+    for (const std::size_t node : {0u, 1u})
+      rig.medium().put({at_ms(1.5 + i * 0.9), at_ms(1.6 + i * 0.9), schedules::Channel::kA, 9, node, Signal::kUndecodable, {}});
+  rig.run_until(at_ms(60));
+  EXPECT_EQ(rig.controller(0).state().kind, PocKind::kNormalActive);
+  const auto lead = std::find_if(rig.heard(0).changed.begin(), rig.heard(0).changed.end(), [](const auto& change) {
+    return change.to == PocKind::kColdstartCollisionResolution;
+  });
+  ASSERT_NE(lead, rig.heard(0).changed.end());
+  EXPECT_EQ(lead->reason, PocReason::kColdstartAfterNoise);
+  // gListenNoise 2 times 2 ms after 1 ms, without the noise it would have been 3 ms.
+  EXPECT_NEAR(static_cast<double>(lead->at.value) * 25e-6, 5.0, 0.1);
+}
+
+TEST(Startup, TheLoserOfACollisionFollowsTheWinner) {
+  // Node 1 sends its CAS while that of node 0 is already under way to it.
+  int collisions = 0;
+  for (int tick = 0; tick < 40; ++tick) {
+    Rig rig(startup_cluster(3), {0, 0, 0}, Duration{700}, {at_ms(1.0), at_ms(1.0) + Duration{tick * 25}, at_ms(1.0)});
+    rig.run_until(at_ms(60));
+    for (std::size_t n = 0; n < 3; ++n) {
+      EXPECT_EQ(rig.controller(n).state().kind, PocKind::kNormalActive) << "tick " << tick << " node " << n;
+      for (const auto& change : rig.heard(n).changed)
+        if (change.reason == PocReason::kCollisionHeader || change.reason == PocReason::kCollisionCas) ++collisions;
+    }
+    const auto leaders = [&] {
+      int count = 0;
+      for (std::size_t n = 0; n < 3; ++n)
+        for (const auto& change : rig.heard(n).changed) count += change.reason == PocReason::kClusterStarted;
+      return count;
+    }();
+    EXPECT_EQ(leaders, 1) << "tick " << tick;
+  }
+  EXPECT_GT(collisions, 0);
+}
+
+TEST(Startup, RandomPowerOnDelaysWithinTheAttempts) {
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    RandomStream draw({seed, 0, Purpose::kTest, 0, 0});
+    const int coldstart = static_cast<int>(draw.integer(2, 4)), others = static_cast<int>(draw.integer(0, 2));
+    std::vector<std::int64_t> drifts;
+    std::vector<TrueTime> power_on;
+    for (int n = 0; n < coldstart + others; ++n) {
+      drifts.push_back(draw.integer(-1'500'000, 1'500'000));
+      power_on.push_back(TrueTime{draw.integer(0, 20'000'000)});
+    }
+    Rig rig(startup_cluster(coldstart, others), drifts, Duration{draw.integer(0, 2'500)}, power_on);
+    rig.run_until(at_ms(100));
+    for (std::size_t n = 0; n < drifts.size(); ++n)
+      ASSERT_EQ(rig.controller(n).state().kind, PocKind::kNormalActive) << "seed " << seed << " node " << n << ": "
+          << to_text(rig.controller(n).state().kind) << ", " << to_text(rig.heard(n).changed.back().reason);
+    ASSERT_LT(rig.precision(at_ms(100)), Duration{6'850}) << "seed " << seed;   // the assumed precision of the layout
+  }
+}
+
+}  // namespace
+}  // namespace ttf::bus
