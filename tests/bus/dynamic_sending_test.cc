@@ -1,0 +1,142 @@
+// The dynamic segment as whole clusters play it: priority by frame id, what does not fit waits, channels count on their own.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "core/random.h"
+#include "tests/bus/bus_rig.h"
+
+namespace ttf::bus {
+namespace {
+
+using schedules::Channel;
+using schedules::Channels;
+
+constexpr std::int64_t kSegment = 840 + 4;   // macrotick of the first minislot: 10 static slots, difference of action points
+
+// small_cluster with 24 minislots of 5 MT; dynamic slot 11 + n is node n's, one fragment of 8 bytes.
+schedules::Cluster dynamic_cluster(int nodes, Channels channels = Channels::kAB) {
+  schedules::Cluster cluster = small_cluster(nodes);
+  cluster.flexray.gNumberOfMinislots = 24;
+  cluster.flexray.gdNIT = 1000 - kSegment - 24 * 5;
+  cluster.flexray.gOffsetCorrectionStart = 980;
+  for (int n = 0; n < nodes; ++n) {
+    cluster.nodes[static_cast<std::size_t>(n)].flexray->pLatestTx = 15;
+    cluster.pdus.push_back(list_layout(4, 3, 3));
+    cluster.frames.push_back({11 + n, channels, 0, 1, static_cast<NodeId>(n), static_cast<PduId>(2 + n), 0, 0});
+  }
+  return cluster;
+}
+
+void write(Rig& rig, std::size_t node, std::uint32_t sequence) {
+  const MadeList list(rig.cluster().pdus[2 + node], sequence, 3, 0);
+  rig.controller(node).outgoing(static_cast<PduId>(2 + node)).write(list.view());
+}
+
+std::vector<Heard::Sent> dynamic_frames(Rig& rig, std::size_t node, Channel channel = Channel::kA) {
+  std::vector<Heard::Sent> frames;
+  for (const auto& sent : rig.heard(node).sent)
+    if (sent.slot > 10 && sent.channel == channel) frames.push_back(sent);
+  return frames;
+}
+
+// Of an arrived list, at receiver `node`.
+std::vector<std::uint32_t> arrived(Rig& rig, std::size_t node, PduId pdu) {
+  std::vector<std::uint32_t> sequences;
+  for (const auto& one : rig.heard(node).arrived)
+    if (one.pdu == pdu && one.effect == ArrivalEffect::kCompleted) sequences.push_back(one.sequence);
+  return sequences;
+}
+
+TEST(DynamicSegment, AListIsSentOnceAndArrives) {
+  Rig rig(dynamic_cluster(3), {0, 0, 0}, Duration{500});
+  rig.run_cycles(4);
+  EXPECT_TRUE(dynamic_frames(rig, 1).empty());
+  write(rig, 1, 7);
+  rig.run_cycles(12);
+  ASSERT_EQ(dynamic_frames(rig, 1).size(), 1u);
+  EXPECT_EQ(dynamic_frames(rig, 1)[0].cycle, 4);
+  EXPECT_TRUE(dynamic_frames(rig, 1)[0].last || dynamic_frames(rig, 1, Channel::kB)[0].last);
+  EXPECT_EQ(arrived(rig, 0, PduId{3}), std::vector<std::uint32_t>{7});
+  EXPECT_EQ(arrived(rig, 2, PduId{3}), std::vector<std::uint32_t>{7});
+  for (std::size_t n = 0; n < 3; ++n) EXPECT_TRUE(rig.heard(n).problems.empty());
+}
+
+// A frame of 8 bytes lasts 172 bits = 17.2 us: begun at the action point of minislot 1 (3 MT in) it would end at 20.2 MT of the
+// segment, so its DTS goes to the action point of minislot 5 (23 MT); 6 is idle, and the next slot begins in 7.
+TEST(DynamicSegment, TheLowerIdentifierGoesFirstAndTheOthersWaitForItsEnd) {
+  Rig rig(dynamic_cluster(3), {0, 0, 0});
+  rig.run_cycles(2);
+  for (const std::size_t node : {2u, 0u, 1u}) write(rig, node, 1);
+  rig.run_cycles(4);
+  const Microticks cycle = rig.medium().oscillator(0).ticks_at(Rig::kStart) + Microticks{1 + 2 * kMicroPerCycle};
+  std::vector<std::int64_t> minislots;
+  for (std::size_t node = 0; node < 3; ++node) {
+    ASSERT_EQ(dynamic_frames(rig, node).size(), 1u);
+    const std::int64_t macrotick = (dynamic_frames(rig, node)[0].start - cycle).value / 40;
+    EXPECT_EQ((macrotick - kSegment) % 5, 3);   // the minislot's action point
+    minislots.push_back((macrotick - kSegment) / 5 + 1);
+  }
+  EXPECT_EQ(minislots, (std::vector<std::int64_t>{1, 7, 13}));
+}
+
+TEST(DynamicSegment, WhatDoesNotFitWaitsForTheNextCycle) {
+  schedules::Cluster cluster = dynamic_cluster(3);
+  for (auto& node : cluster.nodes) node.flexray->pLatestTx = 9;
+  Rig rig(cluster, {0, 0, 0});
+  rig.run_cycles(2);
+  for (std::size_t node = 0; node < 3; ++node) write(rig, node, 1);
+  rig.run_cycles(6);
+  EXPECT_EQ(dynamic_frames(rig, 0)[0].cycle, 2);
+  EXPECT_EQ(dynamic_frames(rig, 1)[0].cycle, 2);
+  ASSERT_EQ(dynamic_frames(rig, 2).size(), 1u);
+  EXPECT_EQ(dynamic_frames(rig, 2)[0].cycle, 3);
+}
+
+TEST(DynamicSegment, TheChannelsCountOnTheirOwn) {
+  schedules::Cluster cluster = dynamic_cluster(3);
+  cluster.frames[cluster.frames.size() - 3].channels = Channels::kA;   // slot 11 on A only
+  Rig rig(cluster, {0, 0, 0});
+  rig.run_cycles(2);
+  write(rig, 0, 1);
+  write(rig, 1, 1);
+  rig.run_cycles(4);
+  ASSERT_EQ(dynamic_frames(rig, 1, Channel::kA).size(), 1u);
+  ASSERT_EQ(dynamic_frames(rig, 1, Channel::kB).size(), 1u);
+  // On B nobody used slot 11: slot 12 comes after one minislot.
+  EXPECT_GT(dynamic_frames(rig, 1, Channel::kA)[0].start, dynamic_frames(rig, 1, Channel::kB)[0].start);
+  for (std::size_t n = 0; n < 3; ++n) EXPECT_TRUE(rig.heard(n).problems.empty());
+}
+
+// Any load, any clocks: nothing collides, nothing is lost, every list arrives once at everybody, in order.
+TEST(DynamicSegment, RandomLoadOnDriftingClocks) {
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    RandomStream draw({seed, 0, Purpose::kTest, 0, 0});
+    std::vector<std::int64_t> drifts;
+    for (int n = 0; n < 4; ++n) drifts.push_back(draw.integer(-300'000, 300'000));
+    Rig rig(dynamic_cluster(4), drifts, Duration{draw.integer(0, 800)});
+    rig.run_cycles(20);   // until the rates agree
+    for (std::size_t n = 0; n < 4; ++n) rig.heard(n).problems.clear();
+    std::vector<std::uint32_t> written(4, 0);
+    for (int cycle = 20; cycle < 80; ++cycle) {
+      for (std::size_t n = 0; n < 4; ++n)
+        if (draw.integer(0, 2) == 0 && dynamic_frames(rig, n).size() == written[n]) write(rig, n, ++written[n]);
+      rig.run_cycles(cycle + 1);
+    }
+    rig.run_cycles(90);
+    for (std::size_t n = 0; n < 4; ++n) {
+      ASSERT_TRUE(rig.heard(n).problems.empty()) << "seed " << seed << " node " << n << " slot "
+          << rig.heard(n).problems[0].slot << " status " << rig.heard(n).problems[0].status;
+      for (std::size_t m = 0; m < 4; ++m) {
+        if (m == n) continue;
+        std::vector<std::uint32_t> all(written[m]);
+        for (std::uint32_t s = 0; s < written[m]; ++s) all[s] = s + 1;
+        ASSERT_EQ(arrived(rig, n, static_cast<PduId>(2 + m)), all) << "seed " << seed;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ttf::bus
