@@ -12,6 +12,7 @@ namespace ttf::nodes {
 namespace {
 
 constexpr Microticks kNever{std::numeric_limits<std::int64_t>::max()};
+constexpr std::int64_t kNoCycle = -1;
 
 bool in_cycle(const schedules::CycleInstant& at, std::int64_t cycle) {
   return cycle % at.repetition == at.base_cycle;
@@ -56,10 +57,13 @@ Executive::Executive(const ExecutiveConfig& config, std::vector<std::shared_ptr<
   TTF_CHECK(steps.size() == node_.tasks.size(), "{} steps for {} tasks", steps.size(), node_.tasks.size());
   if (node_.flexray) {
     TTF_CHECK(flexray != nullptr, "{} needs a FlexRay port", node_.name);
-    flexray_ = std::make_unique<bus::FlexRayController>(cluster_, config.node, config.clock, *flexray,
+    flexray_ = std::make_unique<bus::FlexRayController>(cluster_, config.node, *flexray,
                                                         static_cast<bus::ControllerEvents&>(*this));
+    if (config.clock)
+      flexray_->start_integrated(*config.clock);
+    else
+      flexray_->start_cold(config.power_on);
   }
-  frame_duration_ = wire::frame_duration(cluster_.flexray, cluster_.flexray.gPayloadLengthStatic);
   cans_.resize(cluster_.can_buses.size());
   for (std::size_t b = 0; b < cans_.size(); ++b)
     if (b < cans.size() && cans[b] != nullptr)
@@ -103,14 +107,16 @@ Executive::Executive(const ExecutiveConfig& config, std::vector<std::shared_ptr<
 
 Executive::~Executive() = default;
 
-const timebase::CycleClock* Executive::clock() const { return flexray_ ? &flexray_->clock() : nullptr; }
+const timebase::CycleClock* Executive::clock() const {
+  return flexray_ && flexray_->synchronised() ? &*flexray_->clock() : nullptr;
+}
 
 records::Stamp Executive::stamp(Microticks at) const {
   records::Stamp stamp;
   stamp.true_time = config_.oscillator.time_of(at);
   stamp.local = config_.oscillator.local_time(at);
-  // A node off the bus has no global time; its own is all it knows.
-  stamp.global = flexray_ ? flexray_->clock().global_time(at) : GlobalTime{stamp.local.ns};
+  // A node that knows no global time has only its own.
+  stamp.global = clock() != nullptr ? clock()->global_time(at) : GlobalTime{stamp.local.ns};
   stamp.node = config_.node;
   return stamp;
 }
@@ -123,12 +129,12 @@ Microticks Executive::ticks(Duration duration) const {
 Microticks Executive::next_event() const {
   Microticks next = running_ ? running_end_ : kNever;
   if (!running_ && !ready_.empty()) next = tasks_[ready_.front()].activated;
-  if (flexray_) {
-    next = std::min(next, flexray_->next_event());
+  if (flexray_) next = std::min(next, flexray_->next_event());
+  if (const timebase::CycleClock* global = clock()) {
     for (const TaskState& state : tasks_)
-      if (state.armed) next = std::min(next, flexray_->clock().start_of(state.task->activation.at.offset));
+      if (state.armed) next = std::min(next, global->start_of(state.task->activation.at.offset));
     for (const SensorState& state : sensors_)
-      if (state.armed) next = std::min(next, flexray_->clock().start_of(state.sensor->at.offset));
+      if (state.armed) next = std::min(next, global->start_of(state.sensor->at.offset));
   }
   for (const SensorState& state : sensors_)
     if (state.is_device && !state.sensor->scheduled)
@@ -136,14 +142,17 @@ Microticks Executive::next_event() const {
   return next;
 }
 
+// Who loses the global time loses what was to happen by it.
 void Executive::arm_cycle() {
-  if (!flexray_ || flexray_->clock().cycle() == armed_cycle_) return;
-  armed_cycle_ = flexray_->clock().cycle();
+  const timebase::CycleClock* global = clock();
+  const std::int64_t cycle = global != nullptr ? global->cycle() : kNoCycle;
+  if (cycle == armed_cycle_) return;
+  armed_cycle_ = cycle;
   for (TaskState& state : tasks_)
-    state.armed = state.task->activation.kind == schedules::ActivationKind::kTime &&
+    state.armed = global != nullptr && state.task->activation.kind == schedules::ActivationKind::kTime &&
                   in_cycle(state.task->activation.at, armed_cycle_);
   for (SensorState& state : sensors_)
-    state.armed = state.is_host && state.sensor->scheduled && in_cycle(state.sensor->at, armed_cycle_);
+    state.armed = global != nullptr && state.is_host && state.sensor->scheduled && in_cycle(state.sensor->at, armed_cycle_);
 }
 
 void Executive::advance(Microticks now) {
@@ -156,7 +165,7 @@ void Executive::advance(Microticks now) {
 
 void Executive::activate_due(Microticks now) {
   for (SensorState& state : sensors_) {
-    if (state.armed && flexray_->clock().start_of(state.sensor->at.offset) <= now) {
+    if (state.armed && clock()->start_of(state.sensor->at.offset) <= now) {
       state.armed = false;
       lines_.trigger(state.id);
     }
@@ -165,7 +174,7 @@ void Executive::activate_due(Microticks now) {
       measure(state, now);
   }
   for (std::size_t t = 0; t < tasks_.size(); ++t)
-    if (tasks_[t].armed && flexray_->clock().start_of(tasks_[t].task->activation.at.offset) <= now) {
+    if (tasks_[t].armed && clock()->start_of(tasks_[t].task->activation.at.offset) <= now) {
       tasks_[t].armed = false;
       activate(t, now);
     }
@@ -340,10 +349,8 @@ void Executive::frame_sent(const bus::Transmission& transmission, std::int64_t c
                            std::uint32_t sequence, int fragment, bool last) {
   records::SlotFrameSent sent;
   sent.stamp = stamp(transmission.start);
-  // A static frame ends in the cycle it began in, so the clock can say now when that will be.
-  const TrueTime end = sent.stamp.true_time + frame_duration_;
-  sent.end = stamp(config_.oscillator.ticks_at(end));
-  sent.end.true_time = end;
+  // A frame ends in the cycle it began in, so the clock can say now when that will be.
+  sent.end = stamp(transmission.end);
   sent.cycle = cycle;
   sent.slot = static_cast<std::uint16_t>(transmission.slot);
   sent.channel = static_cast<std::uint8_t>(transmission.channel);

@@ -42,10 +42,10 @@ struct ExecutiveConfig {
   const schedules::Cluster* cluster = nullptr;
   NodeId node{};
   timebase::Oscillator oscillator;
-  bus::InitialClock clock;                 // for nodes on FlexRay
+  std::optional<bus::InitialClock> clock;  // of a node that begins integrated; else it starts up at power_on
   std::uint64_t seed = 0;                  // of the execution times
   std::uint32_t replication = 0;
-  Microticks power_on{};                   // free-running sensors count their phase from here
+  Microticks power_on{};                   // free-running sensors count their phase from here, too
 };
 
 struct ExecutiveCounts {
@@ -80,7 +80,7 @@ class Executive final : private bus::ControllerEvents {
   void trigger(SensorId sensor, Microticks now);                          // at a device
   void strobe(SensorId sensor, std::uint32_t sequence, Microticks now);   // at a host
 
-  // The node's synchronised clock, nothing for a node off FlexRay.
+  // The node's clock of the cluster, null while it has none: off FlexRay, or before it has integrated.
   const timebase::CycleClock* clock() const;
   const timebase::Oscillator& oscillator() const { return config_.oscillator; }
   records::Stamp stamp(Microticks at) const;
@@ -126,7 +126,6 @@ class Executive final : private bus::ControllerEvents {
   std::optional<std::size_t> running_;
   Microticks running_end_{};
   std::int64_t armed_cycle_ = -1;
-  Duration frame_duration_{};               // of a static frame on the bus
   ExecutiveCounts counts_;
 };
 

@@ -43,8 +43,12 @@ struct ClusterSimulation::FlexRayTap final : bus::FlexRayPort {
   FlexRayTap(ClusterSimulation& s, NodeId n) : simulation(s), node(n) {}
   void transmit(const bus::Transmission& transmission) override {
     ++simulation.frames_sent_;
-    const TrueTime start = simulation.nodes_[index_of(node)]->oscillator().time_of(transmission.start);
-    simulation.flexray_.transmit(node, transmission.channel, start, transmission.bytes);
+    const timebase::Oscillator& oscillator = simulation.nodes_[index_of(node)]->oscillator();
+    simulation.flexray_.transmit(node, transmission, oscillator.time_of(transmission.start),
+                                 oscillator.time_of(transmission.end));
+  }
+  bool carrier(schedules::Channel channel) const override {
+    return simulation.flexray_.carrier(node, channel, simulation.now_);
   }
 };
 
@@ -109,7 +113,7 @@ ClusterSimulation::ClusterSimulation(const SimulationConfig& config, records::Si
     const schedules::Node& node = cluster_.nodes[n];
     const auto id = static_cast<NodeId>(n);
     const timebase::Oscillator oscillator = make_oscillator(node, n, config);
-    nodes::ExecutiveConfig executive{config.cluster, id, oscillator, {}, config.seed, config.replication,
+    nodes::ExecutiveConfig executive{config.cluster, id, oscillator, std::nullopt, config.seed, config.replication,
                                      oscillator.ticks_at(kFirstCycle)};
     bus::FlexRayPort* port = nullptr;
     if (node.flexray) {
@@ -167,9 +171,13 @@ void ClusterSimulation::deliver(const MediumEvent& event) {
   const timebase::Oscillator& oscillator = executive.oscillator();
   switch (event.kind) {
     case MediumEvent::Kind::kFlexRayArrival:
-      executive.receive({static_cast<schedules::Channel>(event.channel_or_bus), oscillator.ticks_at(event.start),
-                         oscillator.ticks_at(now_), pool_.bytes(event.frame)});
-      pool_.release(event.frame);
+      if (const auto arrival = flexray_.arrive(event, now_)) {
+        bus::Reception reception{arrival->channel, arrival->signal, oscillator.ticks_at(arrival->start),
+                                 oscillator.ticks_at(arrival->end), {}};
+        if (arrival->signal == bus::Signal::kFrame) reception.frame = flexray_.frame(*arrival);
+        executive.receive(reception);
+        flexray_.release(*arrival);
+      }
       break;
     case MediumEvent::Kind::kCanArrival:
       executive.receive_can(event.channel_or_bus,

@@ -13,7 +13,8 @@
 #include "nodes/executive.h"
 #include "recording/records/records.h"
 #include "schedules/cluster.h"
-#include "sim/media.h"
+#include "sim/can_medium.h"
+#include "sim/flexray_medium.h"
 
 namespace ttf::sim {
 

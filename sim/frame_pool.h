@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "bus/wire/flexray_frame.h"
 #include "core/check.h"
 
 namespace ttf::sim {
@@ -21,6 +22,13 @@ class FramePool {
     for (std::size_t i = capacity; i-- > 0;) free_.push_back(static_cast<std::uint32_t>(i));
   }
 
+  // Stores a copy of a FlexRay frame for `uses` deliveries and makes out what it says, once for all receivers.
+  std::uint32_t put_frame(schedules::Channel channel, std::span<const std::byte> bytes, int uses) {
+    const std::uint32_t index = put(bytes, uses);
+    frames_[index].decoded = wire::decode_frame(channel, this->bytes(index));
+    return index;
+  }
+  const wire::DecodedFrame& decoded(std::uint32_t index) const { return frames_[index].decoded; }
   // Stores a copy for `uses` deliveries.
   std::uint32_t put(std::span<const std::byte> bytes, int uses) {
     TTF_CHECK(!free_.empty() && bytes.size() <= kMaxBytes && uses > 0, "{} bytes, {} uses", bytes.size(), uses);
@@ -42,6 +50,7 @@ class FramePool {
     std::array<std::byte, kMaxBytes> bytes{};
     std::size_t size = 0;
     int uses = 0;
+    wire::DecodedFrame decoded;   // of a FlexRay frame
   };
   std::vector<Frame> frames_;
   std::vector<std::uint32_t> free_;

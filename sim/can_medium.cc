@@ -1,52 +1,12 @@
-#include "sim/media.h"
+#include "sim/can_medium.h"
 
 #include <algorithm>
 
 #include "bus/wire/can_timing.h"
-#include "bus/wire/flexray_frame.h"
 #include "bus/wire/pdu_codec.h"
 #include "core/check.h"
 
 namespace ttf::sim {
-
-FlexRayMedium::FlexRayMedium(const schedules::Cluster& cluster, MediumQueue& queue, FramePool& pool)
-    : queue_(queue),
-      pool_(pool),
-      flexray_(cluster.flexray),
-      position_(cluster.nodes.size(), -1) {
-  for (std::size_t n = 0; n < cluster.nodes.size(); ++n)
-    if (cluster.nodes[n].flexray) {
-      position_[n] = static_cast<int>(nodes_.size());
-      nodes_.push_back(static_cast<NodeId>(n));
-    }
-}
-
-Duration FlexRayMedium::delay(NodeId from, NodeId to) const {
-  const int hops = position_[index_of(from)] - position_[index_of(to)];
-  const auto ends = static_cast<std::int64_t>(nodes_.size()) - 1;
-  if (ends == 0) return {};
-  const std::int64_t least = flexray_.gdMinPropagationDelay_ps, most = flexray_.gdMaxPropagationDelay_ps;
-  const std::int64_t ps = least + (most - least) * (hops < 0 ? -hops : hops) / ends;
-  return {(ps + 999) / 1000};
-}
-
-void FlexRayMedium::transmit(NodeId sender, schedules::Channel channel, TrueTime start,
-                             std::span<const std::byte> bytes) {
-  if (nodes_.size() < 2) return;
-  const std::uint32_t frame = pool_.put(bytes, static_cast<int>(nodes_.size()) - 1);
-  const Duration length = wire::frame_duration(flexray_, wire::words_in_frame(bytes.size()));
-  for (const NodeId node : nodes_) {
-    if (node == sender) continue;
-    MediumEvent event;
-    event.kind = MediumEvent::Kind::kFlexRayArrival;
-    event.node = static_cast<std::uint8_t>(node);
-    event.channel_or_bus = static_cast<std::uint8_t>(channel);
-    event.frame = frame;
-    event.start = start + delay(sender, node);
-    const auto rank = static_cast<std::uint16_t>((index_of(channel) << 8) | index_of(sender));
-    queue_.schedule(event.start + length, Phase::kArrival, event.node, event, rank);
-  }
-}
 
 CanMedium::CanMedium(const schedules::Cluster& cluster, std::size_t bus, std::span<const NodeId> nodes,
                      MediumQueue& queue, FramePool& pool, records::Sink& sink)

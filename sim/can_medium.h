@@ -1,0 +1,54 @@
+// A simulated private CAN in virtual time: arbitration by identifier whenever the bus falls idle, durations with the exact
+// stuff bits of the data.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "bus/can_port.h"
+#include "core/ids.h"
+#include "core/time.h"
+#include "recording/records/records.h"
+#include "schedules/cluster.h"
+#include "sim/frame_pool.h"
+#include "sim/medium_queue.h"
+
+namespace ttf::sim {
+
+class CanMedium {
+ public:
+  // `sink` hears of each frame when it begins: what the wire carries, in true time. The rest its sender knows.
+  CanMedium(const schedules::Cluster& cluster, std::size_t bus, std::span<const NodeId> nodes, MediumQueue& queue,
+            FramePool& pool, records::Sink& sink);
+  void send(NodeId sender, TrueTime now, const bus::CanFrame& frame);
+  // The bus is idle: the pending frame that wins is sent.
+  void arbitrate(TrueTime now);
+  // How long the bus has carried frames, the one on it included to its end.
+  Duration busy() const { return busy_; }
+
+ private:
+  struct Pending {
+    NodeId sender{};
+    std::uint64_t order = 0;
+    std::uint32_t identifier = 0;
+    bool flexible_data_rate = false;
+    std::uint32_t frame = 0;
+  };
+  void report(const Pending& frame, TrueTime start, TrueTime end);
+
+  const schedules::Cluster& cluster_;
+  std::size_t bus_;
+  std::vector<NodeId> nodes_;
+  MediumQueue& queue_;
+  FramePool& pool_;
+  records::Sink& sink_;
+  std::vector<Pending> pending_;
+  std::uint64_t next_order_ = 0;
+  TrueTime idle_from_{};
+  bool arbitration_due_ = false;
+  Duration busy_{};
+};
+
+}  // namespace ttf::sim

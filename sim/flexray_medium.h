@@ -1,0 +1,65 @@
+// The simulated FlexRay: two channels in virtual time, obeying the laws of bus/flexray_port.h.
+//
+// A linear bus with the nodes equally spaced along it; the propagation delay between two nodes grows from
+// gdMinPropagationDelay (neighbours at no distance) to gdMaxPropagationDelay (the two ends). What leaves reaches everybody who
+// is attached to the channel; what overlaps at a receiver arrives there as one signal that nobody can make out.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "bus/flexray_port.h"
+#include "core/ids.h"
+#include "core/time.h"
+#include "schedules/cluster.h"
+#include "sim/frame_pool.h"
+#include "sim/medium_queue.h"
+
+namespace ttf::sim {
+
+class FlexRayMedium {
+ public:
+  FlexRayMedium(const schedules::Cluster& cluster, MediumQueue& queue, FramePool& pool);
+
+  // `start`, `end`: true times of the first and last bit at the sender.
+  void transmit(NodeId sender, const bus::Transmission& transmission, TrueTime start, TrueTime end);
+  // Whether something is arriving at the node at `now`.
+  bool carrier(NodeId node, schedules::Channel channel, TrueTime now) const;
+  Duration delay(NodeId from, NodeId to) const;
+
+  // What an arrival of the queue brings: nothing where it was drawn into another signal. The frame stays valid until
+  // release() is called with the same arrival.
+  struct Arrival {
+    schedules::Channel channel{};
+    bus::Signal signal{};
+    TrueTime start{}, end{};
+    std::uint32_t frame = 0;          // in the pool, of a frame
+  };
+  std::optional<Arrival> arrive(const MediumEvent& event, TrueTime now);
+  const wire::DecodedFrame& frame(const Arrival& arrival) const { return pool_.decoded(arrival.frame); }
+  void release(const Arrival& arrival);
+
+ private:
+  // What is on its way to one node on one channel.
+  struct Pending {
+    std::uint32_t id = 0;             // the queue's event carries it
+    Arrival arrival;
+    NodeId sender{};
+  };
+  using Lane = std::vector<Pending>;
+  void put(NodeId receiver, NodeId sender, const Arrival& arrival);
+  Lane& lane(NodeId node, schedules::Channel channel) { return lanes_[2 * index_of(node) + index_of(channel)]; }
+
+  MediumQueue& queue_;
+  FramePool& pool_;
+  std::array<std::vector<NodeId>, 2> attached_;   // by channel, in bus order
+  std::vector<int> position_;                     // by NodeId, -1 off the bus
+  std::vector<Lane> lanes_;                       // by NodeId and channel
+  int ends_ = 0;                                  // hops between the two ends of the line
+  std::int64_t min_delay_ps_, max_delay_ps_;
+  std::uint32_t next_id_ = 0;
+};
+
+}  // namespace ttf::sim

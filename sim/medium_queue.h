@@ -1,0 +1,27 @@
+// What the media have pending in virtual time.
+#pragma once
+
+#include <cstdint>
+
+#include "core/time.h"
+#include "sim/event_queue.h"
+
+namespace ttf::sim {
+
+// A pending arrival or arbitration.
+struct MediumEvent {
+  enum class Kind : std::uint8_t {
+    kFlexRayArrival, kCanArrival, kCanSent, kCanArbitration, kStrobe, kTrigger, kObservation
+  };
+  Kind kind{};
+  std::uint8_t node = 0;          // receiver, or sender of what was sent; the bus for an arbitration
+  std::uint8_t channel_or_bus = 0;
+  std::uint8_t sensor = 0;
+  bool flexible_data_rate = false;
+  std::uint32_t identifier = 0;   // CAN identifier, or a measurement's sequence
+  std::uint32_t frame = 0;        // in the pool; on FlexRay the medium's own number of the arrival
+  TrueTime start{};               // of a CAN frame
+};
+using MediumQueue = EventQueue<MediumEvent>;
+
+}  // namespace ttf::sim
