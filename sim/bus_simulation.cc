@@ -48,6 +48,11 @@ BusSimulation::BusSimulation(const schedules::Cluster& cluster, std::vector<BusN
 
 BusSimulation::~BusSimulation() = default;
 
+void BusSimulation::set_disturbance(Disturbance* disturbance) {
+  disturbance_ = disturbance;
+  medium_.set_disturbance(disturbance);
+}
+
 void BusSimulation::power_off(NodeId node) {
   const std::size_t n = index_of(node);
   powered_[n] = false;
@@ -74,6 +79,12 @@ void BusSimulation::run_until(TrueTime end) {
     const bool node_is_due = queue_.empty() || EventOrder{next_[earliest], Phase::kNode,
                                                           static_cast<std::uint8_t>(earliest), 0, 0} < queue_.next();
     const TrueTime time = node_is_due ? next_[earliest] : queue_.next().time;
+    if (disturbance_ != nullptr && disturbance_->next() < time) {
+      if (disturbance_->next() > end) break;
+      now_ = std::max(now_, disturbance_->next());
+      disturbance_->act(now_);
+      continue;
+    }
     if (time > end || time == kNever) break;
     TTF_CHECK(time >= now_, "time goes back from {} to {} ns", now_.ns, time.ns);
     now_ = time;
@@ -109,11 +120,11 @@ void BusSimulation::deliver(const MediumEvent& event) {
   medium_.release(*arrival);
 }
 
-Duration BusSimulation::precision() const {
+Duration BusSimulation::precision(NodeId first) const {
   const std::int64_t round = cluster_.cycle().ns * (cluster_.flexray.gCycleCountMax + 1);
   std::optional<std::int64_t> reference;
   std::int64_t low = 0, high = 0;
-  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+  for (std::size_t n = index_of(first); n < nodes_.size(); ++n) {
     if (!powered_[n] || !controllers_[n]->synchronised()) continue;
     const std::int64_t time = controllers_[n]->clock()->global_time(nodes_[n].oscillator.ticks_at(now_)).ns;
     if (!reference) reference = time;

@@ -35,12 +35,14 @@ class BusSimulation {
   bus::FlexRayController& controller(NodeId node) { return *controllers_[index_of(node)]; }
   const timebase::Oscillator& oscillator(NodeId node) const { return nodes_[index_of(node)].oscillator; }
   FlexRayMedium& medium() { return medium_; }
+  // Null: nothing goes wrong.
+  void set_disturbance(Disturbance* disturbance);
   // The node loses its supply: nothing of it is left until it is powered on again (from `at` on).
   void power_off(NodeId node);
   void power_on(NodeId node, TrueTime at);
-  // The largest difference between the global times of the nodes that are synchronised, now. Their cycle numbers may differ
-  // by whole rounds of the cycle counter; only the rest counts.
-  Duration precision() const;
+  // The largest difference between the global times of the nodes that are synchronised, now, from node `first` on. Their
+  // cycle numbers may differ by whole rounds of the cycle counter; only the rest counts.
+  Duration precision(NodeId first = NodeId{0}) const;
 
  private:
   struct Port;
@@ -58,6 +60,7 @@ class BusSimulation {
   std::vector<std::unique_ptr<bus::FlexRayController>> controllers_;
   std::vector<bool> powered_;
   std::vector<TrueTime> next_;      // per node, its next own event
+  Disturbance* disturbance_ = nullptr;
   TrueTime now_{};
 };
 

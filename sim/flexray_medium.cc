@@ -47,21 +47,32 @@ Duration FlexRayMedium::delay(NodeId from, NodeId to) const {
 }
 
 void FlexRayMedium::transmit(NodeId sender, const bus::Transmission& transmission, TrueTime start, TrueTime end) {
-  const auto& attached = attached_[index_of(transmission.channel)];
+  Leaving signal{sender, transmission.channel, transmission.signal, start, end, transmission.bytes};
+  if (disturbance_ != nullptr && !disturbance_->leaving(signal)) return;
+  spread(signal, sender);
+}
+
+void FlexRayMedium::emit(const Leaving& signal, std::optional<NodeId> source) { spread(signal, source); }
+
+void FlexRayMedium::spread(const Leaving& signal, std::optional<NodeId> sender) {
+  const auto& attached = attached_[index_of(signal.channel)];
   const auto receivers = static_cast<int>(std::count_if(attached.begin(), attached.end(),
                                                         [&](NodeId node) { return node != sender; }));
   if (receivers == 0) return;
   Arrival arrival;
-  arrival.channel = transmission.channel;
-  arrival.signal = transmission.signal;
-  if (arrival.signal == Signal::kFrame)
-    arrival.frame = pool_.put_frame(transmission.channel, transmission.bytes, receivers);
+  if (signal.signal == Signal::kFrame) arrival.frame = pool_.put_frame(signal.channel, signal.bytes, receivers);
   for (const NodeId node : attached) {
     if (node == sender) continue;
-    const Duration on_the_way = delay(sender, node);
-    arrival.start = start + on_the_way;
-    arrival.end = end + on_the_way;
-    put(node, sender, arrival);
+    const Duration on_the_way = sender ? delay(*sender, node) : Duration{};
+    Arriving last{signal.sender, node, signal.channel, signal.signal, signal.start + on_the_way,
+                  signal.end + on_the_way};
+    const bool arrives = disturbance_ == nullptr || disturbance_->arriving(last);
+    arrival.channel = signal.channel;
+    arrival.signal = last.signal;
+    arrival.start = last.start;
+    arrival.end = last.end;
+    if (signal.signal == Signal::kFrame && (!arrives || last.signal != Signal::kFrame)) pool_.release(arrival.frame);
+    if (arrives) put(node, signal.sender, arrival);
   }
 }
 

@@ -14,6 +14,7 @@
 #include "core/ids.h"
 #include "core/time.h"
 #include "schedules/cluster.h"
+#include "sim/disturbance.h"
 #include "sim/frame_pool.h"
 #include "sim/medium_queue.h"
 
@@ -23,8 +24,13 @@ class FlexRayMedium {
  public:
   FlexRayMedium(const schedules::Cluster& cluster, MediumQueue& queue, FramePool& pool);
 
-  // `start`, `end`: true times of the first and last bit at the sender.
+  // Null: nothing goes wrong.
+  void set_disturbance(Disturbance* disturbance) { disturbance_ = disturbance; }
+
+  // What a node sends: `start`, `end`: true times of the first and last bit at the sender.
   void transmit(NodeId sender, const bus::Transmission& transmission, TrueTime start, TrueTime end);
+  // What comes out of nothing and reaches everybody on the channel at once; `source` is the sender where there is one.
+  void emit(const Leaving& signal, std::optional<NodeId> source);
   // Whether something is arriving at the node at `now`.
   bool carrier(NodeId node, schedules::Channel channel, TrueTime now) const;
   Duration delay(NodeId from, NodeId to) const;
@@ -49,6 +55,7 @@ class FlexRayMedium {
     NodeId sender{};
   };
   using Lane = std::vector<Pending>;
+  void spread(const Leaving& signal, std::optional<NodeId> sender);
   void put(NodeId receiver, NodeId sender, const Arrival& arrival);
   Lane& lane(NodeId node, schedules::Channel channel) { return lanes_[2 * index_of(node) + index_of(channel)]; }
 
@@ -60,6 +67,7 @@ class FlexRayMedium {
   int ends_ = 0;                                  // hops between the two ends of the line
   std::int64_t min_delay_ps_, max_delay_ps_;
   std::uint32_t next_id_ = 0;
+  Disturbance* disturbance_ = nullptr;
 };
 
 }  // namespace ttf::sim

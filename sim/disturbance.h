@@ -1,0 +1,44 @@
+// What may go wrong on the simulated FlexRay, seen from the medium: at the sender, towards one receiver, and out of nothing. The
+// nodes know nothing of it. All instants are true times.
+#pragma once
+
+#include <limits>
+
+#include "bus/flexray_port.h"
+#include "core/ids.h"
+#include "core/time.h"
+
+namespace ttf::sim {
+
+// A signal as it leaves a node, to be changed.
+struct Leaving {
+  NodeId sender{};
+  schedules::Channel channel{};
+  bus::Signal signal{};
+  TrueTime start{}, end{};
+  std::span<const std::byte> bytes;     // may be pointed elsewhere; used before the call returns to the sender
+};
+
+// The same on its last metre.
+struct Arriving {
+  NodeId sender{}, receiver{};
+  schedules::Channel channel{};
+  bus::Signal signal{};
+  TrueTime start{}, end{};
+};
+
+class Disturbance {
+ public:
+  static constexpr TrueTime kNever{std::numeric_limits<std::int64_t>::max()};
+
+  virtual ~Disturbance() = default;
+  // False: it does not leave.
+  virtual bool leaving(Leaving& signal) { return (void)signal, true; }
+  // False: it does not arrive. A frame can be made undecodable here, nothing else can become a frame.
+  virtual bool arriving(Arriving& signal) { return (void)signal, true; }
+  // When it acts by itself next, after all nodes' events of that instant; and what it does then.
+  virtual TrueTime next() const { return kNever; }
+  virtual void act(TrueTime now) { (void)now; }
+};
+
+}  // namespace ttf::sim
