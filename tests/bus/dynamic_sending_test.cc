@@ -70,11 +70,14 @@ TEST(DynamicSegment, TheLowerIdentifierGoesFirstAndTheOthersWaitForItsEnd) {
   rig.run_cycles(2);
   for (const std::size_t node : {2u, 0u, 1u}) write(rig, node, 1);
   rig.run_cycles(4);
-  const Microticks cycle = rig.medium().oscillator(0).ticks_at(Rig::kStart) + Microticks{1 + 2 * kMicroPerCycle};
   std::vector<std::int64_t> minislots;
   for (std::size_t node = 0; node < 3; ++node) {
     ASSERT_EQ(dynamic_frames(rig, node).size(), 1u);
-    const std::int64_t macrotick = (dynamic_frames(rig, node)[0].start - cycle).value / 40;
+    const Heard::Sent sent = dynamic_frames(rig, node)[0];
+    const auto cycle = std::find_if(rig.heard(node).cycle_starts.begin(), rig.heard(node).cycle_starts.end(),
+                                    [&](const auto& started) { return started.first == sent.cycle; });
+    ASSERT_NE(cycle, rig.heard(node).cycle_starts.end());
+    const std::int64_t macrotick = ((sent.start - cycle->second).value + 20) / 40;
     EXPECT_EQ((macrotick - kSegment) % 5, 3);   // the minislot's action point
     minislots.push_back((macrotick - kSegment) / 5 + 1);
   }

@@ -33,18 +33,21 @@ struct Receiver final : bus::ControllerEvents, bus::FlexRayPort {
   const schedules::Cluster& cluster;
   bus::FlexRayController controller;
   explicit Receiver(const schedules::Cluster& c)
-      : cluster(c), controller(c, *c.find_node("feature"), {Microticks{0}, 0}, *this, *this) {}
+      : cluster(c), controller(c, *c.find_node("feature"), *this, *this) {
+    controller.start_integrated({Microticks{0}, 0});
+  }
   void transmit(const bus::Transmission&) override {}
+  bool carrier(schedules::Channel) const override { return false; }
 
   // Delivers one frame at its action point in a cycle.
   void hear(int cycle, int slot, schedules::Channel channel, std::span<const std::byte> bytes) {
     const schedules::GlobalParameters& g = cluster.flexray;
-    while (controller.clock().cycle() < cycle) controller.advance(controller.next_event());
+    while (controller.clock()->cycle() < cycle) controller.advance(controller.next_event());
     const Microticks start =
-        controller.clock().start_of(Macroticks{static_cast<std::int64_t>(slot - 1) * g.gdStaticSlot + g.gdActionPointOffset});
+        controller.clock()->start_of(Macroticks{static_cast<std::int64_t>(slot - 1) * g.gdStaticSlot + g.gdActionPointOffset});
     const Microticks end = start + Microticks{wire::frame_duration_ps(g, g.gPayloadLengthStatic) /
                                               cluster.nodes[0].microtick_ps};
-    controller.receive({channel, start, end, bytes});
+    controller.receive({channel, bus::Signal::kFrame, start, end, wire::decode_frame(channel, bytes)});
   }
 };
 
