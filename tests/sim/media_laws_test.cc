@@ -7,7 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "sim/media.h"
+#include "sim/can_medium.h"
+#include "sim/flexray_medium.h"
 #include "tests/bus/layouts.h"
 #include "tests/laws/can_port_laws.h"
 #include "tests/laws/flexray_port_laws.h"
@@ -39,14 +40,21 @@ class SimulatedFlexRayBench final : public FlexRayBench {
   bus::FlexRayPort& port(std::size_t controller) override { return *ports_[controller]; }
   void run_until(Microticks now) override {
     while (!queue_.empty() && clock_.ticks_at(queue_.next().time) <= now) {
-      const TrueTime end = queue_.next().time;
+      now_ = queue_.next().time;
       const sim::MediumEvent event = queue_.pop();
       ASSERT_EQ(event.kind, sim::MediumEvent::Kind::kFlexRayArrival);
-      const auto bytes = pool_.bytes(event.frame);
-      reached_.push_back({controller_of(event.node), static_cast<Channel>(event.channel_or_bus),
-                          clock_.ticks_at(event.start), clock_.ticks_at(end), {bytes.begin(), bytes.end()}});
-      pool_.release(event.frame);
+      const auto arrival = medium_.arrive(event, now_);
+      if (!arrival) continue;
+      Reached reached{controller_of(event.node), arrival->channel, arrival->signal, clock_.ticks_at(arrival->start),
+                      clock_.ticks_at(arrival->end), {}};
+      if (arrival->signal == bus::Signal::kFrame) {
+        const auto bytes = pool_.bytes(arrival->frame);
+        reached.bytes.assign(bytes.begin(), bytes.end());
+      }
+      reached_.push_back(reached);
+      medium_.release(*arrival);
     }
+    now_ = clock_.time_of(now);
   }
   const std::vector<Reached>& reached() const override { return reached_; }
 
@@ -56,7 +64,10 @@ class SimulatedFlexRayBench final : public FlexRayBench {
     std::size_t controller;
     Port(SimulatedFlexRayBench& b, std::size_t c) : bench(b), controller(c) {}
     void transmit(const bus::Transmission& t) override {
-      bench.medium_.transmit(node_of(controller), t.channel, bench.clock_.time_of(t.start), t.bytes);
+      bench.medium_.transmit(node_of(controller), t, bench.clock_.time_of(t.start), bench.clock_.time_of(t.end));
+    }
+    bool carrier(Channel channel) const override {
+      return bench.medium_.carrier(node_of(controller), channel, bench.now_);
     }
   };
   static NodeId node_of(std::size_t controller) { return static_cast<NodeId>(controller < 2 ? controller : controller + 1); }
@@ -64,6 +75,7 @@ class SimulatedFlexRayBench final : public FlexRayBench {
 
   schedules::Cluster cluster_ = on_flexray();
   timebase::Oscillator clock_{25'000, 0, 0};
+  TrueTime now_{};
   sim::MediumQueue queue_{kRoom};
   sim::FramePool pool_{kRoom};
   sim::FlexRayMedium medium_{cluster_, queue_, pool_};
