@@ -37,7 +37,7 @@ void FlexRayController::State::send_static(Microticks at) {
   const bool starting = mac_mode(poc) == MacMode::kStartupFrame;
   const Cni::Fragment content = starting ? Cni::Fragment{} : cni.fetch(slot, clock->cycle());
   const bool null_frame = starting || (slot.pdu != kNoPdu && content.payload.empty());
-  const Microticks end = at + bits(wire::frame_bits(g, g.gPayloadLengthStatic));
+  const Microticks end = at + bits(schedules::frame_bits(g, g.gPayloadLengthStatic));
   const Channel last_channel = includes(slot.channels, Channel::kB) ? Channel::kB : Channel::kA;
   if (p.pKeySlotUsedForSync && slot.slot == p.pKeySlotId) sync.own(slot.slot);
   for (const Channel channel : kChannels)
@@ -98,7 +98,7 @@ void FlexRayController::State::send_dynamic(Channel channel, Microticks at) {
     const Cni::Fragment content = cni.fetch(slot, clock->cycle());
     cni.carried(slot, channel);
     const int words = static_cast<int>((content.payload.size() + 1) / 2);
-    const int last = minislots.dts_end(*clock, at + bits(wire::frame_bits(g, words)), bits(1));
+    const int last = minislots.dts_end(*clock, at + bits(schedules::frame_bits(g, words)), bits(1));
     // pLatestTx keeps the longest frame within the segment; the checker proves it.
     const Microticks end = clock->start_of(minislots.action_point(std::min(last, minislots.count())));
     d.counter.occupied(d.minislot, last);

@@ -145,12 +145,12 @@ TEST(Controller, L1_NextEventIsNeverInThePast) {
     const Microticks next = node.controller.next_event();
     ASSERT_GT(next, now);
     now = next + Microticks{step % 7 == 0 ? 5000 : 0};   // now and then late
-    const std::int64_t cycle = node.controller.clock().cycle();
+    const std::int64_t cycle = node.controller.clock()->cycle();
     node.controller.advance(now);
-    ASSERT_GE(node.controller.clock().cycle(), cycle);
-    ASSERT_LE(node.controller.clock().cycle(), cycle + 1);   // none is passed over
+    ASSERT_GE(node.controller.clock()->cycle(), cycle);
+    ASSERT_LE(node.controller.clock()->cycle(), cycle + 1);   // none is passed over
   }
-  EXPECT_GT(node.controller.clock().cycle(), 100);
+  EXPECT_GT(node.controller.clock()->cycle(), 100);
 }
 
 TEST(Controller, L4_NothingAllocatesAfterConstruction) {

@@ -34,7 +34,7 @@ struct CameraHost {
   CameraHost() {
     while (cluster.can_buses[camera_can].name != "camera_can") ++camera_can;
     const schedules::Task& task = cluster.node(id).tasks[0];
-    const ExecutiveConfig config{&cluster, id, timebase::Oscillator(25'000, 0, 0), {{1000}, 0}, 1, 0, {}};
+    const ExecutiveConfig config{&cluster, id, timebase::Oscillator(25'000, 0, 0), bus::InitialClock{{1000}, 0}, 1, 0, {}};
     executive = std::make_unique<Executive>(
         config,
         std::vector<std::shared_ptr<Step>>{

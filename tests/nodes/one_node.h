@@ -85,7 +85,7 @@ struct OneNode {
   explicit OneNode(std::vector<schedules::Task> tasks, std::vector<std::shared_ptr<Step>> steps = {}) {
     while (steps.size() < tasks.size()) steps.push_back(std::make_shared<Scripted>());
     cluster.nodes[0].tasks = std::move(tasks);
-    const ExecutiveConfig config{&cluster, NodeId{0}, timebase::Oscillator(25'000, 0, 0), {{1000}, 0}, 1,
+    const ExecutiveConfig config{&cluster, NodeId{0}, timebase::Oscillator(25'000, 0, 0), bus::InitialClock{{1000}, 0}, 1,
                                  0,        {}};
     executive = std::make_unique<Executive>(config, std::move(steps), &port, std::vector<bus::CanPort*>{},
                                             lines, heard);
