@@ -8,8 +8,8 @@
 #include <charconv>
 #include <set>
 
+#include "core/decimal.h"
 #include "core/file_bytes.h"
-#include "core/int128.h"
 
 namespace ttf {
 
@@ -37,30 +37,6 @@ std::optional<T> parse_number(std::string_view text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
   return value;
-}
-
-// Decimal text times a power of ten, exactly; nothing where it is not whole or does not fit.
-std::optional<std::int64_t> parse_scaled(std::string_view text, std::int64_t scale) {
-  const bool negative = text.starts_with('-');
-  if (negative) text.remove_prefix(1);
-  Int128 digits = 0;
-  std::int64_t denominator = 1;
-  bool after_point = false, any = false;
-  for (const char c : text) {
-    if (c == '.' && !after_point) {
-      after_point = true;
-      continue;
-    }
-    if (c < '0' || c > '9' || digits > (static_cast<Int128>(1) << 62) || denominator > 1'000'000'000'000)
-      return std::nullopt;
-    digits = digits * 10 + (c - '0');
-    if (after_point) denominator *= 10;
-    any = true;
-  }
-  const Int128 scaled = digits * scale;
-  if (!any || scaled % denominator != 0 || scaled / denominator > INT64_MAX) return std::nullopt;
-  const auto value = static_cast<std::int64_t>(scaled / denominator);
-  return negative ? -value : value;
 }
 
 std::optional<Duration> parse_duration(const std::string& text) {

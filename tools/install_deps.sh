@@ -6,7 +6,7 @@ packages=(
   # compilers and build
   g++ cmake ninja-build ccache pkg-config git ca-certificates python3
   # libraries
-  libeigen3-dev libfmt-dev libyaml-cpp-dev libcli11-dev nlohmann-json3-dev
+  libeigen3-dev libfmt-dev libyaml-cpp-dev libpugixml-dev libcli11-dev nlohmann-json3-dev
   libzstd-dev zlib1g-dev protobuf-compiler libprotobuf-dev
   librsvg2-dev libcairo2-dev fonts-dejavu-core
   # tests

@@ -1,0 +1,37 @@
+#include "core/decimal.h"
+
+#include <gtest/gtest.h>
+
+#include "core/random.h"
+
+namespace ttf {
+namespace {
+
+TEST(Decimal, ReadsExactlyOrNotAtAll) {
+  EXPECT_EQ(parse_scaled("1.375000", 1'000'000), 1'375'000);
+  EXPECT_EQ(parse_scaled("-0.5", 10), -5);
+  EXPECT_EQ(parse_scaled("8.0", 1), 8);
+  EXPECT_EQ(parse_scaled("1.23", 10), std::nullopt);
+  for (const char* text : {"", "-", ".", "1e3", "+1", " 1", "1.2.3", "99999999999999999999", "0x10"})
+    EXPECT_EQ(parse_scaled(text, 1), std::nullopt) << text;
+}
+
+TEST(Decimal, WritesWithoutTrailingZeros) {
+  EXPECT_EQ(scaled_text(12'500, 1'000'000), "0.0125");
+  EXPECT_EQ(scaled_text(5'000'000'000, 1'000'000), "5000");
+  EXPECT_EQ(scaled_text(-1'500'001, 1'000), "-1500.001");
+  EXPECT_EQ(scaled_text(0, 1'000), "0");
+  EXPECT_EQ(scaled_text(7, 1), "7");
+}
+
+TEST(Decimal, WhatIsWrittenIsReadAgain) {
+  RandomStream random({.seed = 1, .purpose = Purpose::kTest, .entity = 0, .index = 0});
+  for (int i = 0; i < 10'000; ++i) {
+    const auto value = static_cast<std::int64_t>(random.bits()) >> (8 + i % 50);
+    for (const std::int64_t scale : {1, 1'000, 1'000'000})
+      EXPECT_EQ(parse_scaled(scaled_text(value, scale), scale), value);
+  }
+}
+
+}  // namespace
+}  // namespace ttf
