@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -11,6 +12,8 @@
 #include "report/schedule_picture.h"
 #include "schedules/ages.h"
 #include "schedules/checker.h"
+#include "schedules/fibex_export.h"
+#include "schedules/fibex_import.h"
 #include "schedules/loader.h"
 #include "schedules/ports.h"
 #include "schedules/show.h"
@@ -21,6 +24,7 @@ namespace {
 struct Options {
   std::string file;
   std::string out;
+  std::string format;
   bool json = false;
 };
 
@@ -62,10 +66,34 @@ int show(const Options& options) {
   return 0;
 }
 
+void write_text(const std::string& text, const std::string& path) {
+  if (path.empty()) {
+    fmt::print("{}", text);
+    return;
+  }
+  std::ofstream out(path, std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) throw InputError(Finding{path, 0, "", "", "cannot be written"});
+}
+
+int export_cluster(const Options& options) {
+  if (options.format == "fibex") {
+    write_text(schedules::fibex_text(schedules::load_checked_cluster(options.file)), options.out);
+    return 0;
+  }
+  const schedules::FibexImport import = schedules::import_fibex(options.file);
+  for (const Finding& finding : import.left_out) fmt::print(stderr, "note: {}\n", finding.sentence());
+  const std::string yaml = schedules::skeleton_yaml(import);
+  schedules::parse_cluster(yaml, options.out.empty() ? "cluster.yaml" : options.out);   // what is written can be read
+  write_text(yaml, options.out);
+  return 0;
+}
+
 }  // namespace
 
 void add_schedule(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand("schedule", "Validate and draw schedules");
+  CLI::App* command = app.add_subcommand("schedule", "Validate, draw and exchange schedules");
   command->require_subcommand(1);
   auto options = std::make_shared<Options>();
   CLI::App* checking = command->add_subcommand("check", "Prove a cluster consistent and bound its measurements' ages");
@@ -78,6 +106,17 @@ void add_schedule(CLI::App& app, Action& action) {
   showing->add_option("file", options->file, "Cluster file")->required();
   showing->add_option("-o,--out", options->out, "Picture to write: .svg, .png or .pdf");
   showing->callback([options, &action] { action = [options] { return show(*options); }; });
+  CLI::App* exporting = command->add_subcommand(
+      "export", "Write a cluster as FIBEX 3.1, or a FIBEX file's FlexRay cluster as the beginning of a cluster file");
+  exporting->footer(
+      "Examples: ttfusion schedule export schedules/paper_synchronised.yaml --format fibex -o cluster.xml\n"
+      "          ttfusion schedule export cluster.xml --format yaml -o cluster.yaml");
+  exporting->add_option("file", options->file, "Cluster file (fibex), or FIBEX file (yaml)")->required();
+  exporting->add_option("--format", options->format, "fibex: out of a cluster file; yaml: out of a FIBEX file")
+      ->required()
+      ->check(CLI::IsMember({"fibex", "yaml"}));
+  exporting->add_option("-o,--out", options->out, "File to write; else standard output");
+  exporting->callback([options, &action] { action = [options] { return export_cluster(*options); }; });
 }
 
 }  // namespace ttf::cli

@@ -1,0 +1,269 @@
+#include "schedules/fibex_file.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+
+#include "core/decimal.h"
+#include "schedules/fibex_parameters.h"
+
+namespace ttf::schedules {
+
+std::string FibexReader::name_of(XmlElement& element) {
+  const std::string id = element.attribute("ID");
+  const std::string name = element.text_of("ho:SHORT-NAME").value_or(id);
+  if (name.empty()) fail(element, "", "must have a SHORT-NAME");
+  if (name.size() > 128) fail(element, name, "must have a name of at most 128 bytes");
+  for (const char c : name)
+    if (static_cast<unsigned char>(c) < 0x20) {
+      fail(element, name, "must have a printable name");
+      break;
+    }
+  return name;
+}
+
+int FibexReader::integer(XmlElement& element, std::string_view name, int low, int high, std::optional<int> otherwise) {
+  auto child = element.child(name);
+  if (!child) {
+    if (!otherwise) fail(element, "", fmt::format("must have a {}", name));
+    return otherwise.value_or(low);
+  }
+  const std::string text = child->text();
+  child->finish();
+  const auto value = parse_scaled(text, 1);
+  if (value && *value >= low && *value <= high) return static_cast<int>(*value);
+  fail(*child, text, fmt::format("must be a whole number, {}..{}", low, high));
+  return low;
+}
+
+bool FibexReader::boolean(XmlElement& element, std::string_view name, bool otherwise) {
+  auto child = element.child(name);
+  if (!child) return otherwise;
+  const std::string text = child->text();
+  child->finish();
+  if (text == "true" || text == "1") return true;
+  if (text != "false" && text != "0") fail(*child, text, "must be true or false");
+  return false;
+}
+
+std::vector<double> FibexReader::numbers(XmlElement& element, std::string_view name) {
+  std::vector<double> found;
+  for (XmlElement& child : element.children(name)) {
+    child.ignore("@INTERVAL-TYPE");   // all limits are read as closed ones
+    const std::string text = child.text();
+    child.finish();
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error == std::errc{} && end == text.data() + text.size() && std::isfinite(value))
+      found.push_back(value);
+    else
+      fail(child, text, "must be a number");
+  }
+  return found;
+}
+
+std::optional<double> FibexReader::number(XmlElement& element, std::string_view name) {
+  const std::vector<double> found = numbers(element, name);
+  if (found.size() > 1) fail(element, "", fmt::format("must have one {}", name));
+  return found.empty() ? std::nullopt : std::optional<double>(found.front());
+}
+
+void FibexReader::fail(const XmlElement& element, std::string value, std::string expected) {
+  wrong_.add({file_, element.line(), element.path(), std::move(value), std::move(expected)});
+}
+
+void FibexReader::leave_out(const XmlElement& element, std::string value, std::string why) {
+  left_out_.add({file_, element.line(), element.path(), std::move(value), std::move(why)});
+}
+
+namespace {
+
+constexpr int kLastSlotId = 2047;   // cSlotIDMax
+
+// Sets the parameters whose elements are there.
+template <class Parameters, std::size_t kCount>
+void read_parameters(XmlElement& element, const FibexParameter (&table)[kCount], Parameters& parameters,
+                     std::set<std::string, std::less<>>& given, FibexReader& reader) {
+  for (const FibexParameter& one : table) {
+    auto child = element.child(one.element);
+    if (!child) continue;
+    const std::string text = child->text();
+    child->finish();
+    if (const auto expected = set_fibex_value(parameters, one.name, text))
+      reader.fail(*child, text, fmt::format("{} ({})", *expected, one.name));
+    else
+      given.insert(std::string(one.name));
+  }
+}
+
+// By its xsi:type, or, where it has none, by an element that only FlexRay has.
+bool is_flexray(XmlElement& element, std::string_view type, std::string_view witness) {
+  const std::string given = element.attribute("xsi:type");
+  return given.empty() ? element.has(witness) : given == fmt::format("flexray:{}", type);
+}
+
+void read_cluster(XmlElement& cluster, FibexFile& out, FibexReader& reader) {
+  static constexpr FibexParameter kSpeed[] = {{"baudrate", "fx:SPEED"}};
+  out.cluster_name = reader.name_of(cluster);
+  out.cluster_line = cluster.line();
+  read_parameters(cluster, kSpeed, out.global, out.given, reader);
+  read_parameters(cluster, kFibexCluster, out.global, out.given, reader);
+  if (auto wake_up = cluster.child("flexray:WAKE-UP")) {
+    read_parameters(*wake_up, kFibexWakeUp, out.global, out.given, reader);
+    wake_up->finish();
+  }
+  if (auto extension = cluster.child("fx:MANUFACTURER-EXTENSION")) {
+    read_parameters(*extension, kFibexExtension, out.global, out.given, reader);
+    extension->finish();
+  }
+  // An eighth of gdBit, which is read, or else derived from the bit rate.
+  cluster.ignore("flexray:SAMPLE-CLOCK-PERIOD");
+  for (const char* known : {"fx:PROTOCOL", "fx:PROTOCOL-VERSION", "fx:CHANNEL-REFS", "fx:MEDIUM"}) cluster.ignore(known);
+  if (const auto policy = cluster.text_of("fx:BIT-COUNTING-POLICY"); policy && *policy != "SAWTOOTH")
+    reader.fail(cluster, *policy, "must have the BIT-COUNTING-POLICY SAWTOOTH: no other is understood");
+  if (!reader.boolean(cluster, "fx:IS-HIGH-LOW-BIT-ORDER", true))
+    reader.fail(cluster, "false", "must have the IS-HIGH-LOW-BIT-ORDER true: no other is understood");
+  cluster.finish();
+}
+
+// CYCLE-COUNTER names one cycle of 64; BASE-CYCLE and CYCLE-REPETITION a series.
+void read_timing(XmlElement& timing, FibexTriggering& out, FibexReader& reader) {
+  out.slot = reader.integer(timing, "fx:SLOT-ID", 1, kLastSlotId);
+  if (timing.has("fx:CYCLE-COUNTER")) {
+    out.base_cycle = reader.integer(timing, "fx:CYCLE-COUNTER", 0, 63);
+    out.repetition = 64;
+  } else {
+    out.repetition = reader.integer(timing, "fx:CYCLE-REPETITION", 1, 64, 1);
+    out.base_cycle = reader.integer(timing, "fx:BASE-CYCLE", 0, 63, 0);
+    if (out.base_cycle >= out.repetition)
+      reader.fail(timing, std::to_string(out.base_cycle),
+                  fmt::format("must have a BASE-CYCLE below CYCLE-REPETITION, 0..{}", out.repetition - 1));
+  }
+  timing.finish();
+}
+
+void read_channel(XmlElement& channel, FibexFile& out, FibexReader& reader) {
+  const std::string name = channel.text_of("flexray:FLEXRAY-CHANNEL-NAME").value_or("");
+  channel.ignore("ho:SHORT-NAME");
+  if (name != "A" && name != "B") reader.fail(channel, name, "must have a FLEXRAY-CHANNEL-NAME, A or B");
+  for (XmlElement& one : channel.children_of("fx:FRAME-TRIGGERINGS", "fx:FRAME-TRIGGERING")) {
+    FibexTriggering triggering;
+    triggering.id = one.attribute("ID");
+    triggering.channel = name == "B" ? Channel::kB : Channel::kA;
+    triggering.line = one.line();
+    triggering.frame = one.reference("fx:FRAME-REF");
+    auto timings = one.children_of("fx:TIMINGS", "fx:ABSOLUTELY-SCHEDULED-TIMING");
+    one.finish();
+    if (timings.empty()) reader.leave_out(one, triggering.id, "has no ABSOLUTELY-SCHEDULED-TIMING, and is left out");
+    for (XmlElement& timing : timings) {
+      read_timing(timing, triggering, reader);
+      out.triggerings.push_back(triggering);
+    }
+  }
+  channel.finish();
+}
+
+// STARTUP-SYNC and SYNC hold the slot; NONE none, which our own extension adds.
+void read_key_slot(XmlElement& controller, FibexEcu& out, FibexReader& reader) {
+  static constexpr FibexParameter kKeySlot[] = {{"pKeySlotId", "flexray:STARTUP-SYNC"},
+                                                {"pKeySlotId", "flexray:SYNC"},
+                                                {"pKeySlotId", "ttf:KEY-SLOT-ID"}};
+  if (auto usage = controller.child("flexray:KEY-SLOT-USAGE")) {
+    out.parameters.pKeySlotUsedForStartup = usage->has("flexray:STARTUP-SYNC");
+    out.parameters.pKeySlotUsedForSync = usage->has("flexray:STARTUP-SYNC") || usage->has("flexray:SYNC");
+    for (const char* flag : {"pKeySlotUsedForStartup", "pKeySlotUsedForSync"}) out.given.insert(flag);
+    usage->ignore("flexray:NONE");
+    read_parameters(*usage, kKeySlot, out.parameters, out.given, reader);
+    usage->finish();
+  }
+  if (auto extension = controller.child("fx:MANUFACTURER-EXTENSION")) {
+    read_parameters(*extension, kKeySlot, out.parameters, out.given, reader);
+    extension->finish();
+  }
+}
+
+void read_controller(XmlElement& controller, FibexEcu& out, FibexReader& reader) {
+  out.has_controller = true;
+  controller.ignore("ho:SHORT-NAME");
+  read_key_slot(controller, out, reader);
+  read_parameters(controller, kFibexController, out.parameters, out.given, reader);
+  // These follow from others: pMicroPerCycle, and how far apart any two clocks drift.
+  for (const char* known : {"flexray:MAX-DRIFT", "flexray:MICRO-PER-MACRO-NOM"}) controller.ignore(known);
+  // Of these no cluster file has more than none: a host's external correction, and frames in the dynamic segment.
+  for (const char* known :
+       {"flexray:EXTERN-OFFSET-CORRECTION", "flexray:EXTERN-RATE-CORRECTION", "flexray:MAX-DYNAMIC-PAYLOAD-LENGTH"})
+    if (const auto value = controller.text_of(known); value && *value != "0")
+      reader.leave_out(controller, fmt::format("{} {}", known, *value), "is left out: a cluster file has none but 0");
+  controller.finish();
+}
+
+void read_ecu(XmlElement& ecu, FibexFile& out, FibexReader& reader) {
+  FibexEcu one;
+  one.name = reader.name_of(ecu);
+  one.line = ecu.line();
+  for (XmlElement& controller : ecu.children_of("fx:CONTROLLERS", "fx:CONTROLLER")) {
+    if (one.has_controller || !is_flexray(controller, "CONTROLLER-TYPE", "flexray:MICRO-PER-CYCLE"))
+      reader.leave_out(controller, controller.attribute("ID"), "is not the ECU's first FlexRay controller, and left out");
+    else
+      read_controller(controller, one, reader);
+  }
+  for (XmlElement& connector : ecu.children_of("fx:CONNECTORS", "fx:CONNECTOR")) {
+    const auto ports = [&](const char* list, const char* port, std::vector<std::string>& to) {
+      for (XmlElement& item : connector.children_of(list, port)) {
+        to.push_back(item.reference("fx:FRAME-TRIGGERING-REF"));
+        item.ignore("fx:COMPLETE-FRAME");
+        item.finish();
+      }
+    };
+    ports("fx:INPUTS", "fx:INPUT-PORT", one.receives);
+    ports("fx:OUTPUTS", "fx:OUTPUT-PORT", one.sends);
+    for (const char* known : {"fx:CHANNEL-REF", "fx:CONTROLLER-REF"}) connector.ignore(known);
+    connector.finish();
+  }
+  ecu.finish();
+  out.ecus.push_back(std::move(one));
+}
+
+}  // namespace
+
+FibexFile read_fibex(const XmlFile& file, Findings& wrong, Findings& left_out) {
+  FibexFile out;
+  FibexReader reader(file.name(), wrong, left_out);
+  XmlElement root = file.root(left_out);
+  if (root.name() != "fx:FIBEX") {
+    reader.fail(root, "", "must be fx:FIBEX, the root of a FIBEX file");
+    return out;
+  }
+  for (const char* known : {"@VERSION", "fx:PROJECT"}) root.ignore(known);
+  auto elements = root.child("fx:ELEMENTS");
+  if (!elements) {
+    reader.fail(root, "", "must have fx:ELEMENTS");
+    return out;
+  }
+  bool found = false;
+  for (XmlElement& cluster : elements->children_of("fx:CLUSTERS", "fx:CLUSTER")) {
+    if (found || !is_flexray(cluster, "CLUSTER-TYPE", "flexray:MACRO-PER-CYCLE")) {
+      reader.leave_out(cluster, cluster.attribute("ID"), "is not the first FlexRay cluster, and left out");
+      continue;
+    }
+    found = true;
+    read_cluster(cluster, out, reader);
+  }
+  if (!found) reader.fail(*elements, "", "must have a cluster of xsi:type flexray:CLUSTER-TYPE");
+  for (XmlElement& channel : elements->children_of("fx:CHANNELS", "fx:CHANNEL")) {
+    if (is_flexray(channel, "CHANNEL-TYPE", "flexray:FLEXRAY-CHANNEL-NAME"))
+      read_channel(channel, out, reader);
+    else
+      reader.leave_out(channel, channel.attribute("ID"), "is no FlexRay channel, and left out");
+  }
+  for (XmlElement& ecu : elements->children_of("fx:ECUS", "fx:ECU")) read_ecu(ecu, out, reader);
+  const auto codings = read_codings(root, *elements, reader);
+  out.pdus = read_pdus(*elements, codings, reader);
+  out.frames = read_frames(*elements, reader);
+  elements->finish();
+  root.finish();
+  return out;
+}
+
+}  // namespace ttf::schedules

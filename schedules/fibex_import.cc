@@ -1,0 +1,290 @@
+#include "schedules/fibex_import.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include "schedules/fibex_assumptions.h"
+#include "schedules/fibex_lists.h"
+
+namespace ttf::schedules {
+namespace {
+
+// What a cluster file can say (schedules/loader.h).
+constexpr std::size_t kMostNamed = 200;
+constexpr int kLastStaticSlot = 1023;   // cStaticSlotIDMax
+
+class Importer {
+ public:
+  Importer(FibexFile file, std::string name, Findings wrong, Findings left_out)
+      : file_(std::move(file)), name_(std::move(name)), wrong_(std::move(wrong)), left_out_(std::move(left_out)) {}
+
+  FibexImport import() {
+    wrong_.throw_if_any();
+    Cluster& cluster = out_.cluster;
+    cluster.file = name_;
+    cluster.name = file_.cluster_name;
+    assume_global(file_, name_, out_.assumed, wrong_);
+    wrong_.throw_if_any();
+    cluster.flexray = file_.global;
+    pdus_ = by_id("fx:PDU", file_.pdus);
+    frames_ = by_id("fx:FRAME", file_.frames);
+    take_lists();
+    take_nodes();
+    limit("fx:PDUS", cluster.pdus.size());
+    limit("fx:ECUS", cluster.nodes.size());
+    wrong_.throw_if_any();   // ids are bytes
+    take_frames();
+    complete_nodes();
+    wrong_.throw_if_any();
+    name_once();
+    return std::move(out_);
+  }
+
+ private:
+  void fail(int line, std::string key, std::string value, std::string expected) {
+    wrong_.add({name_, line, std::move(key), std::move(value), std::move(expected)});
+  }
+  void leave_out(int line, std::string key, std::string value, std::string why) {
+    left_out_.add({name_, line, std::move(key), std::move(value), std::move(why)});
+  }
+  void limit(std::string key, std::size_t count) {
+    if (count > kMostNamed)
+      fail(0, std::move(key), std::to_string(count), fmt::format("must have at most {} entries", kMostNamed));
+  }
+
+  template <class Item>
+  std::map<std::string, const Item*> by_id(const char* key, const std::vector<Item>& items) {
+    std::map<std::string, const Item*> found;
+    for (const Item& item : items)
+      if (!found.emplace(item.id, &item).second) fail(item.line, key, item.id, "must have an ID of its own");
+    return found;
+  }
+
+  void take_lists() {
+    std::set<std::string> parts;   // of lists: said with them
+    std::vector<const FibexPdu*> others;
+    std::map<std::string, int> names;
+    for (const FibexPdu& pdu : file_.pdus) {
+      ListFound found = as_list(pdu, pdus_);
+      if (!found.layout) continue;
+      if (!names.emplace(pdu.name, pdu.line).second) fail(pdu.line, "fx:PDU", pdu.name, "must have a name of its own");
+      parts.insert({pdu.id, pdu.multiplexer->static_pdu, pdu.multiplexer->layouts.front().second});
+      lists_[pdu.id] = static_cast<PduId>(out_.cluster.pdus.size());
+      out_.cluster.pdus.push_back(std::move(*found.layout));
+    }
+    for (const FibexPdu& pdu : file_.pdus) {
+      if (parts.count(pdu.id) != 0) continue;
+      std::string reason = as_list(pdu, pdus_).reason;
+      leave_out(pdu.line, "fx:PDU", pdu.name, fmt::format("is no list of a cluster file, and a comment there: {}", reason));
+      out_.foreign.push_back({pdu, std::move(reason)});
+    }
+  }
+
+  // ECUs that have something to do with the cluster.
+  void take_nodes() {
+    std::set<std::string> triggered;
+    for (const FibexTriggering& one : file_.triggerings) triggered.insert(one.id);
+    std::set<std::string> names;
+    for (const FibexEcu& ecu : file_.ecus) {
+      const auto in_cluster = [&](const std::string& id) { return triggered.count(id) != 0; };
+      if (!ecu.has_controller && std::none_of(ecu.sends.begin(), ecu.sends.end(), in_cluster) &&
+          std::none_of(ecu.receives.begin(), ecu.receives.end(), in_cluster)) {
+        leave_out(ecu.line, "fx:ECU", ecu.name, "is not on the FlexRay cluster, and left out");
+        continue;
+      }
+      if (!names.insert(ecu.name).second) fail(ecu.line, "fx:ECU", ecu.name, "must have a name of its own");
+      const auto id = static_cast<NodeId>(out_.cluster.nodes.size());
+      for (const std::string& sent : ecu.sends) {
+        if (!in_cluster(sent)) fail(ecu.line, "fx:OUTPUT-PORT", sent, "must have a FRAME-TRIGGERING-REF of this cluster");
+        if (const auto [other, fresh] = senders_.emplace(sent, id); !fresh && other->second != id)
+          fail(ecu.line, "fx:OUTPUT-PORT", sent, fmt::format("must have one sender, not {} too", ecu.name));
+      }
+      Node& node = out_.cluster.nodes.emplace_back();
+      node.name = ecu.name;
+      node.line = ecu.line;
+      ecus_.push_back(&ecu);
+    }
+  }
+
+  // Whether a cluster file can have it in its static segment.
+  bool is_static(const FibexTriggering& one) {
+    const auto out = [&](const std::string& value, const char* why) {
+      leave_out(one.line, "fx:FRAME-TRIGGERING", value, why);
+      return false;
+    };
+    if (one.slot > out_.cluster.flexray.gNumberOfStaticSlots || one.slot > kLastStaticSlot)
+      return out(fmt::format("slot {}", one.slot), "is left out: it is not one of the static slots");
+    if ((one.repetition & (one.repetition - 1)) != 0)
+      return out(fmt::format("repetition {}", one.repetition), "is left out: cycles repeat by a power of two");
+    if (senders_.count(one.id) == 0) return out(one.id, "is left out: no ECU sends it");
+    return true;
+  }
+
+  void take_frames() {
+    using Key = std::tuple<int, int, int, std::string, NodeId>;   // slot, base cycle, repetition, frame, sender
+    std::map<Key, std::pair<unsigned, int>> slots;                // channels, line of the first
+    for (const FibexTriggering& one : file_.triggerings) {
+      if (frames_.count(one.frame) == 0) {
+        fail(one.line, "fx:FRAME-TRIGGERING", one.frame, "must have a FRAME-REF to a frame of this file");
+        continue;
+      }
+      if (!is_static(one)) continue;
+      auto& [channels, line] = slots[{one.slot, one.base_cycle, one.repetition, one.frame, senders_.at(one.id)}];
+      const unsigned channel = 1u << static_cast<unsigned>(one.channel);
+      if ((channels & channel) != 0)
+        leave_out(one.line, "fx:FRAME-TRIGGERING", one.id, "is left out: it says the same as an earlier one");
+      if (channels == 0) line = one.line;
+      channels |= channel;
+    }
+    for (const auto& [key, found] : slots) {
+      const auto& [slot, base_cycle, repetition, frame, sender] = key;
+      FrameSlot out;
+      out.slot = slot;
+      out.channels = static_cast<Channels>(found.first);
+      out.base_cycle = base_cycle;
+      out.repetition = repetition;
+      out.sender = sender;
+      out.line = found.second;
+      take_contents(*frames_.at(frame), out);
+      out_.cluster.frames.push_back(out);
+    }
+    order_frames();
+    take_receivers();
+  }
+
+  // The key orders by slot and base cycle; within one, channel A first.
+  void order_frames() {
+    std::vector<std::size_t> order(out_.cluster.frames.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    const auto rank = [&](std::size_t i) {
+      const FrameSlot& f = out_.cluster.frames[i];
+      return std::tuple{f.slot, f.base_cycle, f.repetition, static_cast<int>(f.channels), i};
+    };
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
+    std::vector<FrameSlot> frames;
+    std::vector<std::string> contents;
+    for (const std::size_t i : order) {
+      frames.push_back(out_.cluster.frames[i]);
+      contents.push_back(out_.contents[i]);
+    }
+    out_.cluster.frames = std::move(frames);
+    out_.contents = std::move(contents);
+  }
+
+  void take_contents(const FibexFrame& frame, FrameSlot& out) {
+    std::string contents;
+    if (frame.bytes > 2 * out_.cluster.flexray.gPayloadLengthStatic)
+      fail(frame.line, "fx:FRAME", std::to_string(frame.bytes),
+           fmt::format("must have a BYTE-LENGTH of at most {}, the static payload",
+                       2 * out_.cluster.flexray.gPayloadLengthStatic));
+    for (const FibexFrame::Place& place : frame.places) {
+      const auto pdu = pdus_.find(place.pdu);
+      if (pdu == pdus_.end()) {
+        fail(frame.line, "fx:FRAME", place.pdu, "must have PDU-REFs to PDUs of this file");
+        continue;
+      }
+      const auto list = lists_.find(place.pdu);
+      if (list != lists_.end() && place.byte == 0 && frame.places.size() == 1)
+        take_fragment(frame, list->second, out);
+      else
+        contents += fmt::format("{}{} at byte {}", contents.empty() ? "" : ", ", pdu->second->name, place.byte);
+    }
+    if (out.pdu == kNoPdu && !contents.empty()) contents = fmt::format("{} carries {}", frame.name, contents);
+    out_.contents.push_back(std::move(contents));
+  }
+
+  // As our own extension says; else counted in the order of the slots.
+  void take_fragment(const FibexFrame& frame, PduId pdu, FrameSlot& out) {
+    const int fragments = out_.cluster.pdu(pdu).max_fragments();
+    out.pdu = pdu;
+    out.fragment = frame.fragment.value_or(0);
+    if (out.fragment >= fragments)
+      fail(frame.line, "ttf:FRAGMENT", std::to_string(out.fragment), fmt::format("must be 0..{}", fragments - 1));
+    if (frame.fragment || fragments == 1) return;
+    int& next = next_fragment_[{index_of(pdu), index_of(out.sender), out.base_cycle, out.repetition}];
+    out.fragment = next++ % fragments;
+    leave_out(frame.line, "fx:FRAME", frame.name,
+              fmt::format("does not say which fragment it carries; the order of slots makes it {}", out.fragment));
+  }
+
+  void take_receivers() {
+    std::map<std::string, std::string> what;   // triggering -> frame or list
+    for (const FibexTriggering& one : file_.triggerings) {
+      const auto frame = frames_.find(one.frame);
+      if (frame == frames_.end()) continue;
+      const auto& places = frame->second->places;
+      const auto pdu = places.size() == 1 ? pdus_.find(places[0].pdu) : pdus_.end();
+      what[one.id] = pdu != pdus_.end() ? pdu->second->name : frame->second->name;
+    }
+    for (const FibexEcu* ecu : ecus_) {
+      std::vector<std::string>& receives = out_.receives.emplace_back();
+      for (const std::string& id : ecu->receives) {
+        const auto found = what.find(id);
+        if (found == what.end())
+          fail(ecu->line, "fx:INPUT-PORT", id, "must have a FRAME-TRIGGERING-REF of this cluster");
+        else if (std::find(receives.begin(), receives.end(), found->second) == receives.end())
+          receives.push_back(found->second);
+      }
+    }
+  }
+
+  void complete_nodes() {
+    for (std::size_t i = 0; i < ecus_.size(); ++i) {
+      int first = 0;
+      for (const FrameSlot& frame : out_.cluster.frames)
+        if (index_of(frame.sender) == i && first == 0) first = frame.slot;
+      Node& node = out_.cluster.nodes[i];
+      node.flexray = assume_local(*ecus_[i], out_.cluster.flexray, first, out_.assumed);
+      node.microtick_ps = node.flexray->pdMicrotick_ps;
+    }
+  }
+
+  // An element that is not understood usually is so a hundred times.
+  void name_once() {
+    std::map<std::tuple<std::string, std::string, std::string>, std::size_t> known;
+    std::vector<std::pair<Finding, int>> once;
+    for (const Finding& finding : left_out_.list()) {
+      const auto [at, fresh] = known.try_emplace({finding.key, finding.value, finding.expected}, once.size());
+      if (fresh)
+        once.emplace_back(finding, 1);
+      else
+        ++once[at->second].second;
+    }
+    for (auto& [finding, times] : once) {
+      if (times > 1) finding.expected += fmt::format(" ({} times)", times);
+      out_.left_out.push_back(std::move(finding));
+    }
+    std::stable_sort(out_.left_out.begin(), out_.left_out.end(),
+                     [](const Finding& a, const Finding& b) { return a.line < b.line; });
+  }
+
+  FibexFile file_;
+  std::string name_;
+  Findings wrong_, left_out_;
+  FibexImport out_;
+  std::map<std::string, const FibexPdu*> pdus_;   // by id
+  std::map<std::string, const FibexFrame*> frames_;
+  std::map<std::string, PduId> lists_;            // by id
+  std::map<std::string, NodeId> senders_;         // of triggerings, by id
+  std::vector<const FibexEcu*> ecus_;             // of the cluster's nodes
+  std::map<std::tuple<std::size_t, std::size_t, int, int>, int> next_fragment_;
+};
+
+FibexImport import_from(const XmlFile& xml) {
+  Findings wrong, left_out;
+  FibexFile file = read_fibex(xml, wrong, left_out);
+  return Importer(std::move(file), xml.name(), std::move(wrong), std::move(left_out)).import();
+}
+
+}  // namespace
+
+FibexImport import_fibex(const std::string& path) { return import_from(XmlFile::load(path)); }
+
+FibexImport parse_fibex(std::string text, std::string name) {
+  return import_from(XmlFile::parse(std::move(text), std::move(name)));
+}
+
+}  // namespace ttf::schedules
