@@ -14,7 +14,6 @@ std::string FibexReader::name_of(XmlElement& element) {
   const std::string id = element.attribute("ID");
   const std::string name = element.text_of("ho:SHORT-NAME").value_or(id);
   if (name.empty()) fail(element, "", "must have a SHORT-NAME");
-  if (name.size() > 128) fail(element, name, "must have a name of at most 128 bytes");
   for (const char c : name)
     if (static_cast<unsigned char>(c) < 0x20) {
       fail(element, name, "must have a printable name");

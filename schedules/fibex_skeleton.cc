@@ -11,14 +11,19 @@
 namespace ttf::schedules {
 namespace {
 
-constexpr const char* kAssumed = "   # assumed: FIBEX does not say";
+constexpr const char* kAssumed = "assumed: FIBEX does not say";
+
+std::string remark(std::string_view unit, bool assumed) {
+  if (unit.empty() && !assumed) return "";
+  return fmt::format("   # {}{}{}", unit, !unit.empty() && assumed ? ", " : "", assumed ? kAssumed : "");
+}
 
 // Plain where no reader of YAML can take it for anything but text.
 std::string scalar(const std::string& text) {
   static const std::set<std::string> kMeaningful{"null", "Null", "NULL", "true", "True", "TRUE", "false",
-                                                 "False", "FALSE", "yes", "no", "on", "off", "y", "n"};
+                                                 "False", "FALSE", "yes", "no", "on", "off"};
   const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
-  const auto plain = [&](char c) { return letter(c) || (c >= '0' && c <= '9'); };
+  const auto plain = [&](char c) { return letter(c) || c == '/' || (c >= '0' && c <= '9'); };
   if (!text.empty() && letter(text[0]) && std::all_of(text.begin(), text.end(), plain) && kMeaningful.count(text) == 0)
     return text;
   std::string quoted = "\"";
@@ -61,12 +66,12 @@ class Writer {
     line("synchronisation: true");
     line("");
     line("flexray:");
-    const auto global = [&](std::string_view name) {
+    const auto global = [&](std::string_view name, std::string_view unit) {
       const bool assumed = in_.assumed.count(fmt::format("flexray.{}", name)) != 0;
-      line(fmt::format("  {}: {}{}", name, yaml_value(cluster_.flexray, name), assumed ? kAssumed : ""));
+      line(fmt::format("  {}: {}{}", name, yaml_value(cluster_.flexray, name), remark(unit, assumed)));
     };
-    for (const auto& p : kGlobalScaled) global(p.name);
-    for (const auto& p : kGlobalIntegers) global(p.name);
+    for (const auto& p : kGlobalScaled) global(p.name, p.unit);
+    for (const auto& p : kGlobalIntegers) global(p.name, "");
     write_nodes();
     write_pdus();
     line("\n# To be added: FIBEX knows no sensors.\nsensors: {}");
@@ -92,15 +97,19 @@ class Writer {
     std::string_view name;
     std::string text;
     bool assumed = false;
+    std::string_view unit;
     bool operator==(const Value& other) const { return text == other.text && assumed == other.assumed; }
   };
+  static std::string text_of(const Value& value) {
+    return fmt::format("{}: {}{}", value.name, value.text, remark(value.unit, value.assumed));
+  }
   std::vector<Value> values_of(const Node& node) const {
     std::vector<Value> values;
-    const auto add = [&](std::string_view name) {
+    const auto add = [&](std::string_view name, std::string_view unit = {}) {
       const bool assumed = in_.assumed.count(fmt::format("nodes.{}.flexray.{}", node.name, name)) != 0;
-      values.push_back({name, yaml_value(*node.flexray, name), assumed});
+      values.push_back({name, yaml_value(*node.flexray, name), assumed, unit});
     };
-    for (const auto& p : kNodeScaled) add(p.name);
+    for (const auto& p : kNodeScaled) add(p.name, p.unit);
     for (const auto& p : kNodeIntegers) add(p.name);
     for (const auto& p : kNodeFlags) add(p.name);
     return values;
@@ -118,8 +127,7 @@ class Writer {
     std::string common;
     for (std::size_t i = 0; i < values[0].size(); ++i) {
       shared.push_back(std::all_of(values.begin(), values.end(), [&](const auto& of) { return of[i] == values[0][i]; }));
-      if (shared[i])
-        common += fmt::format("\n  {}: {}{}", values[0][i].name, values[0][i].text, values[0][i].assumed ? kAssumed : "");
+      if (shared[i]) common += "\n  " + text_of(values[0][i]);
     }
     line(fmt::format("\nnode_parameters:{}", common.empty() ? " {}" : common));
     line("\nnodes:");
@@ -127,10 +135,9 @@ class Writer {
       line(fmt::format("  {}:", scalar(cluster_.nodes[n].name)));
       std::string own;
       for (std::size_t i = 0; i < shared.size(); ++i)
-        if (!shared[i])
-          own += fmt::format("\n      {}: {}{}", values[n][i].name, values[n][i].text, values[n][i].assumed ? kAssumed : "");
+        if (!shared[i]) own += "\n      " + text_of(values[n][i]);
       line(fmt::format("    flexray:{}", own.empty() ? " {}" : own));
-      line(fmt::format("    max_drift_ppm: 1500{}", kAssumed));
+      line(fmt::format("    max_drift_ppm: 1500{}", remark("cClockDeviationMax", true)));
       std::string receives;
       for (const std::string& what : in_.receives[n]) receives += (receives.empty() ? "" : ", ") + what;
       if (!receives.empty()) line(comment(fmt::format("    # receives {}", receives)));

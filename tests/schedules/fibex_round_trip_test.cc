@@ -1,0 +1,215 @@
+// What is exported and imported again is the same in timing, controllers, slots, PDUs and signals; and the exported bit
+// positions are where the codec puts the bits.
+#include <gtest/gtest.h>
+
+#include <pugixml.hpp>
+#include <utility>
+
+#include "bus/wire/pdu_codec.h"
+#include "core/random.h"
+#include "schedules/fibex_export.h"
+#include "schedules/fibex_import.h"
+#include "tests/schedules/cluster_file.h"
+#include "tests/schedules/fibex_compare.h"
+
+namespace ttf::schedules {
+namespace {
+
+void expect_round_trip(const Cluster& cluster) {
+  const std::string xml = fibex_text(cluster);
+  const FibexImport import = parse_fibex(xml, "cluster.xml");
+  EXPECT_EQ(FibexDifference::of(cluster, import.cluster), "");
+  EXPECT_EQ(import.assumed, decltype(import.assumed){});
+  EXPECT_EQ(sentences(import.left_out), "");
+  EXPECT_TRUE(import.foreign.empty());
+  const Cluster again = parse_cluster(skeleton_yaml(import), "cluster.yaml");
+  EXPECT_EQ(FibexDifference::of(cluster, again), "");
+  EXPECT_EQ(fibex_text(cluster), xml);
+}
+
+class FibexShipped : public testing::TestWithParam<std::string> {
+ protected:
+  Cluster cluster_ = load_checked_cluster(shipped_path(GetParam()));
+};
+INSTANTIATE_TEST_SUITE_P(Shipped, FibexShipped, testing::ValuesIn(shipped_clusters()), [](const auto& one) { return one.param; });
+
+TEST_P(FibexShipped, IsTheSameAfterExportAndImport) { expect_round_trip(cluster_); }
+
+TEST_P(FibexShipped, SaysWhoReceivesWhat) {
+  const FibexImport import = parse_fibex(fibex_text(cluster_), "cluster.xml");
+  for (std::size_t i = 0; i < import.cluster.nodes.size(); ++i) {
+    std::vector<std::string> expected;   // of FlexRay, in the order of their slots
+    const Node& node = cluster_.node(*cluster_.find_node(import.cluster.nodes[i].name));
+    for (const FrameSlot& frame : cluster_.frames)
+      for (const Task& task : node.tasks)
+        for (const PortBinding& port : task.reads)
+          if (!port.can_bus && port.pdu == frame.pdu &&
+              std::find(expected.begin(), expected.end(), cluster_.pdu(frame.pdu).name) == expected.end())
+            expected.push_back(cluster_.pdu(frame.pdu).name);
+    EXPECT_EQ(import.receives[i], expected) << node.name;
+  }
+}
+
+// Each parameter at either end of its range, while the others stay.
+TEST(FibexRoundTrip, KeepsEveryParameterOverItsWholeRange) {
+  const Cluster shipped = load_checked_cluster(shipped_path("paper_synchronised"));
+  const auto each_end = [&](const auto& p, auto&& parameters_of) {
+    for (const auto end : {p.low, p.high}) {
+      Cluster cluster = shipped;
+      parameters_of(cluster).*p.member = end;
+      for (Node& node : cluster.nodes)
+        if (node.flexray) node.microtick_ps = node.flexray->pdMicrotick_ps;
+      // No frame is longer than the static payload; slots beyond the static ones are none of a cluster file.
+      cluster.flexray.gNumberOfStaticSlots = std::max(cluster.flexray.gNumberOfStaticSlots, 40);
+      SCOPED_TRACE(p.name);
+      expect_round_trip(cluster);
+    }
+  };
+  const auto global = [](Cluster& cluster) -> GlobalParameters& { return cluster.flexray; };
+  const auto local = [](Cluster& cluster) -> NodeParameters& { return *cluster.nodes.back().flexray; };
+  for (const auto& p : kGlobalIntegers) each_end(p, global);
+  for (const auto& p : kGlobalScaled) each_end(p, global);
+  for (const auto& p : kNodeIntegers) each_end(p, local);
+  for (const auto& p : kNodeScaled) each_end(p, local);
+  for (const bool startup : {false, true})
+    for (const bool sync : {false, true}) {
+      if (startup && !sync) continue;   // a startup frame is a sync frame
+      for (const bool only : {false, true}) {
+        Cluster cluster = shipped;
+        NodeParameters& p = *cluster.nodes.back().flexray;
+        p.pKeySlotUsedForStartup = startup;
+        p.pKeySlotUsedForSync = sync;
+        p.pKeySlotOnlyEnabled = p.pAllowHaltDueToClock = only;
+        expect_round_trip(cluster);
+      }
+    }
+}
+
+// Random schedules: one frame of a random list, sender, channel and multiplexing in each of 40 slots.
+TEST(FibexRoundTrip, KeepsRandomSchedules) {
+  const Cluster shipped = load_checked_cluster(shipped_path("paper_unsynchronised"));
+  std::vector<NodeId> senders;
+  for (std::size_t i = 0; i < shipped.nodes.size(); ++i)
+    if (shipped.nodes[i].flexray) senders.push_back(static_cast<NodeId>(i));
+  for (std::uint32_t run = 0; run < 50; ++run) {
+    RandomStream random({.seed = 3, .purpose = Purpose::kTest, .entity = 1, .index = run});
+    const auto below = [&](int limit) { return static_cast<int>(random.bits() % static_cast<std::uint64_t>(limit)); };
+    Cluster cluster = shipped;
+    cluster.frames.clear();
+    for (int slot = 1; slot <= 40; ++slot) {
+      const int repetition = 1 << below(7);
+      const int first = below(repetition);
+      for (int base = first; base < repetition; base += 1 + below(repetition)) {
+        FrameSlot frame;
+        frame.slot = slot;
+        frame.channels = static_cast<Channels>(1 + below(3));
+        frame.base_cycle = base;
+        frame.repetition = repetition;
+        frame.sender = senders[static_cast<std::size_t>(below(static_cast<int>(senders.size())))];
+        if (below(4) != 0) {
+          frame.pdu = static_cast<PduId>(below(static_cast<int>(cluster.pdus.size())));
+          frame.fragment = below(cluster.pdu(frame.pdu).max_fragments());
+        }
+        cluster.frames.push_back(frame);
+        if (frame.channels != Channels::kA) continue;
+        // The other channel of the same slot is someone else's.
+        frame.channels = Channels::kB;
+        frame.sender = senders[0];
+        frame.pdu = kNoPdu;
+        frame.fragment = 0;
+        cluster.frames.push_back(frame);
+      }
+    }
+    expect_round_trip(cluster);
+    if (HasFailure()) break;
+  }
+}
+
+// A second reading of FIBEX' bit positions: sawtooth counting, from the most significant bit on through the bytes.
+std::uint32_t bits_at(const std::vector<std::byte>& payload, int position, int bits) {
+  std::uint32_t raw = 0;
+  int byte = position / 8, bit = position % 8;
+  for (int i = 0; i < bits; ++i) {
+    raw = raw << 1 | (static_cast<std::uint32_t>(payload[static_cast<std::size_t>(byte)]) >> bit & 1u);
+    if (bit == 0) ++byte;
+    bit = bit == 0 ? 7 : bit - 1;
+  }
+  return raw;
+}
+
+struct Place {
+  int position = 0, bits = 0;
+};
+
+// Where the PDU of that name has its signal, straight from the XML.
+Place place_of(const pugi::xml_document& xml, const std::string& pdu, const std::string& signal) {
+  const auto text = [](const pugi::xpath_node& node) { return std::stoi(node.node().text().get()); };
+  for (const pugi::xpath_node& found :
+       xml.select_nodes(("//fx:PDU[ho:SHORT-NAME='" + pdu + "']//fx:SIGNAL-INSTANCE").c_str())) {
+    const std::string id = found.node().child("fx:SIGNAL-REF").attribute("ID-REF").value();
+    const pugi::xml_node one = xml.select_node(("//fx:SIGNAL[@ID='" + id + "']").c_str()).node();
+    if (one.child("ho:SHORT-NAME").text().get() != signal) continue;
+    EXPECT_STREQ(found.node().child("fx:IS-HIGH-LOW-BYTE-ORDER").text().get(), "true");
+    const std::string coding = one.child("fx:CODING-REF").attribute("ID-REF").value();
+    return {std::stoi(found.node().child("fx:BIT-POSITION").text().get()),
+            text(xml.select_node(("//fx:CODING[@ID='" + coding + "']/ho:CODED-TYPE/ho:BIT-LENGTH").c_str()))};
+  }
+  ADD_FAILURE() << pdu << " has no signal " << signal;
+  return {};
+}
+
+TEST_P(FibexShipped, PutsSignalsWhereTheCodecPutsTheirBits) {
+  pugi::xml_document xml;
+  ASSERT_TRUE(xml.load_string(fibex_text(cluster_).c_str()));
+  RandomStream random({.seed = 9, .purpose = Purpose::kTest, .entity = 2, .index = 0});
+  for (const PduLayout& layout : cluster_.pdus) {
+    std::vector<std::byte> payload(static_cast<std::size_t>(layout.fragment_bytes));
+    for (std::byte& byte : payload) byte = static_cast<std::byte>(random.bits());
+    for (std::size_t s = 0; s < layout.header.size(); ++s) {
+      if (layout.header[s].name == "spare") continue;
+      const Place place = place_of(xml, layout.name + "_header", layout.header[s].name);
+      EXPECT_EQ(bits_at(payload, place.position, place.bits), wire::read_header_raw(layout, payload, s));
+    }
+    const std::vector<std::byte> elements(payload.begin() + layout.header_bits / 8, payload.end());
+    for (int e = 0; e < layout.elements_per_fragment; ++e)
+      for (std::size_t s = 0; s < layout.element.size(); ++s) {
+        if (layout.element[s].name == "spare") continue;
+        const std::string name = fmt::format("{}_{}", layout.element[s].name, e);
+        const Place place = place_of(xml, layout.name + "_elements", name);
+        EXPECT_EQ(bits_at(elements, place.position, place.bits), wire::read_element_raw(layout, payload, e, s)) << name;
+      }
+  }
+}
+
+TEST(FibexExport, ByHand) {
+  pugi::xml_document xml;
+  const std::string text = fibex_text(load_checked_cluster(shipped_path("paper_synchronised")));
+  ASSERT_TRUE(xml.load_string(text.c_str()));
+  const auto at = [&](const char* path) { return std::string(xml.select_node(path).node().text().get()); };
+  EXPECT_EQ(at("/fx:FIBEX/fx:ELEMENTS/fx:CLUSTERS/fx:CLUSTER/fx:SPEED"), "10000000");
+  EXPECT_EQ(at("//fx:CLUSTER/flexray:CYCLE"), "5000");
+  EXPECT_EQ(at("//fx:CLUSTER/flexray:SAMPLE-CLOCK-PERIOD"), "0.0125");
+  EXPECT_EQ(at("//fx:CLUSTER/flexray:WAKE-UP/flexray:WAKE-UP-SYMBOL-RX-WINDOW"), "301");
+  EXPECT_EQ(at("//fx:ECU[ho:SHORT-NAME='fusion']//flexray:KEY-SLOT-USAGE/flexray:STARTUP-SYNC"), "4");
+  EXPECT_EQ(at("//fx:ECU[ho:SHORT-NAME='fusion']//flexray:MICROTICK"), "0.025");
+  EXPECT_EQ(at("//fx:ECU[ho:SHORT-NAME='fusion']//flexray:MAX-DRIFT"), "601");
+  // The image's last fragment: slot 34, cycles 1, 9, ...
+  const std::string frame =
+      xml.select_node("//fx:FRAME[ho:SHORT-NAME='image_12_slot_34_cycle_1']").node().attribute("ID").value();
+  const std::string timing = "//fx:CHANNEL[flexray:FLEXRAY-CHANNEL-NAME='B']//fx:FRAME-TRIGGERING[fx:FRAME-REF/@ID-REF='" + frame +
+                             "']/fx:TIMINGS/fx:ABSOLUTELY-SCHEDULED-TIMING/";
+  EXPECT_EQ(at((timing + "fx:SLOT-ID").c_str()), "34");
+  EXPECT_EQ(at((timing + "fx:BASE-CYCLE").c_str()), "1");
+  EXPECT_EQ(at((timing + "fx:CYCLE-REPETITION").c_str()), "8");
+  // Of an image object 60 bits stand before the speed, and 192 in the first object: bit 252 is the fifth of byte 31.
+  EXPECT_EQ(place_of(xml, "image_elements", "speed_1").position, 31 * 8 + 3);
+  EXPECT_EQ(place_of(xml, "image_elements", "speed_1").bits, 14);
+  EXPECT_EQ(at("//fx:PDU[ho:SHORT-NAME='image']/fx:MULTIPLEXER/fx:SWITCH/fx:BIT-POSITION"), "23");
+  EXPECT_EQ(at("//fx:PDU[ho:SHORT-NAME='image']/fx:MULTIPLEXER//fx:SWITCHED-PDU-INSTANCE[13]/fx:SWITCH-CODE"), "12");
+  EXPECT_EQ(at("//fx:CODING[ho:SHORT-NAME='image_speed']//ho:COMPU-NUMERATOR/ho:V[1]"), "-81.92");
+  EXPECT_EQ(at("//fx:CODING[ho:SHORT-NAME='image_speed']//ho:COMPU-NUMERATOR/ho:V[2]"), "0.01");
+  EXPECT_NEAR(std::stod(at("//fx:CODING[ho:SHORT-NAME='image_speed']//ho:UPPER-LIMIT")), 81.91, 1e-12);
+}
+
+}  // namespace
+}  // namespace ttf::schedules
