@@ -26,6 +26,10 @@ struct XmlElement::Content {
     const auto found = prefixes.find(prefix);
     return found == prefixes.end() ? std::string(name) : fmt::format("{}:{}", found->second, local);
   }
+  // Without a prefix an attribute is in no namespace, not in the default one.
+  std::string attribute_name(std::string_view name) const {
+    return name.find(':') == std::string_view::npos ? std::string(name) : canonical(name);
+  }
 };
 
 namespace {
@@ -40,6 +44,12 @@ std::string trimmed(std::string_view text) {
 
 bool is_text(const pugi::xml_node& node) {
   return node.type() == pugi::node_pcdata || node.type() == pugi::node_cdata;
+}
+
+// Where it begins to be more than space.
+std::ptrdiff_t text_offset(const pugi::xml_node& node) {
+  const auto first = std::string_view(node.value()).find_first_not_of(kSpace);
+  return node.offset_debug() + static_cast<std::ptrdiff_t>(first == std::string_view::npos ? 0 : first);
 }
 
 // Length of the UTF-8 character at the front, 0 if there is none: RFC 3629, table 3-7 of the Unicode standard.
@@ -101,7 +111,7 @@ XmlFile XmlFile::parse(std::string text, std::string name) {
   pugi::xml_node root;
   for (const pugi::xml_node& node : content->document.children()) {
     if (node.type() == pugi::node_doctype) throw damaged(node.offset_debug(), "has a document type; FIBEX has none");
-    if (is_text(node)) throw damaged(node.offset_debug(), "is no well-formed XML: text outside the root element");
+    if (is_text(node)) throw damaged(text_offset(node), "is no well-formed XML: text outside the root element");
     if (node.type() != pugi::node_element) continue;
     if (root) throw damaged(node.offset_debug(), "is no well-formed XML: a second root element");
     root = node;
@@ -196,10 +206,13 @@ std::string XmlElement::text() {
 }
 
 std::string XmlElement::attribute(std::string_view wanted) {
-  asked_.push_back(fmt::format("@{}", wanted));
-  for (const pugi::xml_attribute& attribute : node_.attributes())
-    if (content_->canonical(attribute.name()) == wanted || attribute.name() == wanted)
-      return trimmed(attribute.value());
+  // Some tools leave the prefix of an attribute out.
+  const std::string_view local = wanted.substr(wanted.find(':') == std::string_view::npos ? 0 : wanted.find(':') + 1);
+  for (const std::string_view name : {wanted, local}) asked_.push_back(fmt::format("@{}", name));
+  for (const pugi::xml_attribute& attribute : node_.attributes()) {
+    const std::string name = content_->attribute_name(attribute.name());
+    if (name == wanted || name == local) return trimmed(attribute.value());
+  }
   return {};
 }
 
@@ -216,8 +229,7 @@ void XmlElement::finish() {
     const std::string_view raw = attribute.name();
     // What an element is called by, and of which type it is, bears no meaning beyond what is asked for.
     if (raw == "ID" || raw == "xmlns" || raw.starts_with("xmlns:")) continue;
-    // Without a prefix an attribute is in no namespace, not in the default one.
-    const std::string name = raw.find(':') == std::string_view::npos ? std::string(raw) : content_->canonical(raw);
+    const std::string name = content_->attribute_name(raw);
     if (!name.starts_with("xsi:") && !is_asked("@" + name)) leave_out(path() + "/@" + name, line());
   }
   for (const pugi::xml_node& node : node_.children()) {
@@ -225,7 +237,7 @@ void XmlElement::finish() {
     if (element && !is_asked(content_->canonical(node.name())))
       leave_out(fmt::format("{}/{}", path(), content_->canonical(node.name())), content_->line_at(node.offset_debug()));
     if (is_text(node) && !text_asked_ && !trimmed(node.value()).empty())
-      leave_out(path() + "/text()", content_->line_at(node.offset_debug()));
+      leave_out(path() + "/text()", content_->line_at(text_offset(node)));
   }
 }
 
