@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/decimal.h"
 #include "schedules/checker.h"
 #include "schedules/fibex_parameters.h"
 #include "schedules/parameter_table.h"
@@ -50,6 +51,10 @@ void assume_global(FibexFile& file, const std::string& name, std::set<std::strin
   if (of_three < 3 && g.cycle_ps() != g.gdCycle_ps)
     missing("a flexray:CYCLE of a whole number of macroticks");
   if (!given("gdBit")) g.gdBit_ps = kPicosecondsPerSecond / g.baudrate;
+  for (const auto& p : kGlobalScaled)
+    if (!given(p.name) && (g.*p.member < p.low || g.*p.member > p.high))
+      missing(fmt::format("parameters from which {} follows in {}..{} {}", p.name, scaled_text(p.low, p.scale),
+                          scaled_text(p.high, p.scale), p.unit));
   // Constraint 18: what is left of the cycle.
   const int action_points = g.gNumberOfMinislots == 0 ? 0 : std::max(g.gdActionPointOffset - g.gdMinislotActionPointOffset, 0);
   if (!given("gdNIT"))

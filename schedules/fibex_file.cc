@@ -9,11 +9,17 @@
 #include "schedules/fibex_parameters.h"
 
 namespace ttf::schedules {
+namespace {
+
+constexpr std::size_t kLongestName = 128;   // of a SHORT-NAME
+
+}  // namespace
 
 std::string FibexReader::name_of(XmlElement& element) {
   const std::string id = element.attribute("ID");
   const std::string name = element.text_of("ho:SHORT-NAME").value_or(id);
   if (name.empty()) fail(element, "", "must have a SHORT-NAME");
+  if (name.size() > kLongestName) fail(element, name, fmt::format("must have a name of at most {} bytes", kLongestName));
   for (const char c : name)
     if (static_cast<unsigned char>(c) < 0x20) {
       fail(element, name, "must have a printable name");

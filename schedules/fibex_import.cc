@@ -124,15 +124,18 @@ class Importer {
   }
 
   void take_frames() {
-    using Key = std::tuple<int, int, int, std::string, NodeId>;   // slot, base cycle, repetition, frame, sender
-    std::map<Key, std::pair<unsigned, int>> slots;                // channels, line of the first
+    // Slot, base cycle, repetition, frame by its place in the file, sender -> channels, line of the first.
+    using Key = std::tuple<int, int, int, std::ptrdiff_t, NodeId>;
+    std::map<Key, std::pair<unsigned, int>> slots;
     for (const FibexTriggering& one : file_.triggerings) {
-      if (frames_.count(one.frame) == 0) {
+      const auto frame = frames_.find(one.frame);
+      if (frame == frames_.end()) {
         fail(one.line, "fx:FRAME-TRIGGERING", one.frame, "must have a FRAME-REF to a frame of this file");
         continue;
       }
       if (!is_static(one)) continue;
-      auto& [channels, line] = slots[{one.slot, one.base_cycle, one.repetition, one.frame, senders_.at(one.id)}];
+      auto& [channels, line] = slots[{one.slot, one.base_cycle, one.repetition,
+                                       frame->second - file_.frames.data(), senders_.at(one.id)}];
       const unsigned channel = 1u << static_cast<unsigned>(one.channel);
       if ((channels & channel) != 0)
         leave_out(one.line, "fx:FRAME-TRIGGERING", one.id, "is left out: it says the same as an earlier one");
@@ -148,7 +151,7 @@ class Importer {
       out.repetition = repetition;
       out.sender = sender;
       out.line = found.second;
-      take_contents(*frames_.at(frame), out);
+      take_contents(file_.frames[static_cast<std::size_t>(frame)], out);
       out_.cluster.frames.push_back(out);
     }
     order_frames();

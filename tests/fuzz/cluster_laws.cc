@@ -10,6 +10,7 @@
 #include "schedules/checker.h"
 #include "schedules/loader.h"
 #include "schedules/show.h"
+#include "tests/fuzz/fibex_laws.h"
 #include "tests/fuzz/harness.h"
 #include "tests/fuzz/nothing_there.h"
 
@@ -59,6 +60,7 @@ void check_cluster(const std::string& text) {
     check_signals(layout, layout.element);
   }
   check_ages(cluster);
+  check_fibex_round_trip(cluster);
   const nodes::Scenario scenario;
   const auto rows = std::make_shared<const recording::RecordedInput>(some_recording());
   for (std::size_t node = 0; node < cluster.nodes.size(); ++node)

@@ -15,6 +15,7 @@
 #include "recording/mcap_reader.h"
 #include "tests/fuzz/harness.h"
 #include "tests/recording/record_text.h"
+#include "tests/schedules/fibex_example.h"
 
 namespace {
 
@@ -83,6 +84,23 @@ void yaml_seeds(const fs::path& folder, const std::string& what, const fs::path&
   }
   write_dictionary(folder / (what + "_text.dict"), words);
   write_dictionary(folder / (what + "_edits.dict"), words);
+}
+
+// The files written by hand, a small one, and the names that FIBEX gives things.
+void fibex_seeds(const fs::path& folder) {
+  const std::string powertrain = schedules::kPowertrain, objects = schedules::kObjects;
+  write(folder / "fibex_text/powertrain", powertrain);
+  write(folder / "fibex_text/objects", objects);
+  write(folder / "fibex_text/empty", "<fx:FIBEX><fx:ELEMENTS/></fx:FIBEX>");
+  std::set<std::string> words{"<!--", "-->", "<![CDATA[", "]]>", "&#10;", "&lt;", "/>", "ID-REF=\\x22", "true", "false",
+                              "-1", "1e308", "2047", "64", "0.0125"};
+  std::string name;
+  for (const char c : powertrain + objects) {
+    const bool of_it = of_a_name(c) || c == ':' || c == '-';
+    if (!of_it && name.find(':') != std::string::npos && name.size() > 4) words.insert("<" + name + ">");
+    name = of_it ? name + c : "";
+  }
+  write_dictionary(folder / "fibex_text.dict", words);
 }
 
 void recorded_seeds(const fs::path& folder) {
@@ -214,6 +232,7 @@ int main(int argc, char** argv) {
   yaml_seeds(folder, "cluster", "schedules",
              {"paper_synchronised", "paper_unsynchronised", "laser_radar", "laser_radar_synchronised"});
   yaml_seeds(folder, "scenario", "scenarios", {"paper_scenario1", "paper_scenario2", "laser_radar_recorded"});
+  fibex_seeds(folder);
   recorded_seeds(folder);
   frame_seeds(folder);
   drawn_seeds(folder);

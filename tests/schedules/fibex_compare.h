@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "schedules/cluster.h"
@@ -90,10 +92,20 @@ class FibexDifference {
                        frame.pdu == kNoPdu ? "status" : cluster.pdu(frame.pdu).name, frame.fragment);
   }
 
+  // Of one slot and cycle, channel A first.
+  static std::vector<FrameSlot> ordered(std::vector<FrameSlot> frames) {
+    std::stable_sort(frames.begin(), frames.end(), [](const FrameSlot& x, const FrameSlot& y) {
+      return std::tuple{x.slot, x.base_cycle, x.repetition, static_cast<int>(x.channels)} <
+             std::tuple{y.slot, y.base_cycle, y.repetition, static_cast<int>(y.channels)};
+    });
+    return frames;
+  }
+
   void frames(const Cluster& a, const Cluster& b) {
     value("frames", a.frames.size(), b.frames.size());
-    for (std::size_t i = 0; i < a.frames.size() && i < b.frames.size(); ++i)
-      value("frame", frame_text(a, a.frames[i]), frame_text(b, b.frames[i]));
+    const std::vector<FrameSlot> of_a = ordered(a.frames), of_b = ordered(b.frames);
+    for (std::size_t i = 0; i < of_a.size() && i < of_b.size(); ++i)
+      value("frame", frame_text(a, of_a[i]), frame_text(b, of_b[i]));
   }
 
   std::string text_;

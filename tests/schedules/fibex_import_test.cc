@@ -235,6 +235,8 @@ TEST(FibexImport, MistakesAreRefusedWithLineAndValue) {
       {"<flexray:N-I-T>6<", "<flexray:N-I-T>x<", "<flexray:N-I-T>", "N-I-T = x: must be 2..805 macroticks (gdNIT)"},
       {"<flexray:CYCLE>5000<", "<flexray:CYCLE>5001<", "<fx:CLUSTER ID=\"C1\"", "whole number of macroticks"},
       {"<flexray:CYCLE>5000</flexray:CYCLE>", "", "<fx:CLUSTER ID=\"C1\"", "two of flexray:CYCLE"},
+      {"<flexray:CYCLE>5000</flexray:CYCLE>", "<flexray:MACRO-PER-CYCLE>16000</flexray:MACRO-PER-CYCLE>", "<fx:CLUSTER ID=\"C1\"",
+       "parameters from which gdCycle follows in 10..16000 us"},
       {"<flexray:STATIC-SLOT>43</flexray:STATIC-SLOT>", "", "<fx:CLUSTER ID=\"C1\"", "flexray:STATIC-SLOT (gdStaticSlot)"},
       {"SAWTOOTH", "MONOTONE", "<fx:CLUSTER ID=\"C1\"", "SAWTOOTH"},
       {"<fx:SLOT-ID>13</fx:SLOT-ID>", "<fx:SLOT-ID>0</fx:SLOT-ID>", "<fx:SLOT-ID>0", "SLOT-ID = 0: must be a whole number, 1..2047"},

@@ -1,0 +1,71 @@
+#include "tests/fuzz/fibex_laws.h"
+
+#include <algorithm>
+
+#include "core/check.h"
+#include "schedules/fibex_export.h"
+#include "schedules/fibex_import.h"
+#include "schedules/loader.h"
+#include "tests/fuzz/harness.h"
+#include "tests/schedules/fibex_compare.h"
+
+namespace ttf::fuzz {
+namespace {
+
+using schedules::Cluster;
+using schedules::FibexDifference;
+using schedules::FibexImport;
+
+constexpr char kFile[] = "cluster.xml";
+
+// Names that FIBEX holds as they are: XML knows no control characters, space around text means nothing there, and a SHORT-NAME has
+// at most 128 bytes, also that of a frame, which is made of its list and slot.
+bool is_fibex_name(const std::string& name) {
+  const auto control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
+  return !name.empty() && name.size() <= 90 && name.front() != ' ' && name.back() != ' ' &&
+         std::none_of(name.begin(), name.end(), control);
+}
+
+bool has_fibex_names(const Cluster& cluster) {
+  bool all = is_fibex_name(cluster.name);
+  for (const schedules::Node& node : cluster.nodes) all = all && is_fibex_name(node.name);
+  for (const schedules::PduLayout& pdu : cluster.pdus) {
+    all = all && is_fibex_name(pdu.name) && pdu.max_fragments() <= 256;
+    for (const auto* signals : {&pdu.header, &pdu.element})
+      for (const schedules::Signal& signal : *signals)
+        all = all && is_fibex_name(signal.name) && (signal.unit.empty() || is_fibex_name(signal.unit));
+  }
+  return all;
+}
+
+void check_same(const Cluster& a, const Cluster& b) {
+  const std::string difference = FibexDifference::of(a, b);
+  TTF_CHECK(difference.empty(), "{}", difference);
+}
+
+}  // namespace
+
+void check_fibex_round_trip(const Cluster& cluster) {
+  if (!has_fibex_names(cluster)) return;
+  const FibexImport import = schedules::parse_fibex(schedules::fibex_text(cluster), kFile);
+  check_same(cluster, import.cluster);
+  TTF_CHECK(import.left_out.empty() && import.assumed.empty() && import.foreign.empty(), "{} left out, {} assumed",
+            import.left_out.size(), import.assumed.size());
+}
+
+void check_fibex(const std::string& text) {
+  FibexImport import;
+  if (!accepted(kFile, [&] { import = schedules::parse_fibex(text, kFile); })) return;
+  if (!import.left_out.empty()) check_refusal(InputError(import.left_out), kFile);
+  const std::string yaml = schedules::skeleton_yaml(import);
+  Cluster again;
+  try {
+    again = schedules::parse_cluster(yaml, "cluster.yaml");
+  } catch (const InputError& error) {
+    TTF_CHECK(false, "what was imported does not load: {}\n{}", error.what(), yaml);
+  }
+  check_same(import.cluster, again);
+  if (has_fibex_names(again)) check_same(again, schedules::parse_fibex(schedules::fibex_text(again), kFile).cluster);
+}
+
+}  // namespace ttf::fuzz
