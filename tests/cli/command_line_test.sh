@@ -66,6 +66,23 @@ expect 2 'broken.yaml:[0-9]+: can.camera_can.messages.camera_frame = 12 bytes: m
   schedule show "$cluster"
 expect 2 'png' schedule show "$source/schedules/paper_synchronised.yaml" -o "$work/schedule.bmp"
 
+# A cluster to FIBEX and back; it loads, and the checker misses the tasks.
+expect 0 '' schedule export "$source/schedules/paper_synchronised.yaml" --format fibex -o "$work/cluster.xml"
+expect 0 '' schedule export "$work/cluster.xml" --format yaml -o "$work/imported.yaml"
+grep -q 'slot: 22, channels: AB, sender: fusion, base_cycle: 1, repetition: 8, pdu: image, fragments: 13' \
+  "$work/imported.yaml" || fail "the imported cluster lacks the image's slots"
+expect 2 'imported.yaml' schedule check "$work/imported.yaml"
+expect 2 'gdNIT|cannot be read' schedule export "$work/nothing.yaml" --format fibex
+expect 2 '--format' schedule export "$work/cluster.xml"
+expect 2 'cannot be written' schedule export "$work/cluster.xml" --format yaml -o "$work/no/such/folder.yaml"
+sed 's/<flexray:N-I-T>386/<flexray:N-I-T>900/' "$work/cluster.xml" >"$work/broken.xml"
+expect 2 'broken.xml:[0-9]+: .*N-I-T = 900: must be 2..805' schedule export "$work/broken.xml" --format yaml
+sed 's,</fx:CHANNELS>,</fx:CHANNEL>,' "$work/cluster.xml" >"$work/broken.xml"
+expect 2 'broken.xml:[0-9]+: is no well-formed XML' schedule export "$work/broken.xml" --format yaml
+sed 's,<fx:MEDIUM>,<fx:NOVELTY/><fx:MEDIUM>,' "$work/cluster.xml" >"$work/novel.xml"
+expect 0 'note: .*novel.xml:[0-9]+: fx:FIBEX/fx:ELEMENTS/fx:CLUSTERS/fx:CLUSTER/fx:NOVELTY: is not understood' \
+  schedule export "$work/novel.xml" --format yaml -o "$work/novel.yaml"
+
 # A run, twice: the same bytes; another seed: other bytes.
 expect 0 'position RMSE' run "$source/scenarios/paper_scenario2.yaml" --out "$work/a" --seed 3
 expect 0 '"content_hash"' run "$source/scenarios/paper_scenario2.yaml" --out "$work/b" --seed 3 --json --no-pictures
