@@ -121,7 +121,7 @@ FibexCoding read_coding(XmlElement& element, const Units& units, FibexReader& re
     if (const std::string kind = type->attribute("CATEGORY"); !kind.empty() && kind != "STANDARD-LENGTH-TYPE")
       coding.unlike = fmt::format("its type is a {}", kind);
     if (!base.starts_with("A_UINT") || (!encoding.empty() && encoding != "UNSIGNED"))
-      coding.unlike = fmt::format("its raw numbers are {}{}{}, not unsigned", base, base.empty() ? "" : " ", encoding);
+      coding.unlike = fmt::format("its raw numbers are {}, not unsigned", encoding.empty() ? base : encoding);
     type->finish();
   } else {
     reader.fail(element, "", "must have a ho:CODED-TYPE");

@@ -145,6 +145,19 @@ class Writer {
     }
   }
 
+  std::string pdu_named(const std::string& id) const {
+    for (const ForeignPdu& foreign : in_.foreign)
+      if (foreign.pdu.id == id) return foreign.pdu.name;
+    return id;
+  }
+
+  void write_multiplexer(const FibexMultiplexer& multiplexer) {
+    if (!multiplexer.static_pdu.empty()) line(comment("#   always: " + pdu_named(multiplexer.static_pdu)));
+    for (const auto& [code, id] : multiplexer.layouts)
+      line(comment(fmt::format("#   from bit {}, where the {} bits at bit {} are {}: {}", multiplexer.dynamic_position,
+                               multiplexer.switch_bits, multiplexer.switch_position, code, pdu_named(id))));
+  }
+
   void write_pdus() {
     line("");
     for (const ForeignPdu& foreign : in_.foreign) {
@@ -154,6 +167,7 @@ class Writer {
         line(comment(fmt::format("#   bit {}, {} first: {}{}", signal.position, signal.high_low ? "high byte" : "low byte",
                                  signal_text(signal.meaning),
                                  signal.unlike.empty() ? "" : fmt::format(", but {}", signal.unlike))));
+      if (foreign.pdu.multiplexer) write_multiplexer(*foreign.pdu.multiplexer);
     }
     line(cluster_.pdus.empty() ? "pdus: {}" : "pdus:");
     for (const PduLayout& pdu : cluster_.pdus) {

@@ -203,6 +203,14 @@ TEST(FibexObjects, AListOfAnotherToolIsAList) {
   EXPECT_EQ(FibexDifference::of(import.cluster, again), "");
 }
 
+TEST(FibexObjects, AForeignMultiplexerIsDescribed) {
+  const FibexImport import = parse_fibex(replaced(kObjects, "<SHORT-NAME>sequence<", "<SHORT-NAME>number<"), "objects.xml");
+  const std::string yaml = skeleton_yaml(import);
+  for (const char* said : {"#   always: head\n", "#   from bit 8, where the 1 bits at bit 3 are 1: part\n",
+                           "#   bit 37, high byte first: {name: v_1, bits: 10}\n", "# Objects1 carries objects at byte 0"})
+    EXPECT_THAT(yaml, HasSubstr(said));
+}
+
 // Each is no list any more, for the reason given; and the rest of the file is imported all the same.
 TEST(FibexObjects, WhatIsNoListSaysWhy) {
   const std::pair<const char*, std::pair<const char*, const char*>> edits[] = {
