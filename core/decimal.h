@@ -1,4 +1,5 @@
-// Exact decimals: a number in a file's unit times a power of ten is a whole number of ours (12.5 ns is 12500 ps), and back.
+// Exact decimals: a number in a file's unit times a power of ten is a whole number of ours (12.5 ns is 12500
+// ps), and back.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +9,12 @@
 
 namespace ttf {
 
-// Decimal text ("-12.50") times `scale`, exactly; nothing where it is no plain decimal, not whole, or does not fit.
+// Decimal text ("-12.50") times `scale`, exactly; nothing where it is no plain decimal, not whole, or does
+// not fit.
 std::optional<std::int64_t> parse_scaled(std::string_view text, std::int64_t scale);
 
-// value / scale as a decimal without trailing zeros; scale is a power of ten. parse_scaled gives the value again.
+// value / scale as a decimal without trailing zeros; scale is a power of ten. parse_scaled gives the value
+// again.
 std::string scaled_text(std::int64_t value, std::int64_t scale);
 
 }  // namespace ttf

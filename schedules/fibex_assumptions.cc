@@ -13,7 +13,7 @@ namespace ttf::schedules {
 namespace {
 
 constexpr std::int64_t kPicosecondsPerSecond = 1'000'000'000'000;
-constexpr int kSamplesPerBit = 8;   // cSamplesPerBit
+constexpr int kSamplesPerBit = 8;  // cSamplesPerBit
 
 std::int64_t ceil_div(std::int64_t a, std::int64_t b) { return (a + b - 1) / b; }
 
@@ -30,12 +30,15 @@ void set_next_to(Parameters& parameters, const Table& table, std::string_view na
 void assume_global(FibexFile& file, const std::string& name, std::set<std::string, std::less<>>& assumed,
                    Findings& wrong) {
   GlobalParameters& g = file.global;
-  const auto given = [&](std::string_view parameter) { return file.given.find(parameter) != file.given.end(); };
+  const auto given = [&](std::string_view parameter) {
+    return file.given.find(parameter) != file.given.end();
+  };
   const auto missing = [&](std::string what) {
     wrong.add({name, file.cluster_line, "fx:CLUSTER", "", "must have " + std::move(what)});
   };
   for (const FibexParameter& one : kFibexCluster)
-    if ((one.name == "gdStaticSlot" || one.name == "gNumberOfStaticSlots" || one.name == "gPayloadLengthStatic") &&
+    if ((one.name == "gdStaticSlot" || one.name == "gNumberOfStaticSlots" ||
+         one.name == "gPayloadLengthStatic") &&
         !given(one.name))
       missing(fmt::format("a {} ({})", one.element, one.name));
   if (!given("baudrate")) missing("a fx:SPEED (baudrate)");
@@ -53,10 +56,11 @@ void assume_global(FibexFile& file, const std::string& name, std::set<std::strin
   if (!given("gdBit")) g.gdBit_ps = kPicosecondsPerSecond / g.baudrate;
   for (const auto& p : kGlobalScaled)
     if (!given(p.name) && (g.*p.member < p.low || g.*p.member > p.high))
-      missing(fmt::format("parameters from which {} follows in {}..{} {}", p.name, scaled_text(p.low, p.scale),
-                          scaled_text(p.high, p.scale), p.unit));
+      missing(fmt::format("parameters from which {} follows in {}..{} {}", p.name,
+                          scaled_text(p.low, p.scale), scaled_text(p.high, p.scale), p.unit));
   // Constraint 18: what is left of the cycle.
-  const int action_points = g.gNumberOfMinislots == 0 ? 0 : std::max(g.gdActionPointOffset - g.gdMinislotActionPointOffset, 0);
+  const int action_points =
+      g.gNumberOfMinislots == 0 ? 0 : std::max(g.gdActionPointOffset - g.gdMinislotActionPointOffset, 0);
   if (!given("gdNIT"))
     set_next_to(g, kGlobalIntegers, "gdNIT",
                 std::int64_t{g.gMacroPerCycle} - g.gdStaticSlot * g.gNumberOfStaticSlots - action_points -
@@ -69,7 +73,8 @@ void assume_global(FibexFile& file, const std::string& name, std::set<std::strin
     g.gdMaxMicrotick_ps = longest;
   }
   const auto mark = [&](std::string_view parameter) {
-    if (!given(parameter) && parameter != "gCycleCountMax") assumed.insert(fmt::format("flexray.{}", parameter));
+    if (!given(parameter) && parameter != "gCycleCountMax")
+      assumed.insert(fmt::format("flexray.{}", parameter));
   };
   for (const auto& p : kGlobalIntegers) mark(p.name);
   for (const auto& p : kGlobalScaled) mark(p.name);
@@ -82,7 +87,8 @@ NodeParameters assume_local(const FibexEcu& ecu, const GlobalParameters& global,
   const auto assume = [&](std::string_view parameter, std::int64_t value) {
     if (!given(parameter)) set_next_to(p, kNodeIntegers, parameter, value);
   };
-  // pSamplesPerMicrotick = 8 pdMicrotick / gdBit; a common microtick is 25 ns, or one sample where that is longer.
+  // pSamplesPerMicrotick = 8 pdMicrotick / gdBit; a common microtick is 25 ns, or one sample where that is
+  // longer.
   const std::int64_t sample_ps = std::max<std::int64_t>(global.gdBit_ps / kSamplesPerBit, 1);
   if (!given("pdMicrotick"))
     p.pdMicrotick_ps = given("pSamplesPerMicrotick")
@@ -90,7 +96,8 @@ NodeParameters assume_local(const FibexEcu& ecu, const GlobalParameters& global,
                            : std::clamp<std::int64_t>(sample_ps, 25'000, 50'000);
   assume("pSamplesPerMicrotick", p.pdMicrotick_ps / sample_ps);
   assume("pMicroPerCycle", global.cycle_ps() / p.pdMicrotick_ps);
-  // Two clocks off by cClockDeviationMax = 0.0015 to either side: 0.003 / (1 - 0.0015) of a cycle apart after one.
+  // Two clocks off by cClockDeviationMax = 0.0015 to either side: 0.003 / (1 - 0.0015) of a cycle apart after
+  // one.
   const std::int64_t drift = ceil_div(std::int64_t{p.pMicroPerCycle} * 6, 1997);
   assume("pRateCorrectionOut", drift);
   assume("pdListenTimeout", 2 * (p.pMicroPerCycle + drift));
@@ -98,7 +105,8 @@ NodeParameters assume_local(const FibexEcu& ecu, const GlobalParameters& global,
   assume("pOffsetCorrectionOut", precision);
   assume("pdAcceptedStartupRange", precision);
   const auto initial_offset = [&](int delay) {
-    return global.gdActionPointOffset + ceil_div((p.pDecodingCorrection + delay) * p.pdMicrotick_ps, global.gdMacrotick_ps);
+    return global.gdActionPointOffset +
+           ceil_div((p.pDecodingCorrection + delay) * p.pdMicrotick_ps, global.gdMacrotick_ps);
   };
   assume("pMacroInitialOffsetA", initial_offset(p.pDelayCompensationA));
   assume("pMacroInitialOffsetB", initial_offset(p.pDelayCompensationB));

@@ -33,7 +33,8 @@ class Exporter {
     declaration.append_attribute("encoding") = "UTF-8";
     document_.append_child(pugi::node_comment)
         .set_value(
-            " The FlexRay side of a ttfusion cluster. FIBEX has no place for its tasks, sensors and oscillators; its CANs are\n"
+            " The FlexRay side of a ttfusion cluster. FIBEX has no place for its tasks, sensors and "
+            "oscillators; its CANs are\n"
             "     not in this file. ");
     pugi::xml_node root = document_.append_child("fx:FIBEX");
     for (const XmlNamespace& one : kFibexNamespaces)
@@ -61,7 +62,8 @@ class Exporter {
 
   void put_cluster(pugi::xml_node clusters) {
     const GlobalParameters& g = cluster_.flexray;
-    pugi::xml_node cluster = put_named(clusters, "fx:CLUSTER", "cluster", cluster_.name, "flexray:CLUSTER-TYPE");
+    pugi::xml_node cluster =
+        put_named(clusters, "fx:CLUSTER", "cluster", cluster_.name, "flexray:CLUSTER-TYPE");
     put(cluster, "fx:SPEED", fibex_value(g, "baudrate"));
     put(cluster, "fx:IS-HIGH-LOW-BIT-ORDER", "true");
     put(cluster, "fx:BIT-COUNTING-POLICY", "SAWTOOTH");
@@ -75,7 +77,8 @@ class Exporter {
     for (const FibexParameter& one : kFibexCluster) {
       put_parameter(cluster, one, g);
       // An eighth of a bit (cSamplesPerBit), in microseconds.
-      if (one.name == "gdNIT") put(cluster, "flexray:SAMPLE-CLOCK-PERIOD", scaled_text(g.gdBit_ps / 8, 1'000'000));
+      if (one.name == "gdNIT")
+        put(cluster, "flexray:SAMPLE-CLOCK-PERIOD", scaled_text(g.gdBit_ps / 8, 1'000'000));
       if (one.name == "gdTSSTransmitter") {
         pugi::xml_node wake_up = cluster.append_child("flexray:WAKE-UP");
         for (const FibexParameter& part : kFibexWakeUp) put_parameter(wake_up, part, g);
@@ -121,8 +124,9 @@ class Exporter {
 
   void put_controller(pugi::xml_node controllers, std::size_t index) {
     const NodeParameters& p = *cluster_.nodes[index].flexray;
-    pugi::xml_node one = put_named(controllers, "fx:CONTROLLER", controller_id(index),
-                                   fmt::format("{}_controller", cluster_.nodes[index].name), "flexray:CONTROLLER-TYPE");
+    pugi::xml_node one =
+        put_named(controllers, "fx:CONTROLLER", controller_id(index),
+                  fmt::format("{}_controller", cluster_.nodes[index].name), "flexray:CONTROLLER-TYPE");
     const std::string key_slot = std::to_string(p.pKeySlotId);
     if (!p.pKeySlotUsedForSync)
       put(one.append_child("fx:MANUFACTURER-EXTENSION"), "ttf:KEY-SLOT-ID", key_slot);
@@ -131,7 +135,7 @@ class Exporter {
       put(usage, p.pKeySlotUsedForStartup ? "flexray:STARTUP-SYNC" : "flexray:SYNC", key_slot);
     else
       usage.append_child("flexray:NONE");
-    put(one, "flexray:MAX-DYNAMIC-PAYLOAD-LENGTH", "0");   // nothing is sent in the dynamic segment
+    put(one, "flexray:MAX-DYNAMIC-PAYLOAD-LENGTH", "0");  // nothing is sent in the dynamic segment
     for (const FibexParameter& parameter : kFibexController) {
       put_parameter(one, parameter, p);
       if (parameter.name != "pdListenTimeout") continue;

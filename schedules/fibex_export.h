@@ -1,8 +1,9 @@
 // A cluster as a FIBEX 3.1 file (ASAM MCD-2 NET): its FlexRay side, for the tools that read FIBEX.
 //
-// Parameters stand where schedules/fibex_parameters.h says, lists as schedules/fibex_lists.h says. Each slot is a frame and a
-// triggering per channel; a node is an ECU with one controller and a connector per channel, whose ports say what it sends and
-// what its tasks read. Not in the file, for FIBEX has no place for it: tasks, sensors and drifts; and the CANs.
+// Parameters stand where schedules/fibex_parameters.h says, lists as schedules/fibex_lists.h says. Each slot
+// is a frame and a triggering per channel; a node is an ECU with one controller and a connector per channel,
+// whose ports say what it sends and what its tasks read. Not in the file, for FIBEX has no place for it:
+// tasks, sensors and drifts; and the CANs.
 #pragma once
 
 #include <string>

@@ -35,7 +35,8 @@ std::string coding_id(std::size_t pdu, bool header, std::size_t signal) {
   return fmt::format("coding_{}_{}_{}", pdu, header ? "header" : "element", signal);
 }
 
-// Where a signal stands whose most significant bit is `offset` bits from the start: sawtooth counting, high-low order.
+// Where a signal stands whose most significant bit is `offset` bits from the start: sawtooth counting,
+// high-low order.
 int position_of(int offset) { return offset / 8 * 8 + 7 - offset % 8; }
 
 void put_instance(pugi::xml_node to, const std::string& signal, int offset) {
@@ -67,8 +68,8 @@ void put_multiplexer(pugi::xml_node multiplexer, const PduLayout& layout, std::s
   put(selector, "fx:BIT-POSITION", std::to_string(position_of(fragment.bit_offset)));
   put(selector, "fx:IS-HIGH-LOW-BYTE-ORDER", "true");
   put(selector, "ho:BIT-LENGTH", std::to_string(fragment.bits));
-  pugi::xml_node dynamic =
-      put_named(multiplexer, "fx:DYNAMIC-PART", fmt::format("dynamic_part_{}", index), layout.name + "_fragments");
+  pugi::xml_node dynamic = put_named(multiplexer, "fx:DYNAMIC-PART", fmt::format("dynamic_part_{}", index),
+                                     layout.name + "_fragments");
   put_segment(dynamic, layout.header_bits, 8 * layout.fragment_bytes - layout.header_bits);
   pugi::xml_node instances = dynamic.append_child("fx:SWITCHED-PDU-INSTANCES");
   for (int f = 0; f < layout.max_fragments(); ++f) {
@@ -77,8 +78,8 @@ void put_multiplexer(pugi::xml_node multiplexer, const PduLayout& layout, std::s
     put_reference(one, "fx:PDU-REF", elements_id(index));
     put(one, "fx:SWITCH-CODE", std::to_string(f));
   }
-  pugi::xml_node fixed =
-      put_named(multiplexer, "fx:STATIC-PART", fmt::format("static_part_{}", index), layout.name + "_first_bytes");
+  pugi::xml_node fixed = put_named(multiplexer, "fx:STATIC-PART", fmt::format("static_part_{}", index),
+                                   layout.name + "_first_bytes");
   put_segment(fixed, 0, layout.header_bits);
   pugi::xml_node instance = fixed.append_child("fx:STATIC-PDU-INSTANCE");
   instance.append_attribute("ID") = fmt::format("static_{}", index).c_str();
@@ -89,8 +90,9 @@ void put_coding(pugi::xml_node codings, const std::string& id, const std::string
                 const std::vector<std::string>& units) {
   pugi::xml_node coding = put_named(codings, "fx:CODING", id, name);
   pugi::xml_node type = coding.append_child("ho:CODED-TYPE");
-  type.append_attribute("ho:BASE-DATA-TYPE") =
-      signal.bits <= 8 ? "A_UINT8" : signal.bits <= 16 ? "A_UINT16" : "A_UINT32";
+  type.append_attribute("ho:BASE-DATA-TYPE") = signal.bits <= 8    ? "A_UINT8"
+                                               : signal.bits <= 16 ? "A_UINT16"
+                                                                   : "A_UINT32";
   type.append_attribute("CATEGORY") = "STANDARD-LENGTH-TYPE";
   type.append_attribute("ENCODING") = "UNSIGNED";
   put(type, "ho:BIT-LENGTH", std::to_string(signal.bits));
@@ -130,8 +132,8 @@ pugi::xml_node put_reference(pugi::xml_node to, std::string_view name, const std
   return child;
 }
 
-pugi::xml_node put_named(pugi::xml_node to, std::string_view name, const std::string& id, const std::string& short_name,
-                         const char* type) {
+pugi::xml_node put_named(pugi::xml_node to, std::string_view name, const std::string& id,
+                         const std::string& short_name, const char* type) {
   pugi::xml_node child = to.append_child(std::string(name).c_str());
   child.append_attribute("ID") = id.c_str();
   if (type != nullptr) child.append_attribute("xsi:type") = type;
@@ -148,15 +150,18 @@ void put_fibex_pdus(pugi::xml_node pdus, const Cluster& cluster) {
                                 .append_child("fx:SIGNAL-INSTANCES");
     for (std::size_t s = 0; s < layout.header.size(); ++s)
       put_instance(header, header_signal_id(i, s), layout.header[s].bit_offset);
-    pugi::xml_node elements =
-        put_pdu(pdus, elements_id(i), layout.name + "_elements", layout.fragment_bytes - layout.header_bits / 8)
-            .append_child("fx:SIGNAL-INSTANCES");
+    pugi::xml_node elements = put_pdu(pdus, elements_id(i), layout.name + "_elements",
+                                      layout.fragment_bytes - layout.header_bits / 8)
+                                  .append_child("fx:SIGNAL-INSTANCES");
     for (int e = 0; e < layout.elements_per_fragment; ++e)
       for (std::size_t s = 0; s < layout.element.size(); ++s)
-        put_instance(elements, element_signal_id(i, s, e), e * layout.element_bits + layout.element[s].bit_offset);
-    pugi::xml_node list = put_pdu(pdus, fibex_pdu_id(static_cast<PduId>(i)), layout.name, layout.fragment_bytes);
+        put_instance(elements, element_signal_id(i, s, e),
+                     e * layout.element_bits + layout.element[s].bit_offset);
+    pugi::xml_node list =
+        put_pdu(pdus, fibex_pdu_id(static_cast<PduId>(i)), layout.name, layout.fragment_bytes);
     put_multiplexer(list.append_child("fx:MULTIPLEXER"), layout, i);
-    put(list.append_child("fx:MANUFACTURER-EXTENSION"), "ttf:MAX-ELEMENTS", std::to_string(layout.max_elements));
+    put(list.append_child("fx:MANUFACTURER-EXTENSION"), "ttf:MAX-ELEMENTS",
+        std::to_string(layout.max_elements));
   }
 }
 
@@ -164,8 +169,8 @@ void put_fibex_signals(pugi::xml_node signals, const Cluster& cluster) {
   for (std::size_t i = 0; i < cluster.pdus.size(); ++i) {
     const PduLayout& layout = cluster.pdus[i];
     for (std::size_t s = 0; s < layout.header.size(); ++s)
-      put_reference(put_named(signals, "fx:SIGNAL", header_signal_id(i, s), layout.header[s].name), "fx:CODING-REF",
-                    coding_id(i, true, s));
+      put_reference(put_named(signals, "fx:SIGNAL", header_signal_id(i, s), layout.header[s].name),
+                    "fx:CODING-REF", coding_id(i, true, s));
     for (int e = 0; e < layout.elements_per_fragment; ++e)
       for (std::size_t s = 0; s < layout.element.size(); ++s)
         put_reference(put_named(signals, "fx:SIGNAL", element_signal_id(i, s, e),
@@ -178,14 +183,15 @@ void put_fibex_codings(pugi::xml_node processing, const Cluster& cluster) {
   const std::vector<std::string> units = units_of(cluster);
   pugi::xml_node unit_list = processing.append_child("ho:UNIT-SPEC").append_child("ho:UNITS");
   for (std::size_t i = 0; i < units.size(); ++i)
-    put(put_named(unit_list, "ho:UNIT", fmt::format("unit_{}", i), fmt::format("unit_{}", i)), "ho:DISPLAY-NAME", units[i]);
+    put(put_named(unit_list, "ho:UNIT", fmt::format("unit_{}", i), fmt::format("unit_{}", i)),
+        "ho:DISPLAY-NAME", units[i]);
   pugi::xml_node codings = processing.append_child("fx:CODINGS");
   for (std::size_t i = 0; i < cluster.pdus.size(); ++i)
     for (const bool header : {true, false}) {
       const std::vector<Signal>& signals = header ? cluster.pdus[i].header : cluster.pdus[i].element;
       for (std::size_t s = 0; s < signals.size(); ++s)
-        put_coding(codings, coding_id(i, header, s), fmt::format("{}_{}", cluster.pdus[i].name, signals[s].name), signals[s],
-                   units);
+        put_coding(codings, coding_id(i, header, s),
+                   fmt::format("{}_{}", cluster.pdus[i].name, signals[s].name), signals[s], units);
     }
 }
 

@@ -11,7 +11,7 @@
 namespace ttf::schedules {
 namespace {
 
-constexpr std::size_t kLongestName = 128;   // of a SHORT-NAME
+constexpr std::size_t kLongestName = 128;  // of a SHORT-NAME
 
 }  // namespace
 
@@ -19,7 +19,8 @@ std::string FibexReader::name_of(XmlElement& element) {
   const std::string id = element.attribute("ID");
   const std::string name = element.text_of("ho:SHORT-NAME").value_or(id);
   if (name.empty()) fail(element, "", "must have a SHORT-NAME");
-  if (name.size() > kLongestName) fail(element, name, fmt::format("must have a name of at most {} bytes", kLongestName));
+  if (name.size() > kLongestName)
+    fail(element, name, fmt::format("must have a name of at most {} bytes", kLongestName));
   for (const char c : name)
     if (static_cast<unsigned char>(c) < 0x20) {
       fail(element, name, "must have a printable name");
@@ -28,7 +29,8 @@ std::string FibexReader::name_of(XmlElement& element) {
   return name;
 }
 
-int FibexReader::integer(XmlElement& element, std::string_view name, int low, int high, std::optional<int> otherwise) {
+int FibexReader::integer(XmlElement& element, std::string_view name, int low, int high,
+                         std::optional<int> otherwise) {
   auto child = element.child(name);
   if (!child) {
     if (!otherwise) fail(element, "", fmt::format("must have a {}", name));
@@ -55,7 +57,7 @@ bool FibexReader::boolean(XmlElement& element, std::string_view name, bool other
 std::vector<double> FibexReader::numbers(XmlElement& element, std::string_view name) {
   std::vector<double> found;
   for (XmlElement& child : element.children(name)) {
-    child.ignore("@INTERVAL-TYPE");   // all limits are read as closed ones
+    child.ignore("@INTERVAL-TYPE");  // all limits are read as closed ones
     const std::string text = child.text();
     child.finish();
     double value = 0.0;
@@ -84,7 +86,7 @@ void FibexReader::leave_out(const XmlElement& element, std::string value, std::s
 
 namespace {
 
-constexpr int kLastSlotId = 2047;   // cSlotIDMax
+constexpr int kLastSlotId = 2047;  // cSlotIDMax
 
 // Sets the parameters whose elements are there.
 template <class Parameters, std::size_t kCount>
@@ -124,7 +126,8 @@ void read_cluster(XmlElement& cluster, FibexFile& out, FibexReader& reader) {
   }
   // An eighth of gdBit, which is read, or else derived from the bit rate.
   cluster.ignore("flexray:SAMPLE-CLOCK-PERIOD");
-  for (const char* known : {"fx:PROTOCOL", "fx:PROTOCOL-VERSION", "fx:CHANNEL-REFS", "fx:MEDIUM"}) cluster.ignore(known);
+  for (const char* known : {"fx:PROTOCOL", "fx:PROTOCOL-VERSION", "fx:CHANNEL-REFS", "fx:MEDIUM"})
+    cluster.ignore(known);
   if (const auto policy = cluster.text_of("fx:BIT-COUNTING-POLICY"); policy && *policy != "SAWTOOTH")
     reader.fail(cluster, *policy, "must have the BIT-COUNTING-POLICY SAWTOOTH: no other is understood");
   if (!reader.boolean(cluster, "fx:IS-HIGH-LOW-BIT-ORDER", true))
@@ -160,7 +163,8 @@ void read_channel(XmlElement& channel, FibexFile& out, FibexReader& reader) {
     triggering.frame = one.reference("fx:FRAME-REF");
     auto timings = one.children_of("fx:TIMINGS", "fx:ABSOLUTELY-SCHEDULED-TIMING");
     one.finish();
-    if (timings.empty()) reader.leave_out(one, triggering.id, "has no ABSOLUTELY-SCHEDULED-TIMING, and is left out");
+    if (timings.empty())
+      reader.leave_out(one, triggering.id, "has no ABSOLUTELY-SCHEDULED-TIMING, and is left out");
     for (XmlElement& timing : timings) {
       read_timing(timing, triggering, reader);
       out.triggerings.push_back(triggering);
@@ -195,11 +199,13 @@ void read_controller(XmlElement& controller, FibexEcu& out, FibexReader& reader)
   read_parameters(controller, kFibexController, out.parameters, out.given, reader);
   // These follow from others: pMicroPerCycle, and how far apart any two clocks drift.
   for (const char* known : {"flexray:MAX-DRIFT", "flexray:MICRO-PER-MACRO-NOM"}) controller.ignore(known);
-  // Of these no cluster file has more than none: a host's external correction, and frames in the dynamic segment.
-  for (const char* known :
-       {"flexray:EXTERN-OFFSET-CORRECTION", "flexray:EXTERN-RATE-CORRECTION", "flexray:MAX-DYNAMIC-PAYLOAD-LENGTH"})
+  // Of these no cluster file has more than none: a host's external correction, and frames in the dynamic
+  // segment.
+  for (const char* known : {"flexray:EXTERN-OFFSET-CORRECTION", "flexray:EXTERN-RATE-CORRECTION",
+                            "flexray:MAX-DYNAMIC-PAYLOAD-LENGTH"})
     if (const auto value = controller.text_of(known); value && *value != "0")
-      reader.leave_out(controller, fmt::format("{} {}", known, *value), "is left out: a cluster file has none but 0");
+      reader.leave_out(controller, fmt::format("{} {}", known, *value),
+                       "is left out: a cluster file has none but 0");
   controller.finish();
 }
 
@@ -209,7 +215,8 @@ void read_ecu(XmlElement& ecu, FibexFile& out, FibexReader& reader) {
   one.line = ecu.line();
   for (XmlElement& controller : ecu.children_of("fx:CONTROLLERS", "fx:CONTROLLER")) {
     if (one.has_controller || !is_flexray(controller, "CONTROLLER-TYPE", "flexray:MICRO-PER-CYCLE"))
-      reader.leave_out(controller, controller.attribute("ID"), "is not the ECU's first FlexRay controller, and left out");
+      reader.leave_out(controller, controller.attribute("ID"),
+                       "is not the ECU's first FlexRay controller, and left out");
     else
       read_controller(controller, one, reader);
   }

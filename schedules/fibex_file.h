@@ -1,8 +1,9 @@
-// What a FIBEX file says about one FlexRay cluster, element by element, before any of it is understood as slots and lists
-// (schedules/fibex_import.h). References are kept as the ids of the file.
+// What a FIBEX file says about one FlexRay cluster, element by element, before any of it is understood as
+// slots and lists (schedules/fibex_import.h). References are kept as the ids of the file.
 //
-// Bit positions in a PDU count as FIBEX' SAWTOOTH policy does: bit 0 is the least significant bit of byte 0, bit 8 of byte 1.
-// A signal in high-low byte order stands at its most significant bit, one in low-high order at its least significant.
+// Bit positions in a PDU count as FIBEX' SAWTOOTH policy does: bit 0 is the least significant bit of byte 0,
+// bit 8 of byte 1. A signal in high-low byte order stands at its most significant bit, one in low-high order
+// at its least significant.
 #pragma once
 
 #include <array>
@@ -21,20 +22,20 @@ namespace ttf::schedules {
 
 // How a signal's raw number is meant. `unlike` says why our signals cannot mean it, or is empty.
 struct FibexCoding {
-  Signal meaning;          // without name: unit, bits, low, high, resolution
+  Signal meaning;  // without name: unit, bits, low, high, resolution
   std::string unlike;
 };
 
 struct FibexSignal {
   std::string name;
-  Signal meaning;          // with the name
+  Signal meaning;  // with the name
   std::string unlike;
   int position = 0;
   bool high_low = true;
   int line = 0;
 
-  // Bits from the PDU's first bit (the most significant of byte 0) to the signal's most significant one; nothing for a
-  // low-high signal over more than one byte, which is not contiguous in that order.
+  // Bits from the PDU's first bit (the most significant of byte 0) to the signal's most significant one;
+  // nothing for a low-high signal over more than one byte, which is not contiguous in that order.
   std::optional<int> offset() const;
 };
 
@@ -44,15 +45,15 @@ struct FibexMultiplexer {
   int dynamic_position = 0;                                   // of its one segment
   std::vector<std::pair<std::int64_t, std::string>> layouts;  // switch code, PDU
   std::string static_pdu;
-  std::string unlike;                                         // what of it is not kept here, or empty
+  std::string unlike;  // what of it is not kept here, or empty
 };
 
 struct FibexPdu {
   std::string id, name;
   int bytes = 0;
-  std::vector<FibexSignal> signals;       // in the order of their bits, as far as they have an offset
+  std::vector<FibexSignal> signals;  // in the order of their bits, as far as they have an offset
   std::optional<FibexMultiplexer> multiplexer;
-  std::optional<int> max_elements;        // of our own extension
+  std::optional<int> max_elements;  // of our own extension
   int line = 0;
 };
 
@@ -64,7 +65,7 @@ struct FibexFrame {
   std::string id, name;
   int bytes = 0;
   std::vector<Place> places;
-  std::optional<int> fragment;            // of our own extension
+  std::optional<int> fragment;  // of our own extension
   int line = 0;
 };
 
@@ -78,19 +79,19 @@ struct FibexTriggering {
 struct FibexEcu {
   std::string name;
   NodeParameters parameters;
-  std::set<std::string, std::less<>> given;   // names of parameters that the file states
+  std::set<std::string, std::less<>> given;  // names of parameters that the file states
   bool has_controller = false;
-  std::vector<std::string> sends, receives;   // ids of frame triggerings
+  std::vector<std::string> sends, receives;  // ids of frame triggerings
   int line = 0;
 };
 
 struct FibexFile {
   std::string cluster_name;
   GlobalParameters global;
-  std::set<std::string, std::less<>> given;   // names of parameters that the file states
+  std::set<std::string, std::less<>> given;  // names of parameters that the file states
   int cluster_line = 0;
   std::vector<FibexEcu> ecus;
-  std::vector<FibexTriggering> triggerings;   // in the order of the file
+  std::vector<FibexTriggering> triggerings;  // in the order of the file
   std::vector<FibexFrame> frames;
   std::vector<FibexPdu> pdus;
 };
@@ -107,7 +108,8 @@ class FibexReader {
   // SHORT-NAME, or else the ID; one of them must be there, and printable.
   std::string name_of(XmlElement& element);
   // A whole number in a child; `otherwise` where the child is absent.
-  int integer(XmlElement& element, std::string_view name, int low, int high, std::optional<int> otherwise = {});
+  int integer(XmlElement& element, std::string_view name, int low, int high,
+              std::optional<int> otherwise = {});
   // "true", "false", "1", "0".
   bool boolean(XmlElement& element, std::string_view name, bool otherwise);
   // All children of that name, and the one there should be.

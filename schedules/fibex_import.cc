@@ -14,12 +14,15 @@ namespace {
 
 // What a cluster file can say (schedules/loader.h).
 constexpr std::size_t kMostNamed = 200;
-constexpr int kLastStaticSlot = 1023;   // cStaticSlotIDMax
+constexpr int kLastStaticSlot = 1023;  // cStaticSlotIDMax
 
 class Importer {
  public:
   Importer(FibexFile file, std::string name, Findings wrong, Findings left_out)
-      : file_(std::move(file)), name_(std::move(name)), wrong_(std::move(wrong)), left_out_(std::move(left_out)) {}
+      : file_(std::move(file)),
+        name_(std::move(name)),
+        wrong_(std::move(wrong)),
+        left_out_(std::move(left_out)) {}
 
   FibexImport import() {
     wrong_.throw_if_any();
@@ -35,7 +38,7 @@ class Importer {
     take_nodes();
     limit("fx:PDUS", cluster.pdus.size());
     limit("fx:ECUS", cluster.nodes.size());
-    wrong_.throw_if_any();   // ids are bytes
+    wrong_.throw_if_any();  // ids are bytes
     take_frames();
     complete_nodes();
     wrong_.throw_if_any();
@@ -64,13 +67,14 @@ class Importer {
   }
 
   void take_lists() {
-    std::set<std::string> parts;   // of lists: said with them
+    std::set<std::string> parts;  // of lists: said with them
     std::vector<const FibexPdu*> others;
     std::map<std::string, int> names;
     for (const FibexPdu& pdu : file_.pdus) {
       ListFound found = as_list(pdu, pdus_);
       if (!found.layout) continue;
-      if (!names.emplace(pdu.name, pdu.line).second) fail(pdu.line, "fx:PDU", pdu.name, "must have a name of its own");
+      if (!names.emplace(pdu.name, pdu.line).second)
+        fail(pdu.line, "fx:PDU", pdu.name, "must have a name of its own");
       parts.insert({pdu.id, pdu.multiplexer->static_pdu, pdu.multiplexer->layouts.front().second});
       lists_[pdu.id] = static_cast<PduId>(out_.cluster.pdus.size());
       out_.cluster.pdus.push_back(std::move(*found.layout));
@@ -78,7 +82,8 @@ class Importer {
     for (const FibexPdu& pdu : file_.pdus) {
       if (parts.count(pdu.id) != 0) continue;
       std::string reason = as_list(pdu, pdus_).reason;
-      leave_out(pdu.line, "fx:PDU", pdu.name, fmt::format("is no list of a cluster file, and a comment there: {}", reason));
+      leave_out(pdu.line, "fx:PDU", pdu.name,
+                fmt::format("is no list of a cluster file, and a comment there: {}", reason));
       out_.foreign.push_back({pdu, std::move(reason)});
     }
   }
@@ -98,7 +103,8 @@ class Importer {
       if (!names.insert(ecu.name).second) fail(ecu.line, "fx:ECU", ecu.name, "must have a name of its own");
       const auto id = static_cast<NodeId>(out_.cluster.nodes.size());
       for (const std::string& sent : ecu.sends) {
-        if (!in_cluster(sent)) fail(ecu.line, "fx:OUTPUT-PORT", sent, "must have a FRAME-TRIGGERING-REF of this cluster");
+        if (!in_cluster(sent))
+          fail(ecu.line, "fx:OUTPUT-PORT", sent, "must have a FRAME-TRIGGERING-REF of this cluster");
         if (const auto [other, fresh] = senders_.emplace(sent, id); !fresh && other->second != id)
           fail(ecu.line, "fx:OUTPUT-PORT", sent, fmt::format("must have one sender, not {} too", ecu.name));
       }
@@ -118,7 +124,8 @@ class Importer {
     if (one.slot > out_.cluster.flexray.gNumberOfStaticSlots || one.slot > kLastStaticSlot)
       return out(fmt::format("slot {}", one.slot), "is left out: it is not one of the static slots");
     if ((one.repetition & (one.repetition - 1)) != 0)
-      return out(fmt::format("repetition {}", one.repetition), "is left out: cycles repeat by a power of two");
+      return out(fmt::format("repetition {}", one.repetition),
+                 "is left out: cycles repeat by a power of two");
     if (senders_.count(one.id) == 0) return out(one.id, "is left out: no ECU sends it");
     return true;
   }
@@ -135,7 +142,7 @@ class Importer {
       }
       if (!is_static(one)) continue;
       auto& [channels, line] = slots[{one.slot, one.base_cycle, one.repetition,
-                                       frame->second - file_.frames.data(), senders_.at(one.id)}];
+                                      frame->second - file_.frames.data(), senders_.at(one.id)}];
       const unsigned channel = 1u << static_cast<unsigned>(one.channel);
       if ((channels & channel) != 0)
         leave_out(one.line, "fx:FRAME-TRIGGERING", one.id, "is left out: it says the same as an earlier one");
@@ -193,7 +200,8 @@ class Importer {
       if (list != lists_.end() && place.byte == 0 && frame.places.size() == 1)
         take_fragment(frame, list->second, out);
       else
-        contents += fmt::format("{}{} at byte {}", contents.empty() ? "" : ", ", pdu->second->name, place.byte);
+        contents +=
+            fmt::format("{}{} at byte {}", contents.empty() ? "" : ", ", pdu->second->name, place.byte);
     }
     if (out.pdu == kNoPdu && !contents.empty()) contents = fmt::format("{} carries {}", frame.name, contents);
     out_.contents.push_back(std::move(contents));
@@ -205,16 +213,18 @@ class Importer {
     out.pdu = pdu;
     out.fragment = frame.fragment.value_or(0);
     if (out.fragment >= fragments)
-      fail(frame.line, "ttf:FRAGMENT", std::to_string(out.fragment), fmt::format("must be 0..{}", fragments - 1));
+      fail(frame.line, "ttf:FRAGMENT", std::to_string(out.fragment),
+           fmt::format("must be 0..{}", fragments - 1));
     if (frame.fragment || fragments == 1) return;
     int& next = next_fragment_[{index_of(pdu), index_of(out.sender), out.base_cycle, out.repetition}];
     out.fragment = next++ % fragments;
-    leave_out(frame.line, "fx:FRAME", frame.name,
-              fmt::format("does not say which fragment it carries; the order of slots makes it {}", out.fragment));
+    leave_out(
+        frame.line, "fx:FRAME", frame.name,
+        fmt::format("does not say which fragment it carries; the order of slots makes it {}", out.fragment));
   }
 
   void take_receivers() {
-    std::map<std::string, std::string> what;   // triggering -> frame or list
+    std::map<std::string, std::string> what;  // triggering -> frame or list
     for (const FibexTriggering& one : file_.triggerings) {
       const auto frame = frames_.find(one.frame);
       if (frame == frames_.end()) continue;
@@ -268,11 +278,11 @@ class Importer {
   std::string name_;
   Findings wrong_, left_out_;
   FibexImport out_;
-  std::map<std::string, const FibexPdu*> pdus_;   // by id
+  std::map<std::string, const FibexPdu*> pdus_;  // by id
   std::map<std::string, const FibexFrame*> frames_;
-  std::map<std::string, PduId> lists_;            // by id
-  std::map<std::string, NodeId> senders_;         // of triggerings, by id
-  std::vector<const FibexEcu*> ecus_;             // of the cluster's nodes
+  std::map<std::string, PduId> lists_;     // by id
+  std::map<std::string, NodeId> senders_;  // of triggerings, by id
+  std::vector<const FibexEcu*> ecus_;      // of the cluster's nodes
   std::map<std::tuple<std::size_t, std::size_t, int, int>, int> next_fragment_;
 };
 

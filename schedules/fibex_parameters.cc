@@ -54,8 +54,9 @@ std::optional<std::string> set_value(Struct& parameters, std::string_view name, 
     const std::int64_t scale = fibex_scale(p.unit);
     const auto value = parse_scaled(text, scale);
     if (!value || *value < p.low || *value > p.high)
-      return fmt::format("must be {}..{} {}, exact to {}", scaled_text(p.low, scale), scaled_text(p.high, scale),
-                         scale == 1 ? "bit/s" : "us", scale == 1 ? "1 bit/s" : "1 ps");
+      return fmt::format("must be {}..{} {}, exact to {}", scaled_text(p.low, scale),
+                         scaled_text(p.high, scale), scale == 1 ? "bit/s" : "us",
+                         scale == 1 ? "1 bit/s" : "1 ps");
     parameters.*p.member = *value;
     return std::nullopt;
   }
@@ -86,7 +87,8 @@ std::optional<std::string> set_fibex_value(GlobalParameters& parameters, std::st
                                            std::string_view text) {
   return set_value(parameters, name, text);
 }
-std::optional<std::string> set_fibex_value(NodeParameters& parameters, std::string_view name, std::string_view text) {
+std::optional<std::string> set_fibex_value(NodeParameters& parameters, std::string_view name,
+                                           std::string_view text) {
   return set_value(parameters, name, text);
 }
 

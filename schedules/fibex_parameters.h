@@ -1,6 +1,6 @@
-// Where FIBEX 3.1 (ASAM MCD-2 NET) keeps FlexRay's parameters: specification name -> element, in the order of the schema, and their
-// values as its text. FIBEX gives times in microseconds, the bit rate in bit/s, everything else in the specification's unit;
-// names and ranges are those of schedules/parameter_table.h.
+// Where FIBEX 3.1 (ASAM MCD-2 NET) keeps FlexRay's parameters: specification name -> element, in the order of
+// the schema, and their values as its text. FIBEX gives times in microseconds, the bit rate in bit/s,
+// everything else in the specification's unit; names and ranges are those of schedules/parameter_table.h.
 #pragma once
 
 #include <optional>
@@ -83,13 +83,16 @@ inline constexpr FibexParameter kFibexController[] = {
     {"pdMicrotick", "flexray:MICROTICK"},
 };
 
-// The value of the parameter of that name, as FIBEX writes it. A name that is not in the tables is a bug of ours.
+// The value of the parameter of that name, as FIBEX writes it. A name that is not in the tables is a bug of
+// ours.
 std::string fibex_value(const GlobalParameters& parameters, std::string_view name);
 std::string fibex_value(const NodeParameters& parameters, std::string_view name);
 
 // Sets it from FIBEX's text; or says what is expected instead ("must be 2..31"), and leaves it as it was.
-std::optional<std::string> set_fibex_value(GlobalParameters& parameters, std::string_view name, std::string_view text);
-std::optional<std::string> set_fibex_value(NodeParameters& parameters, std::string_view name, std::string_view text);
+std::optional<std::string> set_fibex_value(GlobalParameters& parameters, std::string_view name,
+                                           std::string_view text);
+std::optional<std::string> set_fibex_value(NodeParameters& parameters, std::string_view name,
+                                           std::string_view text);
 
 // The same in the words of a cluster file, whose units differ (pdMicrotick: ns there, us here).
 std::string yaml_value(const GlobalParameters& parameters, std::string_view name);

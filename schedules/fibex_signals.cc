@@ -188,7 +188,8 @@ FibexMultiplexer read_multiplexer(XmlElement& element, FibexReader& reader) {
     else
       out.unlike = "its dynamic part is not one segment";
     for (XmlElement& instance : part->children_of("fx:SWITCHED-PDU-INSTANCES", "fx:SWITCHED-PDU-INSTANCE")) {
-      out.layouts.emplace_back(reader.integer(instance, "fx:SWITCH-CODE", 0, INT32_MAX), instance.reference("fx:PDU-REF"));
+      out.layouts.emplace_back(reader.integer(instance, "fx:SWITCH-CODE", 0, INT32_MAX),
+                               instance.reference("fx:PDU-REF"));
       instance.finish();
     }
     part->finish();
@@ -224,7 +225,7 @@ std::map<std::string, FibexCoding> read_codings(XmlElement& root, XmlElement& el
     }
     units.merge(read_units(*processing));
   }
-  units.merge(read_units(elements));   // some tools put units and codings among the elements
+  units.merge(read_units(elements));  // some tools put units and codings among the elements
   if (processing) {
     add(*processing);
     processing->finish();
@@ -259,7 +260,8 @@ std::vector<FibexPdu> read_pdus(XmlElement& elements, const std::map<std::string
       signal.name = found->second.name;
       const auto coding = codings.find(found->second.coding);
       if (coding == codings.end()) {
-        reader.leave_out(instance, signal.name, "has a signal without coding, hence of unknown length, and is left out");
+        reader.leave_out(instance, signal.name,
+                         "has a signal without coding, hence of unknown length, and is left out");
         continue;
       }
       signal.meaning = coding->second.meaning;
@@ -270,9 +272,11 @@ std::vector<FibexPdu> read_pdus(XmlElement& elements, const std::map<std::string
     std::stable_sort(pdu.signals.begin(), pdu.signals.end(), [](const FibexSignal& a, const FibexSignal& b) {
       return a.offset().value_or(a.position) < b.offset().value_or(b.position);
     });
-    if (auto multiplexer = element.child("fx:MULTIPLEXER")) pdu.multiplexer = read_multiplexer(*multiplexer, reader);
+    if (auto multiplexer = element.child("fx:MULTIPLEXER"))
+      pdu.multiplexer = read_multiplexer(*multiplexer, reader);
     if (auto extension = element.child("fx:MANUFACTURER-EXTENSION")) {
-      if (extension->has("ttf:MAX-ELEMENTS")) pdu.max_elements = reader.integer(*extension, "ttf:MAX-ELEMENTS", 1, 65535);
+      if (extension->has("ttf:MAX-ELEMENTS"))
+        pdu.max_elements = reader.integer(*extension, "ttf:MAX-ELEMENTS", 1, 65535);
       extension->finish();
     }
     element.finish();
@@ -291,9 +295,9 @@ std::vector<FibexFrame> read_frames(XmlElement& elements, FibexReader& reader) {
     frame.bytes = reader.integer(element, "fx:BYTE-LENGTH", 0, kMostBytes);
     element.ignore("fx:FRAME-TYPE");
     for (XmlElement& instance : element.children_of("fx:PDU-INSTANCES", "fx:PDU-INSTANCE")) {
-      frame.places.push_back(
-          {instance.reference("fx:PDU-REF"), reader.integer(instance, "fx:BIT-POSITION", 0, kMostBits - 1) / 8});
-      instance.ignore("fx:IS-HIGH-LOW-BYTE-ORDER");   // PDUs begin at whole bytes in either
+      frame.places.push_back({instance.reference("fx:PDU-REF"),
+                              reader.integer(instance, "fx:BIT-POSITION", 0, kMostBits - 1) / 8});
+      instance.ignore("fx:IS-HIGH-LOW-BYTE-ORDER");  // PDUs begin at whole bytes in either
       instance.finish();
     }
     if (auto extension = element.child("fx:MANUFACTURER-EXTENSION")) {

@@ -20,11 +20,12 @@ std::string remark(std::string_view unit, bool assumed) {
 
 // Plain where no reader of YAML can take it for anything but text.
 std::string scalar(const std::string& text) {
-  static const std::set<std::string> kMeaningful{"null", "Null", "NULL", "true", "True", "TRUE", "false",
-                                                 "False", "FALSE", "yes", "no", "on", "off"};
+  static const std::set<std::string> kMeaningful{"null",  "Null",  "NULL", "true", "True", "TRUE", "false",
+                                                 "False", "FALSE", "yes",  "no",   "on",   "off"};
   const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
   const auto plain = [&](char c) { return letter(c) || c == '/' || (c >= '0' && c <= '9'); };
-  if (!text.empty() && letter(text[0]) && std::all_of(text.begin(), text.end(), plain) && kMeaningful.count(text) == 0)
+  if (!text.empty() && letter(text[0]) && std::all_of(text.begin(), text.end(), plain) &&
+      kMeaningful.count(text) == 0)
     return text;
   std::string quoted = "\"";
   for (const char c : text) {
@@ -37,7 +38,8 @@ std::string scalar(const std::string& text) {
 
 // Comments stay on one line, whatever the file's names hold.
 std::string comment(std::string text) {
-  std::replace_if(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
   return text;
 }
 
@@ -84,9 +86,12 @@ class Writer {
   void line(const std::string& text) { text_ += text + '\n'; }
 
   void write_head() {
-    line(comment(fmt::format("# From the FIBEX file {}: the timing of the cluster, its controllers, slots, PDUs and signals.",
-                             cluster_.file)));
-    line("# What FIBEX does not say, and is to be added before this cluster can run: the tasks of each node and what they read and");
+    line(comment(fmt::format(
+        "# From the FIBEX file {}: the timing of the cluster, its controllers, slots, PDUs and signals.",
+        cluster_.file)));
+    line(
+        "# What FIBEX does not say, and is to be added before this cluster can run: the tasks of each node "
+        "and what they read and");
     line("# write, sensors, CANs, oscillator drifts. Values marked as assumed are to be confirmed.");
     if (in_.left_out.empty()) return;
     line("# Left out, or not as it was:");
@@ -126,7 +131,8 @@ class Writer {
     std::vector<bool> shared;
     std::string common;
     for (std::size_t i = 0; i < values[0].size(); ++i) {
-      shared.push_back(std::all_of(values.begin(), values.end(), [&](const auto& of) { return of[i] == values[0][i]; }));
+      shared.push_back(
+          std::all_of(values.begin(), values.end(), [&](const auto& of) { return of[i] == values[0][i]; }));
       if (shared[i]) common += "\n  " + text_of(values[0][i]);
     }
     line(fmt::format("\nnode_parameters:{}", common.empty() ? " {}" : common));
@@ -154,18 +160,19 @@ class Writer {
   void write_multiplexer(const FibexMultiplexer& multiplexer) {
     if (!multiplexer.static_pdu.empty()) line(comment("#   always: " + pdu_named(multiplexer.static_pdu)));
     for (const auto& [code, id] : multiplexer.layouts)
-      line(comment(fmt::format("#   from bit {}, where the {} bits at bit {} are {}: {}", multiplexer.dynamic_position,
-                               multiplexer.switch_bits, multiplexer.switch_position, code, pdu_named(id))));
+      line(comment(fmt::format("#   from bit {}, where the {} bits at bit {} are {}: {}",
+                               multiplexer.dynamic_position, multiplexer.switch_bits,
+                               multiplexer.switch_position, code, pdu_named(id))));
   }
 
   void write_pdus() {
     line("");
     for (const ForeignPdu& foreign : in_.foreign) {
-      line(comment(fmt::format("# {}: {} bytes, no list of a cluster file, for {}", foreign.pdu.name, foreign.pdu.bytes,
-                               foreign.reason)));
+      line(comment(fmt::format("# {}: {} bytes, no list of a cluster file, for {}", foreign.pdu.name,
+                               foreign.pdu.bytes, foreign.reason)));
       for (const FibexSignal& signal : foreign.pdu.signals)
-        line(comment(fmt::format("#   bit {}, {} first: {}{}", signal.position, signal.high_low ? "high byte" : "low byte",
-                                 signal_text(signal.meaning),
+        line(comment(fmt::format("#   bit {}, {} first: {}{}", signal.position,
+                                 signal.high_low ? "high byte" : "low byte", signal_text(signal.meaning),
                                  signal.unlike.empty() ? "" : fmt::format(", but {}", signal.unlike))));
       if (foreign.pdu.multiplexer) write_multiplexer(*foreign.pdu.multiplexer);
     }
@@ -195,9 +202,9 @@ class Writer {
       const FrameSlot& first = cluster_.frames[i];
       std::size_t end = i + 1;
       while (end < cluster_.frames.size() && continues(cluster_.frames[end - 1], cluster_.frames[end])) ++end;
-      std::string text = fmt::format("  - {{slot: {}, channels: {}, sender: {}, base_cycle: {}, repetition: {}", first.slot,
-                                     channels_of(first), scalar(cluster_.node(first.sender).name), first.base_cycle,
-                                     first.repetition);
+      std::string text = fmt::format(
+          "  - {{slot: {}, channels: {}, sender: {}, base_cycle: {}, repetition: {}", first.slot,
+          channels_of(first), scalar(cluster_.node(first.sender).name), first.base_cycle, first.repetition);
       if (first.pdu != kNoPdu) {
         text += fmt::format(", pdu: {}, fragments: {}", scalar(cluster_.pdu(first.pdu).name), end - i);
         if (first.fragment != 0) text += fmt::format(", first_fragment: {}", first.fragment);

@@ -12,7 +12,7 @@ namespace ttf::schedules {
 struct XmlElement::Content {
   std::string file;
   std::vector<std::ptrdiff_t> line_starts;
-  std::map<std::string, std::string, std::less<>> prefixes;   // the file's -> ours
+  std::map<std::string, std::string, std::less<>> prefixes;  // the file's -> ours
   pugi::xml_document document;
 
   int line_at(std::ptrdiff_t offset) const {
@@ -21,7 +21,8 @@ struct XmlElement::Content {
   }
   std::string canonical(std::string_view name) const {
     const auto colon = name.find(':');
-    const std::string_view prefix = colon == std::string_view::npos ? std::string_view{} : name.substr(0, colon);
+    const std::string_view prefix =
+        colon == std::string_view::npos ? std::string_view{} : name.substr(0, colon);
     const std::string_view local = colon == std::string_view::npos ? name : name.substr(colon + 1);
     const auto found = prefixes.find(prefix);
     return found == prefixes.end() ? std::string(name) : fmt::format("{}:{}", found->second, local);
@@ -52,7 +53,8 @@ std::ptrdiff_t text_offset(const pugi::xml_node& node) {
   return node.offset_debug() + static_cast<std::ptrdiff_t>(first == std::string_view::npos ? 0 : first);
 }
 
-// Length of the UTF-8 character at the front, 0 if there is none: RFC 3629, table 3-7 of the Unicode standard.
+// Length of the UTF-8 character at the front, 0 if there is none: RFC 3629, table 3-7 of the Unicode
+// standard.
 std::size_t character_length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
   const auto follows = [&](std::size_t i) { return (byte(i) & 0xc0) == 0x80; };
@@ -77,7 +79,8 @@ std::size_t first_bad_character(std::string_view text) {
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t length = character_length(text.substr(at));
     const auto code = static_cast<unsigned char>(text[at]);
-    if (length == 0 || code == 0x7f || (code < 0x20 && kSpace.find(text[at]) == std::string_view::npos)) return at;
+    if (length == 0 || code == 0x7f || (code < 0x20 && kSpace.find(text[at]) == std::string_view::npos))
+      return at;
     at += length;
   }
   return std::string_view::npos;
@@ -110,8 +113,10 @@ XmlFile XmlFile::parse(std::string text, std::string name) {
   if (!result) throw damaged(result.offset, fmt::format("is no well-formed XML: {}", result.description()));
   pugi::xml_node root;
   for (const pugi::xml_node& node : content->document.children()) {
-    if (node.type() == pugi::node_doctype) throw damaged(node.offset_debug(), "has a document type; FIBEX has none");
-    if (is_text(node)) throw damaged(text_offset(node), "is no well-formed XML: text outside the root element");
+    if (node.type() == pugi::node_doctype)
+      throw damaged(node.offset_debug(), "has a document type; FIBEX has none");
+    if (is_text(node))
+      throw damaged(text_offset(node), "is no well-formed XML: text outside the root element");
     if (node.type() != pugi::node_element) continue;
     if (root) throw damaged(node.offset_debug(), "is no well-formed XML: a second root element");
     root = node;
@@ -207,7 +212,8 @@ std::string XmlElement::text() {
 
 std::string XmlElement::attribute(std::string_view wanted) {
   // Some tools leave the prefix of an attribute out.
-  const std::string_view local = wanted.substr(wanted.find(':') == std::string_view::npos ? 0 : wanted.find(':') + 1);
+  const std::string_view local =
+      wanted.substr(wanted.find(':') == std::string_view::npos ? 0 : wanted.find(':') + 1);
   for (const std::string_view name : {wanted, local}) asked_.push_back(fmt::format("@{}", name));
   for (const pugi::xml_attribute& attribute : node_.attributes()) {
     const std::string name = content_->attribute_name(attribute.name());
@@ -235,7 +241,8 @@ void XmlElement::finish() {
   for (const pugi::xml_node& node : node_.children()) {
     const bool element = node.type() == pugi::node_element;
     if (element && !is_asked(content_->canonical(node.name())))
-      leave_out(fmt::format("{}/{}", path(), content_->canonical(node.name())), content_->line_at(node.offset_debug()));
+      leave_out(fmt::format("{}/{}", path(), content_->canonical(node.name())),
+                content_->line_at(node.offset_debug()));
     if (is_text(node) && !text_asked_ && !trimmed(node.value()).empty())
       leave_out(path() + "/text()", content_->line_at(text_offset(node)));
   }

@@ -1,12 +1,12 @@
 // A strict reader of XML: what nobody asked for is named by its path and line, never silently dropped.
 //
-//   XmlFile file = XmlFile::load("cluster.xml");        // throws InputError on unreadable or damaged XML, with its line
-//   Findings left_out;
-//   XmlElement root = file.root(left_out);
-//   for (XmlElement& one : root.children("fx:CLUSTER")) { ...; one.finish(); }
-//   root.finish();                                      // names elements, attributes and text nobody asked for
+//   XmlFile file = XmlFile::load("cluster.xml");        // throws InputError on unreadable or damaged XML,
+//   with its line Findings left_out; XmlElement root = file.root(left_out); for (XmlElement& one :
+//   root.children("fx:CLUSTER")) { ...; one.finish(); } root.finish(); // names elements, attributes and text
+//   nobody asked for
 //
-// Elements are called by the customary prefix of their namespace (fx, ho, flexray), whatever prefix the file gave it.
+// Elements are called by the customary prefix of their namespace (fx, ho, flexray), whatever prefix the file
+// gave it.
 #pragma once
 
 #include <memory>
@@ -20,7 +20,8 @@
 
 namespace ttf::schedules {
 
-// Namespaces and the prefixes elements are called by here. Elements of other namespaces keep the prefix the file gave them.
+// Namespaces and the prefixes elements are called by here. Elements of other namespaces keep the prefix the
+// file gave them.
 struct XmlNamespace {
   std::string_view prefix;
   std::string_view name;
@@ -70,7 +71,7 @@ class XmlElement {
   std::shared_ptr<const Content> content_;
   pugi::xml_node node_;
   Findings* left_out_;
-  std::vector<std::string> asked_;   // children by name, attributes as "@name"
+  std::vector<std::string> asked_;  // children by name, attributes as "@name"
   bool text_asked_ = false;
 };
 

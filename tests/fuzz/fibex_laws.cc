@@ -18,8 +18,8 @@ using schedules::FibexImport;
 
 constexpr char kFile[] = "cluster.xml";
 
-// Names that FIBEX holds as they are: XML knows no control characters, space around text means nothing there, and a SHORT-NAME has
-// at most 128 bytes, also that of a frame, which is made of its list and slot.
+// Names that FIBEX holds as they are: XML knows no control characters, space around text means nothing there,
+// and a SHORT-NAME has at most 128 bytes, also that of a frame, which is made of its list and slot.
 bool is_fibex_name(const std::string& name) {
   const auto control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
   return !name.empty() && name.size() <= 90 && name.front() != ' ' && name.back() != ' ' &&
@@ -49,8 +49,8 @@ void check_fibex_round_trip(const Cluster& cluster) {
   if (!has_fibex_names(cluster)) return;
   const FibexImport import = schedules::parse_fibex(schedules::fibex_text(cluster), kFile);
   check_same(cluster, import.cluster);
-  TTF_CHECK(import.left_out.empty() && import.assumed.empty() && import.foreign.empty(), "{} left out, {} assumed",
-            import.left_out.size(), import.assumed.size());
+  TTF_CHECK(import.left_out.empty() && import.assumed.empty() && import.foreign.empty(),
+            "{} left out, {} assumed", import.left_out.size(), import.assumed.size());
 }
 
 void check_fibex(const std::string& text) {
@@ -65,7 +65,8 @@ void check_fibex(const std::string& text) {
     TTF_CHECK(false, "what was imported does not load: {}\n{}", error.what(), yaml);
   }
   check_same(import.cluster, again);
-  if (has_fibex_names(again)) check_same(again, schedules::parse_fibex(schedules::fibex_text(again), kFile).cluster);
+  if (has_fibex_names(again))
+    check_same(again, schedules::parse_fibex(schedules::fibex_text(again), kFile).cluster);
 }
 
 }  // namespace ttf::fuzz

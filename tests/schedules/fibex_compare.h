@@ -54,7 +54,8 @@ class FibexDifference {
       value(a[i]->name + " microtick", a[i]->microtick_ps, b[i]->microtick_ps);
       parameters(a[i]->name, *a[i]->flexray, *b[i]->flexray, kNodeIntegers, kNodeScaled);
       for (const auto& p : kNodeFlags)
-        value(fmt::format("{}.{}", a[i]->name, p.name), (*a[i]->flexray).*p.member, (*b[i]->flexray).*p.member);
+        value(fmt::format("{}.{}", a[i]->name, p.name), (*a[i]->flexray).*p.member,
+              (*b[i]->flexray).*p.member);
     }
   }
 
@@ -87,8 +88,9 @@ class FibexDifference {
   }
 
   static std::string frame_text(const Cluster& cluster, const FrameSlot& frame) {
-    return fmt::format("slot {} channels {} cycle {} of {} by {}: {} {}", frame.slot, static_cast<int>(frame.channels),
-                       frame.base_cycle, frame.repetition, cluster.node(frame.sender).name,
+    return fmt::format("slot {} channels {} cycle {} of {} by {}: {} {}", frame.slot,
+                       static_cast<int>(frame.channels), frame.base_cycle, frame.repetition,
+                       cluster.node(frame.sender).name,
                        frame.pdu == kNoPdu ? "status" : cluster.pdu(frame.pdu).name, frame.fragment);
   }
 

@@ -3,9 +3,9 @@
 
 namespace ttf::schedules {
 
-// A small powertrain cluster in the style of public examples: parameters that are self-consistent but not complete (CYCLE and
-// MACROTICK, no MACRO-PER-CYCLE), ordinary PDUs in low-high byte order, codings beside the elements, a frame in the dynamic
-// segment, one triggered by CYCLE-COUNTER.
+// A small powertrain cluster in the style of public examples: parameters that are self-consistent but not
+// complete (CYCLE and MACROTICK, no MACRO-PER-CYCLE), ordinary PDUs in low-high byte order, codings beside
+// the elements, a frame in the dynamic segment, one triggered by CYCLE-COUNTER.
 inline constexpr char kPowertrain[] = R"(<?xml version="1.0" encoding="UTF-8"?>
 <fx:FIBEX VERSION="3.1.0" xmlns:fx="http://www.asam.net/xml/fbx" xmlns:ho="http://www.asam.net/xml"
           xmlns:flexray="http://www.asam.net/xml/fbx/flexray" xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance">
@@ -200,9 +200,10 @@ inline constexpr char kPowertrain[] = R"(<?xml version="1.0" encoding="UTF-8"?>
 </fx:FIBEX>
 )";
 
-// A list of objects, multiplexed by its fragment number over two frames, by a tool that knows nothing of us: other prefixes, no
-// extension, signals within one byte given in low-high order.
-inline constexpr char kObjects[] = R"(<f:FIBEX VERSION="3.1.0" xmlns:f="http://www.asam.net/xml/fbx" xmlns="http://www.asam.net/xml"
+// A list of objects, multiplexed by its fragment number over two frames, by a tool that knows nothing of us:
+// other prefixes, no extension, signals within one byte given in low-high order.
+inline constexpr char kObjects[] =
+    R"(<f:FIBEX VERSION="3.1.0" xmlns:f="http://www.asam.net/xml/fbx" xmlns="http://www.asam.net/xml"
          xmlns:flexray="http://www.asam.net/xml/fbx/flexray" xmlns:i="http://www.w3.org/2001/XMLSchema-instance">
   <f:ELEMENTS>
     <f:CLUSTERS><f:CLUSTER ID="C" i:type="flexray:CLUSTER-TYPE">

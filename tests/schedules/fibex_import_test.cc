@@ -1,4 +1,5 @@
-// Files of other tools, by hand: what is understood is right, what is not is named with its line, what is wrong is refused.
+// Files of other tools, by hand: what is understood is right, what is not is named with its line, what is
+// wrong is refused.
 #include "schedules/fibex_import.h"
 
 #include <gmock/gmock.h>
@@ -50,16 +51,17 @@ TEST_F(Powertrain, TimingIsWhatTheFileSaysAndWhatFollows) {
   EXPECT_EQ(g.baudrate, 10'000'000);
   EXPECT_EQ(g.gdMacrotick_ps, 1'250'000);
   EXPECT_EQ(g.gdCycle_ps, 5'000'000'000);
-  EXPECT_EQ(g.gMacroPerCycle, 4000);   // not in the file: 5000 us / 1.25 us
-  EXPECT_EQ(g.gdBit_ps, 100'000);      // not in the file: one over the bit rate
+  EXPECT_EQ(g.gMacroPerCycle, 4000);  // not in the file: 5000 us / 1.25 us
+  EXPECT_EQ(g.gdBit_ps, 100'000);     // not in the file: one over the bit rate
   EXPECT_EQ(g.gNumberOfStaticSlots, 60);
   EXPECT_EQ(g.gdStaticSlot, 43);
   EXPECT_EQ(g.gNumberOfMinislots, 210);
   EXPECT_EQ(g.gdNIT, 6);
   EXPECT_EQ(g.gOffsetCorrectionStart, 3632);
   EXPECT_EQ(g.gPayloadLengthStatic, 21);
-  for (const char* assumed : {"flexray.gMacroPerCycle", "flexray.gdBit", "flexray.gListenNoise",
-                              "flexray.gdMaxPropagationDelay", "nodes.Engine.flexray.pLatestTx", "nodes.ESP.flexray.pdMicrotick"})
+  for (const char* assumed :
+       {"flexray.gMacroPerCycle", "flexray.gdBit", "flexray.gListenNoise", "flexray.gdMaxPropagationDelay",
+        "nodes.Engine.flexray.pLatestTx", "nodes.ESP.flexray.pdMicrotick"})
     EXPECT_EQ(import_.assumed.count(assumed), 1u) << assumed;
   for (const char* stated : {"flexray.gdNIT", "flexray.baudrate", "nodes.Engine.flexray.pDecodingCorrection"})
     EXPECT_EQ(import_.assumed.count(stated), 0u) << stated;
@@ -75,11 +77,11 @@ TEST_F(Powertrain, ControllersHaveTheirKeySlotsAndWhatFollowsFromTheCycle) {
   EXPECT_EQ(engine.flexray->pdMicrotick_ps, 25'000);
   EXPECT_EQ(engine.flexray->pSamplesPerMicrotick, 2);
   EXPECT_EQ(engine.flexray->pMicroPerCycle, 200'000);
-  EXPECT_EQ(engine.flexray->pRateCorrectionOut, 601);      // 200000 * 0.003 / 0.9985
+  EXPECT_EQ(engine.flexray->pRateCorrectionOut, 601);  // 200000 * 0.003 / 0.9985
   EXPECT_EQ(engine.flexray->pdListenTimeout, 401'202);
   const Node& esp = cluster_.nodes[1];
   EXPECT_EQ(esp.name, "ESP");
-  EXPECT_EQ(esp.flexray->pKeySlotId, 13);   // has no controller in the file: its first slot
+  EXPECT_EQ(esp.flexray->pKeySlotId, 13);  // has no controller in the file: its first slot
   EXPECT_FALSE(esp.flexray->pKeySlotUsedForSync);
   EXPECT_THAT(import_.receives[0], ElementsAre());
   EXPECT_THAT(import_.receives[1], ElementsAre("Startup"));
@@ -89,7 +91,7 @@ TEST_F(Powertrain, SlotsHaveTheirCyclesChannelsAndSenders) {
   ASSERT_EQ(cluster_.frames.size(), 2u);
   const FrameSlot& startup = cluster_.frames[0];
   EXPECT_EQ(startup.slot, 1);
-  EXPECT_EQ(startup.base_cycle, 7);   // CYCLE-COUNTER: this one of the 64 cycles
+  EXPECT_EQ(startup.base_cycle, 7);  // CYCLE-COUNTER: this one of the 64 cycles
   EXPECT_EQ(startup.repetition, 64);
   EXPECT_EQ(startup.channels, Channels::kA);
   EXPECT_EQ(cluster_.node(startup.sender).name, "Engine");
@@ -98,10 +100,11 @@ TEST_F(Powertrain, SlotsHaveTheirCyclesChannelsAndSenders) {
   EXPECT_EQ(torque.slot, 13);
   EXPECT_EQ(torque.base_cycle, 1);
   EXPECT_EQ(torque.repetition, 2);
-  EXPECT_EQ(torque.channels, Channels::kAB);   // one frame on both
+  EXPECT_EQ(torque.channels, Channels::kAB);  // one frame on both
   EXPECT_EQ(cluster_.node(torque.sender).name, "ESP");
   EXPECT_EQ(torque.pdu, kNoPdu);
-  EXPECT_THAT(import_.contents, ElementsAre("", "TorqueInfo carries CrankTorque at byte 0, Reserve at byte 4"));
+  EXPECT_THAT(import_.contents,
+              ElementsAre("", "TorqueInfo carries CrankTorque at byte 0, Reserve at byte 4"));
 }
 
 TEST_F(Powertrain, OrdinaryPdusKeepTheirSignalsBesideTheCluster) {
@@ -115,9 +118,9 @@ TEST_F(Powertrain, OrdinaryPdusKeepTheirSignalsBesideTheCluster) {
   EXPECT_EQ(torque.name, "TorqueReq");
   EXPECT_EQ(torque.position, 0);
   EXPECT_FALSE(torque.high_low);
-  EXPECT_EQ(torque.offset(), std::nullopt);   // over two bytes
+  EXPECT_EQ(torque.offset(), std::nullopt);  // over two bytes
   EXPECT_EQ(torque.meaning.bits, 16);
-  EXPECT_EQ(torque.meaning.low, -0.5);        // (-4 + raw) / 8
+  EXPECT_EQ(torque.meaning.low, -0.5);  // (-4 + raw) / 8
   EXPECT_EQ(torque.meaning.resolution, 0.125);
   EXPECT_EQ(torque.meaning.high, 6000.0);
   EXPECT_EQ(torque.meaning.unit, "Nm");
@@ -134,13 +137,15 @@ TEST_F(Powertrain, WhatIsNotUnderstoodIsNamedWithItsLine) {
     std::string path, near, word;
   };
   const Expected expected[] = {
-      {elements + "fx:CLUSTERS/fx:CLUSTER/flexray:MAX-INITIALIZATION-ERROR", "<flexray:MAX-INIT", "not understood"},
+      {elements + "fx:CLUSTERS/fx:CLUSTER/flexray:MAX-INITIALIZATION-ERROR", "<flexray:MAX-INIT",
+       "not understood"},
       {elements + "fx:CLUSTERS/fx:CLUSTER", "<fx:CLUSTER ID=\"C2\">", "FlexRay cluster"},
       {"fx:FRAME-TRIGGERING", "<fx:FRAME-TRIGGERING ID=\"ft4\">", "slot 61"},
       {elements + "fx:GATEWAYS", "<fx:GATEWAYS>", "not understood"},
-      {elements + "fx:ECUS/fx:ECU/fx:CONTROLLERS/fx:CONTROLLER", "<fx:CONTROLLER ID=\"E1C\"", "MAX-DYNAMIC-PAYLOAD-LENGTH 127"},
-      {elements + "fx:ECUS/fx:ECU/fx:CONNECTORS/fx:CONNECTOR/flexray:WAKE-UP-CHANNEL", "<flexray:WAKE-UP-CHANNEL>",
-       "not understood"},
+      {elements + "fx:ECUS/fx:ECU/fx:CONTROLLERS/fx:CONTROLLER", "<fx:CONTROLLER ID=\"E1C\"",
+       "MAX-DYNAMIC-PAYLOAD-LENGTH 127"},
+      {elements + "fx:ECUS/fx:ECU/fx:CONNECTORS/fx:CONNECTOR/flexray:WAKE-UP-CHANNEL",
+       "<flexray:WAKE-UP-CHANNEL>", "not understood"},
       {"fx:PDU", "<fx:PDU ID=\"pdu1\">", "CrankTorque"},
       {"fx:PDU", "<fx:PDU ID=\"pdu2\">", "Reserve"},
       {elements + "fx:CODINGS/fx:CODING/ho:COMPU-METHODS/ho:COMPU-METHOD/ho:PHYS-CONSTRS/ho:SCALE-CONSTR",
@@ -159,10 +164,10 @@ TEST_F(Powertrain, BecomesAClusterFileThatLoads) {
   const std::string yaml = skeleton_yaml(import_);
   const Cluster again = parse_cluster(yaml, "cluster.yaml");
   EXPECT_EQ(FibexDifference::of(cluster_, again), "");
-  for (const char* said :
-       {"gdBit: 0.1   # us, assumed", "gdMacrotick: 1.25   # us\n", "# receives Startup", "tasks: {}   # to be added",
-        "# CrankTorque: 4 bytes, no list", "#   bit 0, low byte first: {name: TorqueReq, unit: Nm, bits: 16, low: -0.5",
-        "# TorqueInfo carries CrankTorque at byte 0", "#   demo.xml:"})
+  for (const char* said : {"gdBit: 0.1   # us, assumed", "gdMacrotick: 1.25   # us\n", "# receives Startup",
+                           "tasks: {}   # to be added", "# CrankTorque: 4 bytes, no list",
+                           "#   bit 0, low byte first: {name: TorqueReq, unit: Nm, bits: 16, low: -0.5",
+                           "# TorqueInfo carries CrankTorque at byte 0", "#   demo.xml:"})
     EXPECT_THAT(yaml, HasSubstr(said));
 }
 
@@ -173,7 +178,7 @@ TEST(FibexObjects, AListOfAnotherToolIsAList) {
   EXPECT_EQ(list.name, "objects");
   EXPECT_EQ(list.fragment_bytes, 8);
   EXPECT_EQ(list.elements_per_fragment, 2);
-  EXPECT_EQ(list.max_elements, 4);   // the file does not say: all that fits
+  EXPECT_EQ(list.max_elements, 4);  // the file does not say: all that fits
   EXPECT_EQ(list.header_bits, 8);
   EXPECT_EQ(list.element_bits, 22);
   std::vector<std::string> names;
@@ -204,10 +209,12 @@ TEST(FibexObjects, AListOfAnotherToolIsAList) {
 }
 
 TEST(FibexObjects, AForeignMultiplexerIsDescribed) {
-  const FibexImport import = parse_fibex(replaced(kObjects, "<SHORT-NAME>sequence<", "<SHORT-NAME>number<"), "objects.xml");
+  const FibexImport import =
+      parse_fibex(replaced(kObjects, "<SHORT-NAME>sequence<", "<SHORT-NAME>number<"), "objects.xml");
   const std::string yaml = skeleton_yaml(import);
-  for (const char* said : {"#   always: head\n", "#   from bit 8, where the 1 bits at bit 3 are 1: part\n",
-                           "#   bit 37, high byte first: {name: v_1, bits: 10}\n", "# Objects1 carries objects at byte 0"})
+  for (const char* said :
+       {"#   always: head\n", "#   from bit 8, where the 1 bits at bit 3 are 1: part\n",
+        "#   bit 37, high byte first: {name: v_1, bits: 10}\n", "# Objects1 carries objects at byte 0"})
     EXPECT_THAT(yaml, HasSubstr(said));
 }
 
@@ -215,14 +222,17 @@ TEST(FibexObjects, AForeignMultiplexerIsDescribed) {
 TEST(FibexObjects, WhatIsNoListSaysWhy) {
   const std::pair<const char*, std::pair<const char*, const char*>> edits[] = {
       {"<SHORT-NAME>sequence<", {"<SHORT-NAME>number<", "no signals sequence, fragment and count"}},
-      {"<f:BIT-POSITION>3</f:BIT-POSITION>\n", {"<f:BIT-POSITION>4</f:BIT-POSITION>\n", "its switch is not the signal fragment"}},
+      {"<f:BIT-POSITION>3</f:BIT-POSITION>\n",
+       {"<f:BIT-POSITION>4</f:BIT-POSITION>\n", "its switch is not the signal fragment"}},
       {"<f:SWITCH-CODE>1<", {"<f:SWITCH-CODE>2<", "switch codes are not 0, 1"}},
-      {"<f:PDU-REF ID-REF=\"part\"/><f:SWITCH-CODE>1", {"<f:PDU-REF ID-REF=\"head\"/><f:SWITCH-CODE>1", "same signals"}},
+      {"<f:PDU-REF ID-REF=\"part\"/><f:SWITCH-CODE>1",
+       {"<f:PDU-REF ID-REF=\"head\"/><f:SWITCH-CODE>1", "same signals"}},
       {"<f:BIT-POSITION>15<", {"<f:BIT-POSITION>23<", "does not follow the header"}},
       {"<f:BIT-POSITION>17<", {"<f:BIT-POSITION>16<", "x_1: it does not follow"}},
       {"<V>0.05</V>", {"<V>-0.05</V>", "falls as the raw one rises"}},
       {"\"A_UINT16\"><BIT-LENGTH>10", {"\"A_INT16\"><BIT-LENGTH>10", "not unsigned"}},
-      {"<SHORT-NAME>objects</SHORT-NAME><f:BYTE-LENGTH>8", {"<SHORT-NAME>objects</SHORT-NAME><f:BYTE-LENGTH>6", "do not fit"}},
+      {"<SHORT-NAME>objects</SHORT-NAME><f:BYTE-LENGTH>8",
+       {"<SHORT-NAME>objects</SHORT-NAME><f:BYTE-LENGTH>6", "do not fit"}},
   };
   for (const auto& [from, edit] : edits) {
     const FibexImport import = parse_fibex(replaced(kObjects, from, edit.first), "objects.xml");
@@ -238,38 +248,56 @@ TEST(FibexImport, MistakesAreRefusedWithLineAndValue) {
     std::string from, to, near, expected;
   };
   const Mistake mistakes[] = {
-      {"MACROTICK>1.250000<", "MACROTICK>7<", "MACROTICK>7<", "MACROTICK = 7: must be 1..6 us, exact to 1 ps (gdMacrotick)"},
+      {"MACROTICK>1.250000<", "MACROTICK>7<", "MACROTICK>7<",
+       "MACROTICK = 7: must be 1..6 us, exact to 1 ps (gdMacrotick)"},
       {"MACROTICK>1.250000<", "MACROTICK>1.2500000001<", "MACROTICK>1.25", "exact to 1 ps"},
-      {"<flexray:N-I-T>6<", "<flexray:N-I-T>x<", "<flexray:N-I-T>", "N-I-T = x: must be 2..805 macroticks (gdNIT)"},
+      {"<flexray:N-I-T>6<", "<flexray:N-I-T>x<", "<flexray:N-I-T>",
+       "N-I-T = x: must be 2..805 macroticks (gdNIT)"},
       {"<flexray:CYCLE>5000<", "<flexray:CYCLE>5001<", "<fx:CLUSTER ID=\"C1\"", "whole number of macroticks"},
       {"<flexray:CYCLE>5000</flexray:CYCLE>", "", "<fx:CLUSTER ID=\"C1\"", "two of flexray:CYCLE"},
-      {"<flexray:CYCLE>5000</flexray:CYCLE>", "<flexray:MACRO-PER-CYCLE>16000</flexray:MACRO-PER-CYCLE>", "<fx:CLUSTER ID=\"C1\"",
-       "parameters from which gdCycle follows in 10..16000 us"},
-      {"<flexray:STATIC-SLOT>43</flexray:STATIC-SLOT>", "", "<fx:CLUSTER ID=\"C1\"", "flexray:STATIC-SLOT (gdStaticSlot)"},
+      {"<flexray:CYCLE>5000</flexray:CYCLE>", "<flexray:MACRO-PER-CYCLE>16000</flexray:MACRO-PER-CYCLE>",
+       "<fx:CLUSTER ID=\"C1\"", "parameters from which gdCycle follows in 10..16000 us"},
+      {"<flexray:STATIC-SLOT>43</flexray:STATIC-SLOT>", "", "<fx:CLUSTER ID=\"C1\"",
+       "flexray:STATIC-SLOT (gdStaticSlot)"},
       {"SAWTOOTH", "MONOTONE", "<fx:CLUSTER ID=\"C1\"", "SAWTOOTH"},
-      {"<fx:SLOT-ID>13</fx:SLOT-ID>", "<fx:SLOT-ID>0</fx:SLOT-ID>", "<fx:SLOT-ID>0", "SLOT-ID = 0: must be a whole number, 1..2047"},
-      {"<fx:BASE-CYCLE>1<", "<fx:BASE-CYCLE>2<", "<fx:ABSOLUTELY-SCHEDULED-TIMING>\n                <fx:SLOT-ID>13</fx:SLOT-ID><fx:BASE", "BASE-CYCLE below CYCLE-REPETITION, 0..1"},
-      {"FRAME-REF ID-REF=\"frame2\"", "FRAME-REF ID-REF=\"frame9\"", "<fx:FRAME-TRIGGERING ID=\"ft2\">", "frame9: must have a FRAME-REF"},
-      {"FRAME-TRIGGERING-REF ID-REF=\"ft2\"", "FRAME-TRIGGERING-REF ID-REF=\"ft9\"", "<fx:ECU ID=\"E1\">", "ft9: must have"},
-      {"PDU-REF ID-REF=\"pdu1\"", "PDU-REF ID-REF=\"pdu9\"", "<fx:FRAME ID=\"frame1\">", "pdu9: must have PDU-REFs"},
-      {"SIGNAL-REF ID-REF=\"signal1\"", "SIGNAL-REF ID-REF=\"signal9\"", "<fx:SIGNAL-INSTANCE ID=\"si1\">", "signal9: must have a SIGNAL-REF"},
-      {"UNIT-REF ID-REF=\"Unit_1\"", "UNIT-REF ID-REF=\"Unit_9\"", "<ho:COMPU-METHOD>\n            <ho:SHORT-NAME>Torque", "Unit_9: has a UNIT-REF"},
+      {"<fx:SLOT-ID>13</fx:SLOT-ID>", "<fx:SLOT-ID>0</fx:SLOT-ID>", "<fx:SLOT-ID>0",
+       "SLOT-ID = 0: must be a whole number, 1..2047"},
+      {"<fx:BASE-CYCLE>1<", "<fx:BASE-CYCLE>2<",
+       "<fx:ABSOLUTELY-SCHEDULED-TIMING>\n                <fx:SLOT-ID>13</fx:SLOT-ID><fx:BASE",
+       "BASE-CYCLE below CYCLE-REPETITION, 0..1"},
+      {"FRAME-REF ID-REF=\"frame2\"", "FRAME-REF ID-REF=\"frame9\"", "<fx:FRAME-TRIGGERING ID=\"ft2\">",
+       "frame9: must have a FRAME-REF"},
+      {"FRAME-TRIGGERING-REF ID-REF=\"ft2\"", "FRAME-TRIGGERING-REF ID-REF=\"ft9\"", "<fx:ECU ID=\"E1\">",
+       "ft9: must have"},
+      {"PDU-REF ID-REF=\"pdu1\"", "PDU-REF ID-REF=\"pdu9\"", "<fx:FRAME ID=\"frame1\">",
+       "pdu9: must have PDU-REFs"},
+      {"SIGNAL-REF ID-REF=\"signal1\"", "SIGNAL-REF ID-REF=\"signal9\"", "<fx:SIGNAL-INSTANCE ID=\"si1\">",
+       "signal9: must have a SIGNAL-REF"},
+      {"UNIT-REF ID-REF=\"Unit_1\"", "UNIT-REF ID-REF=\"Unit_9\"",
+       "<ho:COMPU-METHOD>\n            <ho:SHORT-NAME>Torque", "Unit_9: has a UNIT-REF"},
       {"ID-REF=\"ft3\"", "ID-REF=\"ft2\"", "<fx:ECU ID=\"E2\">", "ft2: must have one sender, not ESP too"},
-      {"<ho:SHORT-NAME>ESP<", "<ho:SHORT-NAME>Engine<", "<fx:ECU ID=\"E2\">", "Engine: must have a name of its own"},
-      {"<fx:PDU ID=\"pdu2\">", "<fx:PDU ID=\"pdu1\">", "<fx:PDU ID=\"pdu1\"><ho:SHORT-NAME>Res", "pdu1: must have an ID of its own"},
-      {"<fx:BYTE-LENGTH>42<", "<fx:BYTE-LENGTH>44<", "<fx:FRAME ID=\"frame2\">", "44: must have a BYTE-LENGTH of at most 42"},
+      {"<ho:SHORT-NAME>ESP<", "<ho:SHORT-NAME>Engine<", "<fx:ECU ID=\"E2\">",
+       "Engine: must have a name of its own"},
+      {"<fx:PDU ID=\"pdu2\">", "<fx:PDU ID=\"pdu1\">", "<fx:PDU ID=\"pdu1\"><ho:SHORT-NAME>Res",
+       "pdu1: must have an ID of its own"},
+      {"<fx:BYTE-LENGTH>42<", "<fx:BYTE-LENGTH>44<", "<fx:FRAME ID=\"frame2\">",
+       "44: must have a BYTE-LENGTH of at most 42"},
       {"FLEXRAY-CHANNEL-NAME>B<", "FLEXRAY-CHANNEL-NAME>C<", "<fx:CHANNEL ID=\"B\"", "A or B"},
       {"STARTUP-SYNC>1<", "STARTUP-SYNC>1024<", "<flexray:STARTUP-SYNC>", "1024: must be 1..1023"},
-      {"HALT-DUE-TO-CLOCK>true<", "HALT-DUE-TO-CLOCK>yes<", "<flexray:ALLOW-HALT", "yes: must be true or false"},
+      {"HALT-DUE-TO-CLOCK>true<", "HALT-DUE-TO-CLOCK>yes<", "<flexray:ALLOW-HALT",
+       "yes: must be true or false"},
       {"<ho:V>8</ho:V>", "<ho:V>eight</ho:V>", "<ho:V>eight", "eight: must be a number"},
-      {"<ho:SHORT-NAME>ESP<", "<ho:SHORT-NAME>E&#10;P<", "<fx:ECU ID=\"E2\">", "E\\x0aP: must have a printable name"},
-      {"xsi:type=\"flexray:CLUSTER-TYPE\"", "xsi:type=\"can:CLUSTER-TYPE\"", "<fx:ELEMENTS>", "flexray:CLUSTER-TYPE"},
+      {"<ho:SHORT-NAME>ESP<", "<ho:SHORT-NAME>E&#10;P<", "<fx:ECU ID=\"E2\">",
+       "E\\x0aP: must have a printable name"},
+      {"xsi:type=\"flexray:CLUSTER-TYPE\"", "xsi:type=\"can:CLUSTER-TYPE\"", "<fx:ELEMENTS>",
+       "flexray:CLUSTER-TYPE"},
   };
   for (const Mistake& mistake : mistakes) {
     const std::string text = replaced(kPowertrain, mistake.from, mistake.to);
     const std::string refusal = refusal_of(text);
     EXPECT_THAT(refusal, HasSubstr(mistake.expected)) << mistake.from;
-    EXPECT_THAT(refusal, HasSubstr(fmt::format("demo.xml:{}: ", line_of(text, mistake.near)))) << mistake.from;
+    EXPECT_THAT(refusal, HasSubstr(fmt::format("demo.xml:{}: ", line_of(text, mistake.near))))
+        << mistake.from;
   }
 }
 
@@ -279,9 +307,11 @@ TEST(FibexImport, DamagedXmlIsRefusedInOneSentenceWithItsLine) {
   const std::pair<std::string, std::string> damages[] = {
       {replaced(text, "</fx:GATEWAYS>", "</fx:GATEWAY>"),
        fmt::format("demo.xml:{}: is no well-formed XML: ", line_of(text, "</fx:GATEWAYS>"))},
-      {text + "<fx:FIBEX/>", fmt::format("demo.xml:{}: is no well-formed XML: a second root element", lines + 1)},
+      {text + "<fx:FIBEX/>",
+       fmt::format("demo.xml:{}: is no well-formed XML: a second root element", lines + 1)},
       {text + "more", fmt::format("demo.xml:{}: is no well-formed XML: text outside", lines + 1)},
-      {replaced(text, "<fx:FIBEX", "<!DOCTYPE FIBEX [<!ENTITY a \"b\">]>\n<fx:FIBEX"), "demo.xml:2: has a document type"},
+      {replaced(text, "<fx:FIBEX", "<!DOCTYPE FIBEX [<!ENTITY a \"b\">]>\n<fx:FIBEX"),
+       "demo.xml:2: has a document type"},
       {replaced(text, "Powertrain", std::string("Power\0train", 11)),
        fmt::format("demo.xml:{}: is no XML in UTF-8", line_of(text, "Powertrain"))},
       {replaced(text, "Powertrain", "Power\xfftrain"),
@@ -307,15 +337,18 @@ TEST(FibexImport, WhatIsLeftOutOftenIsSaidOnce) {
   std::string text = kPowertrain;
   for (int i = 0; i < 100; ++i) text = replaced(text, "<fx:GATEWAYS>", "<fx:LINKS/>\n<fx:GATEWAYS>");
   const FibexImport import = parse_fibex(text, "demo.xml");
-  const auto links = std::count_if(import.left_out.begin(), import.left_out.end(), [](const Finding& finding) {
-    return finding.key == "fx:FIBEX/fx:ELEMENTS/fx:LINKS" && finding.expected.find("(100 times)") != std::string::npos;
-  });
+  const auto links =
+      std::count_if(import.left_out.begin(), import.left_out.end(), [](const Finding& finding) {
+        return finding.key == "fx:FIBEX/fx:ELEMENTS/fx:LINKS" &&
+               finding.expected.find("(100 times)") != std::string::npos;
+      });
   EXPECT_EQ(links, 1) << sentences(import.left_out);
 }
 
 // Names that YAML would read as something else, or that hold its signs.
 TEST(FibexImport, AnyPrintableNameSurvivesTheClusterFile) {
-  for (const char* name : {"null", "true", "12", "- a", "a: b", "a \"quoted\" \\name", "#a", "äöü", "{x}", "'", "~", "yes"}) {
+  for (const char* name :
+       {"null", "true", "12", "- a", "a: b", "a \"quoted\" \\name", "#a", "äöü", "{x}", "'", "~", "yes"}) {
     Cluster cluster = load_checked_cluster(shipped_path("paper_synchronised"));
     cluster.name = name;
     cluster.nodes.back().name = name;

@@ -1,5 +1,5 @@
-// What is exported and imported again is the same in timing, controllers, slots, PDUs and signals; and the exported bit
-// positions are where the codec puts the bits.
+// What is exported and imported again is the same in timing, controllers, slots, PDUs and signals; and the
+// exported bit positions are where the codec puts the bits.
 #include <gtest/gtest.h>
 
 #include <pugixml.hpp>
@@ -31,14 +31,15 @@ class FibexShipped : public testing::TestWithParam<std::string> {
  protected:
   Cluster cluster_ = load_checked_cluster(shipped_path(GetParam()));
 };
-INSTANTIATE_TEST_SUITE_P(Shipped, FibexShipped, testing::ValuesIn(shipped_clusters()), [](const auto& one) { return one.param; });
+INSTANTIATE_TEST_SUITE_P(Shipped, FibexShipped, testing::ValuesIn(shipped_clusters()),
+                         [](const auto& one) { return one.param; });
 
 TEST_P(FibexShipped, IsTheSameAfterExportAndImport) { expect_round_trip(cluster_); }
 
 TEST_P(FibexShipped, SaysWhoReceivesWhat) {
   const FibexImport import = parse_fibex(fibex_text(cluster_), "cluster.xml");
   for (std::size_t i = 0; i < import.cluster.nodes.size(); ++i) {
-    std::vector<std::string> expected;   // of FlexRay, in the order of their slots
+    std::vector<std::string> expected;  // of FlexRay, in the order of their slots
     const Node& node = cluster_.node(*cluster_.find_node(import.cluster.nodes[i].name));
     for (const FrameSlot& frame : cluster_.frames)
       for (const Task& task : node.tasks)
@@ -73,7 +74,7 @@ TEST(FibexRoundTrip, KeepsEveryParameterOverItsWholeRange) {
   for (const auto& p : kNodeScaled) each_end(p, local);
   for (const bool startup : {false, true})
     for (const bool sync : {false, true}) {
-      if (startup && !sync) continue;   // a startup frame is a sync frame
+      if (startup && !sync) continue;  // a startup frame is a sync frame
       for (const bool only : {false, true}) {
         Cluster cluster = shipped;
         NodeParameters& p = *cluster.nodes.back().flexray;
@@ -93,7 +94,9 @@ TEST(FibexRoundTrip, KeepsRandomSchedules) {
     if (shipped.nodes[i].flexray) senders.push_back(static_cast<NodeId>(i));
   for (std::uint32_t run = 0; run < 50; ++run) {
     RandomStream random({.seed = 3, .purpose = Purpose::kTest, .entity = 1, .index = run});
-    const auto below = [&](int limit) { return static_cast<int>(random.bits() % static_cast<std::uint64_t>(limit)); };
+    const auto below = [&](int limit) {
+      return static_cast<int>(random.bits() % static_cast<std::uint64_t>(limit));
+    };
     Cluster cluster = shipped;
     cluster.frames.clear();
     for (int slot = 1; slot <= 40; ++slot) {
@@ -125,7 +128,8 @@ TEST(FibexRoundTrip, KeepsRandomSchedules) {
   }
 }
 
-// A second reading of FIBEX' bit positions: sawtooth counting, from the most significant bit on through the bytes.
+// A second reading of FIBEX' bit positions: sawtooth counting, from the most significant bit on through the
+// bytes.
 std::uint32_t bits_at(const std::vector<std::byte>& payload, int position, int bits) {
   std::uint32_t raw = 0;
   int byte = position / 8, bit = position % 8;
@@ -176,7 +180,9 @@ TEST_P(FibexShipped, PutsSignalsWhereTheCodecPutsTheirBits) {
         if (layout.element[s].name == "spare") continue;
         const std::string name = fmt::format("{}_{}", layout.element[s].name, e);
         const Place place = place_of(xml, layout.name + "_elements", name);
-        EXPECT_EQ(bits_at(elements, place.position, place.bits), wire::read_element_raw(layout, payload, e, s)) << name;
+        EXPECT_EQ(bits_at(elements, place.position, place.bits),
+                  wire::read_element_raw(layout, payload, e, s))
+            << name;
       }
   }
 }
@@ -196,16 +202,19 @@ TEST(FibexExport, ByHand) {
   // The image's last fragment: slot 34, cycles 1, 9, ...
   const std::string frame =
       xml.select_node("//fx:FRAME[ho:SHORT-NAME='image_12_slot_34_cycle_1']").node().attribute("ID").value();
-  const std::string timing = "//fx:CHANNEL[flexray:FLEXRAY-CHANNEL-NAME='B']//fx:FRAME-TRIGGERING[fx:FRAME-REF/@ID-REF='" + frame +
-                             "']/fx:TIMINGS/fx:ABSOLUTELY-SCHEDULED-TIMING/";
+  const std::string timing =
+      "//fx:CHANNEL[flexray:FLEXRAY-CHANNEL-NAME='B']//fx:FRAME-TRIGGERING[fx:FRAME-REF/@ID-REF='" + frame +
+      "']/fx:TIMINGS/fx:ABSOLUTELY-SCHEDULED-TIMING/";
   EXPECT_EQ(at((timing + "fx:SLOT-ID").c_str()), "34");
   EXPECT_EQ(at((timing + "fx:BASE-CYCLE").c_str()), "1");
   EXPECT_EQ(at((timing + "fx:CYCLE-REPETITION").c_str()), "8");
-  // Of an image object 60 bits stand before the speed, and 192 in the first object: bit 252 is the fifth of byte 31.
+  // Of an image object 60 bits stand before the speed, and 192 in the first object: bit 252 is the fifth of
+  // byte 31.
   EXPECT_EQ(place_of(xml, "image_elements", "speed_1").position, 31 * 8 + 3);
   EXPECT_EQ(place_of(xml, "image_elements", "speed_1").bits, 14);
   EXPECT_EQ(at("//fx:PDU[ho:SHORT-NAME='image']/fx:MULTIPLEXER/fx:SWITCH/fx:BIT-POSITION"), "23");
-  EXPECT_EQ(at("//fx:PDU[ho:SHORT-NAME='image']/fx:MULTIPLEXER//fx:SWITCHED-PDU-INSTANCE[13]/fx:SWITCH-CODE"), "12");
+  EXPECT_EQ(at("//fx:PDU[ho:SHORT-NAME='image']/fx:MULTIPLEXER//fx:SWITCHED-PDU-INSTANCE[13]/fx:SWITCH-CODE"),
+            "12");
   EXPECT_EQ(at("//fx:CODING[ho:SHORT-NAME='image_speed']//ho:COMPU-NUMERATOR/ho:V[1]"), "-81.92");
   EXPECT_EQ(at("//fx:CODING[ho:SHORT-NAME='image_speed']//ho:COMPU-NUMERATOR/ho:V[2]"), "0.01");
   EXPECT_NEAR(std::stod(at("//fx:CODING[ho:SHORT-NAME='image_speed']//ho:UPPER-LIMIT")), 81.91, 1e-12);
