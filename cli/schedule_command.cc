@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
+#include "cli/output.h"
 #include "core/errors.h"
 #include "nodes/catalog.h"
 #include "report/render.h"
@@ -67,14 +67,10 @@ int show(const Options& options) {
 }
 
 void write_text(const std::string& text, const std::string& path) {
-  if (path.empty()) {
+  if (path.empty())
     fmt::print("{}", text);
-    return;
-  }
-  std::ofstream out(path, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) throw InputError(Finding{path, 0, "", "", "cannot be written"});
+  else
+    write_file(path, text);
 }
 
 int export_cluster(const Options& options) {

@@ -22,6 +22,13 @@ std::string_view channels_text(Channels channels) {
   return channels == Channels::kA ? "A" : channels == Channels::kB ? "B" : "AB";
 }
 
+bool continues(const FrameSlot& before, const FrameSlot& frame) {
+  return frame.pdu != kNoPdu && frame.pdu == before.pdu && frame.slot == before.slot + 1 &&
+         frame.fragment == before.fragment + 1 && frame.sender == before.sender &&
+         frame.channels == before.channels && frame.base_cycle == before.base_cycle &&
+         frame.repetition == before.repetition;
+}
+
 std::optional<NodeId> Cluster::find_node(std::string_view node_name) const {
   return find_named<NodeId>(nodes, node_name);
 }

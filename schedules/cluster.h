@@ -39,6 +39,9 @@ struct FrameSlot {
   int line = 0;
 };
 
+// Whether `frame` is the next fragment of the same list in the next slot, otherwise like `before`.
+bool continues(const FrameSlot& before, const FrameSlot& frame);
+
 // A PDU on a CAN: all fragments have the same identifier; the fragment number is in the data.
 struct CanMessage {
   PduId pdu{};

@@ -43,10 +43,6 @@ std::string comment(std::string text) {
   return text;
 }
 
-std::string_view channels_of(const FrameSlot& frame) {
-  return frame.channels == Channels::kA ? "A" : frame.channels == Channels::kB ? "B" : "AB";
-}
-
 std::string signal_text(const Signal& signal) {
   std::string text = fmt::format("{{name: {}", scalar(signal.name));
   if (!signal.unit.empty()) text += fmt::format(", unit: {}", scalar(signal.unit));
@@ -189,13 +185,6 @@ class Writer {
     }
   }
 
-  static bool continues(const FrameSlot& before, const FrameSlot& frame) {
-    return frame.pdu != kNoPdu && frame.pdu == before.pdu && frame.slot == before.slot + 1 &&
-           frame.fragment == before.fragment + 1 && frame.sender == before.sender &&
-           frame.channels == before.channels && frame.base_cycle == before.base_cycle &&
-           frame.repetition == before.repetition;
-  }
-
   void write_frames() {
     line(cluster_.frames.empty() ? "\nframes: []" : "\nframes:");
     for (std::size_t i = 0; i < cluster_.frames.size();) {
@@ -204,7 +193,7 @@ class Writer {
       while (end < cluster_.frames.size() && continues(cluster_.frames[end - 1], cluster_.frames[end])) ++end;
       std::string text = fmt::format(
           "  - {{slot: {}, channels: {}, sender: {}, base_cycle: {}, repetition: {}", first.slot,
-          channels_of(first), scalar(cluster_.node(first.sender).name), first.base_cycle, first.repetition);
+          channels_text(first.channels), scalar(cluster_.node(first.sender).name), first.base_cycle, first.repetition);
       if (first.pdu != kNoPdu) {
         text += fmt::format(", pdu: {}, fragments: {}", scalar(cluster_.pdu(first.pdu).name), end - i);
         if (first.fragment != 0) text += fmt::format(", first_fragment: {}", first.fragment);

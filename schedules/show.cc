@@ -51,13 +51,6 @@ std::string activation_text(const Cluster& cluster, const Task& task) {
   return {};
 }
 
-bool continues(const FrameSlot& before, const FrameSlot& frame) {
-  return frame.pdu != kNoPdu && frame.pdu == before.pdu && frame.slot == before.slot + 1 &&
-         frame.fragment == before.fragment + 1 && frame.sender == before.sender &&
-         frame.channels == before.channels && frame.base_cycle == before.base_cycle &&
-         frame.repetition == before.repetition;
-}
-
 void show_slots(const Cluster& cluster, std::string& text) {
   const GlobalParameters& g = cluster.flexray;
   text += fmt::format("{:>9}  {:>15}  {:<2}  {:<12}{:<34}{}\n", "slot", "macroticks", "ch", "sender", "frame", "cycles");

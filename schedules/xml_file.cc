@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <map>
+
+#include "core/file_bytes.h"
 
 namespace ttf::schedules {
 
@@ -88,13 +88,7 @@ std::size_t first_bad_character(std::string_view text) {
 
 }  // namespace
 
-XmlFile XmlFile::load(const std::string& path) {
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) throw InputError(Finding{path, 0, "", "", "cannot be read"});
-  std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (stream.bad()) throw InputError(Finding{path, 0, "", "", "cannot be read"});
-  return parse(std::move(text), path);
-}
+XmlFile XmlFile::load(const std::string& path) { return parse(read_file(path), path); }
 
 XmlFile XmlFile::parse(std::string text, std::string name) {
   auto content = std::make_shared<XmlElement::Content>();

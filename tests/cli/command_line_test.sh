@@ -74,7 +74,7 @@ grep -q 'slot: 22, channels: AB, sender: fusion, base_cycle: 1, repetition: 8, p
 expect 2 'imported.yaml' schedule check "$work/imported.yaml"
 expect 2 'gdNIT|cannot be read' schedule export "$work/nothing.yaml" --format fibex
 expect 2 '--format' schedule export "$work/cluster.xml"
-expect 2 'cannot be written' schedule export "$work/cluster.xml" --format yaml -o "$work/no/such/folder.yaml"
+expect 1 'cannot be written' schedule export "$work/cluster.xml" --format yaml -o "$work/no/such/folder.yaml"
 sed 's/<flexray:N-I-T>386/<flexray:N-I-T>900/' "$work/cluster.xml" >"$work/broken.xml"
 expect 2 'broken.xml:[0-9]+: .*N-I-T = 900: must be 2..805' schedule export "$work/broken.xml" --format yaml
 sed 's,</fx:CHANNELS>,</fx:CHANNEL>,' "$work/cluster.xml" >"$work/broken.xml"
