@@ -191,9 +191,10 @@ class Writer {
       const FrameSlot& first = cluster_.frames[i];
       std::size_t end = i + 1;
       while (end < cluster_.frames.size() && continues(cluster_.frames[end - 1], cluster_.frames[end])) ++end;
-      std::string text = fmt::format(
-          "  - {{slot: {}, channels: {}, sender: {}, base_cycle: {}, repetition: {}", first.slot,
-          channels_text(first.channels), scalar(cluster_.node(first.sender).name), first.base_cycle, first.repetition);
+      std::string text =
+          fmt::format("  - {{slot: {}, channels: {}, sender: {}, base_cycle: {}, repetition: {}", first.slot,
+                      channels_text(first.channels), scalar(cluster_.node(first.sender).name),
+                      first.base_cycle, first.repetition);
       if (first.pdu != kNoPdu) {
         text += fmt::format(", pdu: {}, fragments: {}", scalar(cluster_.pdu(first.pdu).name), end - i);
         if (first.fragment != 0) text += fmt::format(", first_fragment: {}", first.fragment);
