@@ -12,6 +12,7 @@ using Action = std::function<int()>;
 
 void add_run(CLI::App& app, Action& action);
 void add_diagram(CLI::App& app, Action& action);
+void add_export(CLI::App& app, Action& action);
 void add_schedule(CLI::App& app, Action& action);
 
 }  // namespace ttf::cli

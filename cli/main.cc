@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
   ttf::cli::Action action;
   ttf::cli::add_run(app, action);
   ttf::cli::add_diagram(app, action);
+  ttf::cli::add_export(app, action);
   ttf::cli::add_schedule(app, action);
   try {
     app.parse(argc, argv);

@@ -12,6 +12,7 @@ packages=(
   # tests
   libgtest-dev libgmock-dev libbenchmark-dev
   nodejs npm   # the log's official reader
+  tshark       # captures, as Wireshark sees them
 )
 # The slower gates (.ci/run) also need a second compiler, sanitizers' runtime and the formatter.
 if [[ ${1:-} == --gates ]]; then

@@ -1,0 +1,141 @@
+#include "recording/capture_export.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "recording/capture_packet.h"
+#include "recording/capture_writer.h"
+
+namespace ttf::recording {
+namespace {
+
+constexpr char kFlexRayName[] = "FlexRay";
+constexpr std::size_t kLongestDevice = 15;  // IFNAMSIZ less the closing zero
+constexpr std::int64_t kMicrosecond = 1'000, kSecond = 1'000'000'000;
+
+schedules::Channel channel_of(const LoggedFrame& frame) { return static_cast<schedules::Channel>(frame.channel); }
+
+void put_hex(std::string& out, std::span<const std::byte> bytes) {
+  constexpr char kDigits[] = "0123456789ABCDEF";
+  for (const std::byte byte : bytes) {
+    out += kDigits[static_cast<unsigned>(byte) >> 4];
+    out += kDigits[static_cast<unsigned>(byte) & 0xf];
+  }
+}
+
+std::string comment_of(const LoggedFrame& frame, const LogNames& names) {
+  if (frame.pdu == kNoPdu || frame.null_frame) return "";
+  const std::string measurement = names.measurement(frame);
+  if (measurement.empty())
+    return fmt::format("{} {}, fragment {}", names.pdu(frame.pdu), frame.sequence, frame.fragment);
+  return fmt::format("measurement {}: {}, fragment {}", measurement, names.pdu(frame.pdu), frame.fragment);
+}
+
+bool can_be_a_device(const std::string& name) {
+  return !name.empty() && name.size() <= kLongestDevice && name != "." && name != ".." &&
+         std::all_of(name.begin(), name.end(),
+                     [](char c) { return c > 0x20 && c < 0x7f && c != '/' && c != ':' && c != '=' && c != '%'; });
+}
+
+// A field of a comma-separated row (RFC 4180).
+std::string quoted(const std::string& text) {
+  if (std::none_of(text.begin(), text.end(), [](char c) { return c == ',' || c == '"' || c == '\n' || c == '\r'; }))
+    return text;
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"') out += '"';
+    out += c;
+  }
+  return out + '"';
+}
+
+std::string flexray_flags(const CheckedFlexRayFrame& frame) {
+  const std::pair<bool, const char*> flags[] = {{frame.header.sync, "sync"},
+                                                {frame.header.startup, "startup"},
+                                                {frame.header.payload_preamble, "preamble"},
+                                                {(frame.errors & kHeaderCrcError) != 0, "header_crc_error"},
+                                                {(frame.errors & kFrameCrcError) != 0, "frame_crc_error"}};
+  std::string text;
+  for (const auto& [set, name] : flags)
+    if (set) text += (text.empty() ? "" : "+") + std::string(name);
+  return text;
+}
+
+std::string can_flags(const LoggedFrame& frame) {
+  std::string text = frame.id > kLargestBaseIdentifier ? "extended" : "";
+  if (frame.flexible_data_rate) text += text.empty() ? "brs" : "+brs";
+  return text;
+}
+
+}  // namespace
+
+std::string export_pcapng(const FrameCollector& collector, const std::vector<LoggedFrame>& frames,
+                          const LogNames& names) {
+  std::size_t buses = names.can_buses();
+  for (const LoggedFrame& frame : frames)
+    if (!frame.flexray) buses = std::max<std::size_t>(buses, frame.channel + std::size_t{1});
+  std::vector<CaptureInterface> interfaces{{LinkType::kFlexRay, kFlexRayName}};
+  for (std::size_t b = 0; b < buses; ++b) interfaces.push_back({LinkType::kCan, names.can_bus(b)});
+  const LogManifest& run = names.manifest();
+  std::string out;
+  CaptureWriter writer(out, interfaces,
+                       fmt::format("{} with {} on {}, seed {}; time 0 is the start of the run", run.scenario_name,
+                                   run.strategy, run.cluster_name, run.seed));
+  std::string packet;
+  for (const LoggedFrame& frame : frames) {
+    packet.clear();
+    if (frame.flexray)
+      put_flexray_packet(packet, channel_of(frame), check_flexray_frame(channel_of(frame), collector.data(frame)));
+    else
+      put_can_packet(packet, frame.id, frame.flexible_data_rate, collector.data(frame));
+    writer.packet(frame.flexray ? 0 : frame.channel + std::size_t{1}, frame.time_ns, packet,
+                  comment_of(frame, names));
+  }
+  return out;
+}
+
+std::string export_candump(const FrameCollector& collector, const std::vector<LoggedFrame>& frames,
+                           const LogNames& names) {
+  std::string out;
+  for (const LoggedFrame& frame : frames) {
+    if (frame.flexray) continue;
+    const std::int64_t time = std::max<std::int64_t>(frame.time_ns, 0);
+    const std::string bus = names.can_bus(frame.channel);
+    out += fmt::format("({:010}.{:06}) {} ", time / kSecond, time % kSecond / kMicrosecond,
+                       can_be_a_device(bus) ? bus : fmt::format("can{}", frame.channel));
+    out += frame.id > kLargestBaseIdentifier ? fmt::format("{:08X}", frame.id) : fmt::format("{:03X}", frame.id);
+    out += frame.flexible_data_rate ? fmt::format("##{:X}", kBitRateSwitch) : "#";
+    put_hex(out, collector.data(frame));
+    out += '\n';
+  }
+  return out;
+}
+
+std::string export_csv(const FrameCollector& collector, const std::vector<LoggedFrame>& frames, const LogNames& names) {
+  std::string out(kCsvHeader);
+  for (const LoggedFrame& frame : frames) {
+    const bool list = frame.pdu != kNoPdu;
+    std::string flags;
+    std::span<const std::byte> payload = collector.data(frame);
+    if (frame.flexray) {
+      const CheckedFlexRayFrame checked = check_flexray_frame(channel_of(frame), payload);
+      flags = flexray_flags(checked);
+      payload = checked.header_and_payload;
+      payload = payload.subspan(std::min(payload.size(), wire::kHeaderBytes));
+      out += fmt::format("{},{},{},{},", frame.time_ns, kFlexRayName, frame.channel == 0 ? 'A' : 'B', frame.cycle);
+    } else {
+      flags = can_flags(frame);
+      out += fmt::format("{},{},,,", frame.time_ns, quoted(names.can_bus(frame.channel)));
+    }
+    const char* kind = frame.flexray ? (frame.null_frame ? "null" : "frame") : frame.flexible_data_rate ? "can_fd" : "can";
+    out += fmt::format("{},{},{},{},{},{},{},{},", frame.id, quoted(names.node(frame.sender)), kind, flags,
+                       list ? quoted(names.pdu(frame.pdu)) : "", list ? std::to_string(frame.sequence) : "",
+                       list ? std::to_string(frame.fragment) : "", quoted(names.measurement(frame)));
+    put_hex(out, payload);
+    out += '\n';
+  }
+  return out;
+}
+
+}  // namespace ttf::recording

@@ -1,0 +1,50 @@
+// Reads captures that other programs made: pcap (either byte order, microseconds or nanoseconds) and pcapng (sections
+// of either byte order; interfaces, enhanced, simple and obsolete packet blocks; all other blocks are skipped).
+//
+// Nothing in the file is trusted. What is damaged ends in one sentence that names the file and the packet; only a file that
+// breaks off within a packet or block, as when the capturing program was killed, is read up to there with a warning.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ttf::recording {
+
+// Of one interface; in a pcap file there is one, without a name.
+struct CaptureSource {
+  std::uint32_t link_type = 0;  // https://www.tcpdump.org/linktypes.html
+  std::string name;
+};
+
+struct CapturedPacket {
+  std::uint64_t number = 0;             // from 1, in the order of the file, as Wireshark counts
+  std::size_t interface = 0;            // index in Capture::interfaces
+  std::optional<std::int64_t> time_ns;  // since 1970; simple packet blocks have none
+  std::uint64_t data_begin = 0;         // in the file
+  std::uint32_t data_size = 0;
+  std::uint32_t original_size = 0;      // before the capture cut it
+  std::string comment;                  // all of the packet's, one per line
+};
+
+struct Capture {
+  std::string bytes;  // of the file
+  std::vector<CaptureSource> interfaces;   // of all sections
+  std::vector<CapturedPacket> packets;
+  std::string warning;  // one line, empty for a whole file
+
+  std::span<const std::byte> data(const CapturedPacket& packet) const {
+    return std::as_bytes(std::span(bytes)).subspan(packet.data_begin, packet.data_size);
+  }
+  std::uint32_t link_type(const CapturedPacket& packet) const { return interfaces[packet.interface].link_type; }
+};
+
+// Both throw InputError; `name` is what it calls the file.
+Capture read_capture(const std::string& path);
+Capture parse_capture(std::string bytes, const std::string& name);
+
+}  // namespace ttf::recording
