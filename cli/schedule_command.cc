@@ -4,6 +4,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "cli/capture_against.h"
 #include "cli/commands.h"
 #include "cli/output.h"
 #include "core/errors.h"
@@ -26,6 +27,7 @@ struct Options {
   std::string out;
   std::string format;
   bool json = false;
+  CaptureArguments capture;
 };
 
 double ms(Duration d) { return static_cast<double>(d.ns) * 1e-6; }
@@ -33,6 +35,7 @@ double ms(Duration d) { return static_cast<double>(d.ns) * 1e-6; }
 int check(const Options& options) {
   const schedules::Cluster cluster = schedules::load_checked_cluster(options.file);
   schedules::bind_ports(cluster, nodes::step_ports());
+  if (!options.capture.file.empty()) return check_against_capture(cluster, options.capture, options.json);
   if (!options.json) {
     fmt::print("{}: consistent\n{}", cluster.name, schedules::ages_text(cluster));
     return 0;
@@ -93,9 +96,12 @@ void add_schedule(CLI::App& app, Action& action) {
   command->require_subcommand(1);
   auto options = std::make_shared<Options>();
   CLI::App* checking = command->add_subcommand("check", "Prove a cluster consistent and bound its measurements' ages");
-  checking->footer("Example: ttfusion schedule check schedules/paper_synchronised.yaml");
+  checking->footer(
+      "Example: ttfusion schedule check schedules/paper_synchronised.yaml\n"
+      "         ttfusion schedule check schedules/paper_synchronised.yaml --against drive.pcapng");
   checking->add_option("file", options->file, "Cluster file")->required();
   checking->add_flag("--json", options->json, "Result as JSON on standard output");
+  add_capture_arguments(*checking, options->capture);
   checking->callback([options, &action] { action = [options] { return check(*options); }; });
   CLI::App* showing = command->add_subcommand("show", "Draw one communication cycle as text, or as a picture with -o");
   showing->footer("Example: ttfusion schedule show schedules/paper_synchronised.yaml -o schedule.svg");

@@ -11,6 +11,8 @@ namespace ttf::recording {
 namespace {
 
 constexpr std::int64_t kSecond = 1'000'000'000;
+// Differences of stamps stay within 64 bits, with room to spare.
+constexpr std::int64_t kLatest = std::numeric_limits<std::int64_t>::max() / 2;
 constexpr std::uint32_t kMostBlockBytes = 16u << 20;
 
 // What time stamps of an interface count in.
@@ -146,8 +148,8 @@ class PcapngParser : CaptureParser {
     const std::uint64_t ticks =
         (std::uint64_t{number<std::uint32_t>(12)} << 32) | number<std::uint32_t>(16);
     const Int128 time = nanoseconds(clocks_[interface], ticks);
-    if (time > std::numeric_limits<std::int64_t>::max() || time < std::numeric_limits<std::int64_t>::min())
-      damaged(next_packet(), fmt::format("time stamp {}", ticks), "must be within 292 years of 1970");
+    if (time < 0 || time > kLatest)
+      damaged(next_packet(), fmt::format("time stamp {}", ticks), "must be between 1970 and 2116");
     const std::string what = next_packet();
     const auto size = number<std::uint32_t>(20);
     add(interface, static_cast<std::int64_t>(time), 28, size, number<std::uint32_t>(24));

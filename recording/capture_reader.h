@@ -24,7 +24,7 @@ struct CaptureSource {
 struct CapturedPacket {
   std::uint64_t number = 0;             // from 1, in the order of the file, as Wireshark counts
   std::size_t interface = 0;            // index in Capture::interfaces
-  std::optional<std::int64_t> time_ns;  // since 1970; simple packet blocks have none
+  std::optional<std::int64_t> time_ns;  // 1970 to 2116; simple packet blocks have none
   std::uint64_t data_begin = 0;         // in the file
   std::uint32_t data_size = 0;
   std::uint32_t original_size = 0;      // before the capture cut it

@@ -1,0 +1,87 @@
+// Captures of a bus that does what its schedule says, to test with and to break.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "bus/wire/flexray_frame.h"
+#include "recording/capture_packet.h"
+#include "recording/capture_reader.h"
+#include "recording/capture_writer.h"
+#include "schedules/loader.h"
+
+namespace ttf::recording {
+
+using schedules::Channel;
+
+inline schedules::Cluster shipped_cluster(const std::string& name = "paper_synchronised") {
+  return schedules::load_checked_cluster(std::string(TTF_SOURCE_DIR) + "/schedules/" + name + ".yaml");
+}
+
+// One frame on the bus; `packet()` is what a capture has of it.
+struct BusFrame {
+  std::int64_t time_ns = 0;
+  Channel channel = Channel::kA;
+  wire::FrameHeader header;
+  std::vector<std::byte> payload;
+  std::uint8_t errors = 0;
+
+  std::string packet() const {
+    std::array<std::byte, wire::kMaxFrameBytes> bytes{};
+    wire::FrameHeader sound = header;
+    sound.startup = header.startup && header.sync;
+    const std::size_t size = wire::encode_frame(sound, channel, payload, bytes);
+    std::string out;
+    CheckedFlexRayFrame frame = check_flexray_frame(channel, std::span(bytes).first(size));
+    frame.errors |= errors;
+    put_flexray_packet(out, channel, frame);
+    return out;
+  }
+};
+
+inline std::vector<std::byte> scheduled_payload(const schedules::Cluster& cluster) {
+  return std::vector<std::byte>(static_cast<std::size_t>(2 * cluster.flexray.gPayloadLengthStatic));
+}
+
+// What the cluster sends in `cycles` cycles from counter `first_counter` on, by a clock that is `ppm` fast.
+inline std::vector<BusFrame> scheduled_frames(const schedules::Cluster& cluster, int cycles, int first_counter = 0,
+                                              std::int64_t ppm = 0) {
+  constexpr std::int64_t kStart = 1'700'000'000'000'000'000;
+  std::vector<BusFrame> frames;
+  const int counters = cluster.flexray.gCycleCountMax + 1;
+  for (int n = 0; n < cycles; ++n) {
+    const int counter = (first_counter + n) % counters;
+    for (const schedules::FrameSlot& slot : cluster.frames) {
+      if (counter % slot.repetition != slot.base_cycle) continue;
+      for (const Channel channel : {Channel::kA, Channel::kB}) {
+        if (!includes(slot.channels, channel)) continue;
+        BusFrame frame;
+        const std::int64_t macroticks =
+            std::int64_t{n} * cluster.flexray.gMacroPerCycle + (slot.slot - 1) * cluster.flexray.gdStaticSlot;
+        const std::int64_t passed = macroticks * cluster.flexray.gdMacrotick_ps / 1000;
+        frame.time_ns = kStart + passed + passed / 1'000'000 * ppm;
+        frame.channel = channel;
+        frame.header.frame_id = static_cast<std::uint16_t>(slot.slot);
+        frame.header.cycle = static_cast<std::uint8_t>(counter);
+        frame.header.sync = frame.header.startup =
+            cluster.node(slot.sender).flexray && cluster.node(slot.sender).flexray->pKeySlotId == slot.slot;
+        frame.payload = scheduled_payload(cluster);
+        frames.push_back(frame);
+      }
+    }
+  }
+  return frames;
+}
+
+inline std::string capture_bytes(const std::vector<BusFrame>& frames) {
+  const CaptureInterface interface{LinkType::kFlexRay, "FlexRay"};
+  std::string bytes;
+  CaptureWriter writer(bytes, {&interface, 1}, "");
+  for (const BusFrame& frame : frames) writer.packet(0, frame.time_ns, frame.packet(), "");
+  return bytes;
+}
+
+inline Capture capture_of(const std::vector<BusFrame>& frames) { return parse_capture(capture_bytes(frames), "bus.pcapng"); }
+
+}  // namespace ttf::recording
