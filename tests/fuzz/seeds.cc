@@ -11,6 +11,8 @@
 #include "bus/wire/flexray_frame.h"
 #include "core/check.h"
 #include "core/random.h"
+#include "recording/capture_packet.h"
+#include "recording/capture_writer.h"
 #include "recording/log_writer.h"
 #include "recording/mcap_reader.h"
 #include "tests/fuzz/harness.h"
@@ -131,6 +133,41 @@ void frame_seeds(const fs::path& folder) {
   }
 }
 
+// A schedule's frames as pcapng and, from the same packets, as pcap; short enough to be edited.
+void capture_seeds(const fs::path& folder) {
+  for (const int first_slot : {1, 20})
+    for (const bool nanoseconds : {false, true}) {
+      const std::array interfaces{recording::CaptureInterface{recording::LinkType::kCan, "laser_can"},
+                                  recording::CaptureInterface{recording::LinkType::kFlexRay, "FlexRay"}};
+      std::string pcapng, pcap;
+      recording::CaptureWriter writer(pcapng, interfaces, "a run");
+      put(pcap, nanoseconds ? 0xa1b23c4du : 0xa1b2c3d4u);
+      for (const std::uint32_t field : {0x00040002u, 0u, 0u, 65535u, 210u}) put(pcap, field);
+      for (int i = 0; i < 24; ++i) {
+        wire::FrameHeader header;
+        header.frame_id = static_cast<std::uint16_t>(first_slot + i % 3);
+        header.cycle = static_cast<std::uint8_t>(i / 6);
+        header.sync = header.startup = header.frame_id <= 5;
+        const auto channel = static_cast<schedules::Channel>(i / 3 % 2);
+        std::array<std::byte, wire::kMaxFrameBytes> frame{};
+        const std::array<std::byte, 56> payload{};
+        const std::size_t size = wire::encode_frame(header, channel, payload, frame);
+        std::string packet;
+        recording::put_flexray_packet(packet, channel,
+                                      recording::check_flexray_frame(channel, std::span(frame).first(size)));
+        const std::int64_t at = i / 6 * 5'000'000 + header.frame_id * 84'000;
+        writer.packet(1, at, packet, i % 6 == 0 ? "measurement laser 12" : "");
+        for (const std::int64_t field : {std::int64_t{0}, at / (nanoseconds ? 1 : 1000),
+                                         static_cast<std::int64_t>(packet.size()), static_cast<std::int64_t>(packet.size())})
+          put(pcap, static_cast<std::uint32_t>(field));
+        pcap += packet;
+      }
+      const std::string name = "slot_" + std::to_string(first_slot) + (nanoseconds ? "_ns" : "_us");
+      write(folder / "capture" / (name + "_ng"), pcapng);
+      write(folder / "capture" / name, pcap);
+    }
+}
+
 // Acts and fragments are any bytes; drawn ones of different lengths reach most of it.
 void drawn_seeds(const fs::path& folder) {
   for (std::uint32_t i = 0; i < 40; ++i) {
@@ -235,6 +272,7 @@ int main(int argc, char** argv) {
   fibex_seeds(folder);
   recorded_seeds(folder);
   frame_seeds(folder);
+  capture_seeds(folder);
   drawn_seeds(folder);
   log_seeds(folder);
   return 0;
