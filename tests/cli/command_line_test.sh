@@ -139,6 +139,37 @@ head -c 200000 "$work/a/tt.mcap" >"$work/cut.mcap"
 expect 0 'warning: .*cut.mcap' diagram "$work/cut.mcap" -o "$work/cut.svg"
 expect 2 'scenario|MCAP|mcap' diagram "$source/README.md" -o "$work/none.svg"
 
+# Frames for other programs, and what was captured held against the schedule.
+expect 0 'Example: ttfusion export' export --help
+expect 2 'pcapng' export "$work/a/tt.mcap" --format asc -o "$work/drive.asc"
+expect 2 'README.md' export "$source/README.md" --format csv -o "$work/drive.csv"
+expect 2 'absent/drive.csv: cannot be' export "$work/a/tt.mcap" --format csv -o "$work/absent/drive.csv"
+expect 0 '[1-9][0-9]* FlexRay and [1-9][0-9]* CAN frames' export "$work/a/tt.mcap" --format pcapng -o "$work/drive.pcapng"
+expect 0 '"can_frames": [1-9]' export "$work/a/tt.mcap" --format candump --json -o "$work/drive.log"
+expect 0 'warning: .*cut.mcap' export "$work/cut.mcap" --format csv -o "$work/drive.csv"
+head -1 "$work/drive.csv" | grep -q '^time_ns,bus,channel,' || fail "export --format csv leaves no header"
+grep -Evq '^\([0-9]{10}\.[0-9]{6}\) [a-z_]+ [0-9A-F]{3}#(#1)?([0-9A-F]{2})*$' "$work/drive.log" &&
+  fail "export --format candump leaves a line canplayer does not read"
+schedule=$source/schedules/paper_synchronised.yaml
+expect 0 'frames on AB in [0-9]+ cycles: as scheduled' schedule check "$schedule" --against "$work/drive.pcapng"
+expect 0 '"consistent": true' schedule check "$schedule" --against "$work/drive.pcapng" --json
+head -c 100000 "$work/drive.pcapng" >"$work/cut.pcapng"
+expect 0 'warning: .*cut.pcapng: block before packet [0-9]+' schedule check "$schedule" --against "$work/cut.pcapng"
+python3 - "$work/cut.pcapng" "$work/disturbed.pcapng" <<'END'
+import sys
+data = bytearray(open(sys.argv[1], "rb").read())
+at = data.index(b"\x01\x00\x38\x02", 50000)   # the startup frame of slot 2 on A
+data[at + 5] ^= 1
+open(sys.argv[2], "wb").write(data)
+END
+expect 1 'disturbed.pcapng: at packet [0-9]+: header CRC error: slot 2 on A' \
+  schedule check "$schedule" --against "$work/disturbed.pcapng"
+expect 1 '"header CRC error": 1' schedule check "$schedule" --against "$work/disturbed.pcapng" --json
+expect 2 'README.md: is no capture' schedule check "$schedule" --against "$source/README.md"
+expect 2 'absent.pcapng: cannot be read' schedule check "$schedule" --against "$work/absent.pcapng"
+expect 2 'no FlexRay frame' schedule check "$schedule" --against "$work/drive.pcapng" --from 1000
+expect 2 '--against' schedule check "$schedule" --channels A
+
 # Recorded input, and a broken line in it.
 printf 'L\t1.0\t0.1\t1000000\t1.0\t0.1\t5.0\t0.0\t0.0\t0.0\n' >"$work/short.txt"
 expect 2 'paper_scenario1.yaml: clusters = .*: takes no recording, so --input would be ignored' \

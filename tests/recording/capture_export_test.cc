@@ -77,7 +77,7 @@ TEST(CaptureExport, CandumpLinesAreThoseCanplayerReads) {
   log.can(2, -1, 0x800, false, "camera_frame", 4);
   log.flexray(0, 1, 0, kNoPdu, false);
   EXPECT_EQ(log.candump(),
-            "(0000000000.000000) can2 00000800#DEAD07\n"
+            "(0000000000.000000) odd,\"name\" 00000800#DEAD07\n"
             "(0000000001.000000) can1 7FF#DEAD07\n"
             "(0000000001.234567) laser_can 100##1DEAD07\n");
 }
