@@ -23,9 +23,12 @@ std::string_view name_of(recording::Contradiction kind) {
 }
 
 void print_json(const schedules::Cluster& cluster, const CaptureArguments& arguments, const CaptureVerdict& verdict) {
-  nlohmann::ordered_json json{{"cluster", cluster.name},          {"capture", arguments.file},
-                              {"channels", arguments.channels},   {"frames", verdict.frames},
-                              {"cycles", verdict.cycles},         {"symbols", verdict.symbols},
+  nlohmann::ordered_json json{{"cluster", cluster.name},
+                              {"capture", arguments.file},
+                              {"channels", arguments.channels},
+                              {"frames", verdict.frames},
+                              {"cycles", verdict.cycles},
+                              {"symbols", verdict.symbols},
                               {"consistent", verdict.contradictions() == 0}};
   for (std::size_t kind = 0; kind < recording::kContradictions; ++kind)
     json["contradictions"][std::string(recording::kContradictionNames[kind])] = verdict.counts[kind];
@@ -40,7 +43,8 @@ void print_text(const schedules::Cluster& cluster, const CaptureArguments& argum
     fmt::print("{}: {} packet {}: {}: {}\n", arguments.file,
                finding.kind == recording::Contradiction::kMissing ? "after" : "at", finding.packet,
                name_of(finding.kind), finding.text);
-  if (verdict.findings.size() == recording::kMostFindings) fmt::print("...: the first {} are listed\n", recording::kMostFindings);
+  if (verdict.findings.size() == recording::kMostFindings)
+    fmt::print("...: the first {} are listed\n", recording::kMostFindings);
   fmt::print("{} against {}: {} frames on {} in {} cycles: ", arguments.file, cluster.name, verdict.frames,
              arguments.channels, verdict.cycles);
   if (verdict.contradictions() == 0) {
@@ -49,19 +53,21 @@ void print_text(const schedules::Cluster& cluster, const CaptureArguments& argum
   }
   fmt::print("{} contradictions\n", verdict.contradictions());
   for (std::size_t kind = 0; kind < recording::kContradictions; ++kind)
-    if (verdict.counts[kind] > 0) fmt::print("  {:24} {}\n", recording::kContradictionNames[kind], verdict.counts[kind]);
+    if (verdict.counts[kind] > 0)
+      fmt::print("  {:24} {}\n", recording::kContradictionNames[kind], verdict.counts[kind]);
 }
 
 }  // namespace
 
 void add_capture_arguments(CLI::App& command, CaptureArguments& arguments) {
-  CLI::Option* against = command.add_option("--against", arguments.file,
-                                            "Capture (pcap or pcapng with FlexRay frames) to hold against the schedule");
+  CLI::Option* against = command.add_option(
+      "--against", arguments.file, "Capture (pcap or pcapng with FlexRay frames) to hold against the schedule");
   command.add_option("--channels", arguments.channels, "Channels that were captured: A, B or AB")
       ->check(CLI::IsMember({"A", "B", "AB"}))
       ->capture_default_str()
       ->needs(against);
-  command.add_option("--from", arguments.from_s, "Begin so many seconds after the first FlexRay packet (after a start-up)")
+  command
+      .add_option("--from", arguments.from_s, "Begin so many seconds after the first FlexRay packet (after a start-up)")
       ->check(CLI::NonNegativeNumber)
       ->needs(against);
   command.add_option("--to", arguments.to_s, "End so many seconds after the first FlexRay packet")

@@ -9,7 +9,7 @@
 namespace ttf::cli {
 
 struct CaptureArguments {
-  std::string file;   // empty: not asked for
+  std::string file;  // empty: not asked for
   std::string channels = "AB";
   double from_s = -1.0, to_s = -1.0;
 };

@@ -1,12 +1,10 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <fstream>
 #include <memory>
-#include <stdexcept>
 
 #include "cli/commands.h"
-#include "core/errors.h"
+#include "cli/output.h"
 #include "recording/capture_export.h"
 #include "recording/log_reader.h"
 
@@ -27,21 +25,13 @@ std::string converted(const std::string& format, const recording::FrameCollector
   return recording::export_csv(collector, frames, names);
 }
 
-void write(const std::string& path, const std::string& bytes) {
-  std::ofstream file(path, std::ios::binary);
-  if (!file) throw InputError({path, 0, "", "", "cannot be created"});
-  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  file.close();
-  if (!file) throw std::runtime_error(path + ": cannot be written");
-}
-
 int run(const Options& options) {
   recording::FrameCollector collector;
   const recording::LogInfo info = recording::read_log(options.log, collector);
   if (!info.warning.empty()) fmt::print(stderr, "warning: {}\n", info.warning);
   const recording::LogNames names(info.manifest);
   const std::vector<recording::LoggedFrame> frames = collector.in_order();
-  write(options.out, converted(options.format, collector, frames, names));
+  write_file(options.out, converted(options.format, collector, frames, names));
   std::size_t flexray = 0;
   for (const recording::LoggedFrame& frame : frames) flexray += frame.flexray ? 1 : 0;
   const std::size_t can = frames.size() - flexray;
@@ -61,11 +51,12 @@ void add_export(CLI::App& app, Action& action) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("export", "A log's frames for Wireshark, canplayer or a spreadsheet");
   command->footer(
-      "Time 0 of what is written (1970-01-01 in a capture) is the start of the run.\n"
+      "The start of the run is 1970-01-01 in pcapng, second 1000000000 in candump, and 0 in csv.\n"
       "Example: ttfusion export out/drive/tt.mcap --format pcapng -o drive.pcapng");
   command->add_option("log", options->log, "Log of a run")->required();
-  command->add_option("--format", options->format,
-                      "pcapng (FlexRay and CAN, for Wireshark), candump (CAN only, for canplayer), csv (all frames)")
+  command
+      ->add_option("--format", options->format,
+                   "pcapng (FlexRay and CAN, for Wireshark), candump (CAN only, for canplayer), csv (all frames)")
       ->required()
       ->check(CLI::IsMember({"pcapng", "candump", "csv"}));
   command->add_option("-o,--out", options->out, "File to write")->required();

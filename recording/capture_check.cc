@@ -103,13 +103,15 @@ class CaptureChecker {
       say(Contradiction::kCoding, fmt::format("coding errors are flagged ({:#04x})", packet.errors));
     if (!packet.header_crc_holds) {
       // Neither slot nor length can be believed.
-      say(Contradiction::kHeaderCrc, fmt::format("the header CRC is {:#05x}, which it should not be", header.header_crc));
+      say(Contradiction::kHeaderCrc,
+          fmt::format("the header CRC is {:#05x}, which it should not be", header.header_crc));
       coverage_.damaged(header.cycle, header.frame_id, packet.channel);
       return;
     }
     if ((packet.errors & kHeaderCrcError) != 0)
       say(Contradiction::kHeaderCrc, "the header CRC is flagged as wrong, though it holds");
-    if (header.startup && !header.sync) say(Contradiction::kStartupWithoutSync, "is a startup frame, but no sync frame");
+    if (header.startup && !header.sync)
+      say(Contradiction::kStartupWithoutSync, "is a startup frame, but no sync frame");
     const CycleTracker::Place place = cycles_.place(header.frame_id, header.cycle, frame.time_ns);
     if (!place.counter_fits || header.cycle > cluster_.flexray.gCycleCountMax)
       say(Contradiction::kCycleCounter, fmt::format("the cycle counter should be {}", place.counter));
@@ -132,7 +134,8 @@ class CaptureChecker {
     if (!slot)
       say(Contradiction::kUnownedSlot, "nobody owns this slot");
     else if (!on_channel)
-      say(Contradiction::kWrongChannel, fmt::format("the slot's owner sends on {} only", channel == Channel::kA ? 'B' : 'A'));
+      say(Contradiction::kWrongChannel,
+          fmt::format("the slot's owner sends on {} only", channel == Channel::kA ? 'B' : 'A'));
     else
       say(Contradiction::kWrongCycle, "the slot's owner does not send in this cycle (base cycle and repetition)");
   }
@@ -145,8 +148,8 @@ class CaptureChecker {
       say(Contradiction::kPayloadLength, fmt::format("the payload has {} words, not {} (gPayloadLengthStatic)", words,
                                                      cluster_.flexray.gPayloadLengthStatic));
     else if (packet.payload.size() != static_cast<std::size_t>(2 * words))
-      say(Contradiction::kPayloadLength, fmt::format("{} bytes of payload were captured where the header says {}",
-                                                     packet.payload.size(), 2 * words));
+      say(Contradiction::kPayloadLength,
+          fmt::format("{} bytes of payload were captured where the header says {}", packet.payload.size(), 2 * words));
   }
 
   void report(Contradiction kind, std::uint64_t packet, std::string text, std::uint64_t count = 1) {
@@ -164,10 +167,9 @@ class CaptureChecker {
 }  // namespace
 
 const std::array<std::string_view, kContradictions> kContradictionNames{
-    "malformed packet",      "header CRC error",          "frame CRC error",
-    "coding error",          "startup frame without sync", "cycle counter error",
-    "slot nobody owns",      "wrong channel",             "wrong cycle",
-    "second frame in a slot", "wrong payload length",      "missing frame"};
+    "malformed packet",     "header CRC error", "frame CRC error", "coding error", "startup frame without sync",
+    "cycle counter error",  "slot nobody owns", "wrong channel",   "wrong cycle",  "second frame in a slot",
+    "wrong payload length", "missing frame"};
 
 std::uint64_t CaptureVerdict::contradictions() const {
   return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});

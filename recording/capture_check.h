@@ -1,7 +1,7 @@
 // A capture held against the schedule it should obey: which of its FlexRay frames contradict it, and which are missing.
 //
-// The schedule is believed in normal operation: a capture of a start-up, in which not every node sends yet, is checked from a
-// later instant on (CaptureCheckOptions::from_ns).
+// The schedule is believed in normal operation: a capture of a start-up, in which not every node sends yet, is checked
+// from a later instant on (CaptureCheckOptions::from_ns).
 #pragma once
 
 #include <array>
@@ -42,7 +42,7 @@ struct CaptureFinding {
 };
 
 struct CaptureVerdict {
-  std::uint64_t frames = 0;         // FlexRay frames held against the schedule
+  std::uint64_t frames = 0;  // FlexRay frames held against the schedule
   std::uint64_t symbols = 0;
   std::uint64_t other_packets = 0;  // of other link types or channels, or outside the window
   std::int64_t cycles = 0;          // from the first frame's to the last one's
@@ -59,8 +59,8 @@ struct CaptureCheckOptions {
   std::optional<std::int64_t> to_ns;
 };
 
-// The cluster must be consistent (schedules/checker.h). Throws InputError if nothing can be said: no FlexRay frame with a
-// sound header in the window, or a window of a capture without time stamps. `name` is the capture's, for messages.
+// The cluster must be consistent (schedules/checker.h). Throws InputError if nothing can be said: no FlexRay frame with
+// a sound header in the window, or a window of a capture without time stamps. `name` is the capture's, for messages.
 CaptureVerdict check_capture(const Capture& capture, const std::string& name, const schedules::Cluster& cluster,
                              const CaptureCheckOptions& options);
 

@@ -45,9 +45,9 @@ class CaptureCoverage {
   std::vector<std::vector<Owned>> owned_;  // by cycle counter, in order of slots
   std::vector<std::uint64_t> packets_;     // of the current cycle, by slot and channel; 0: none
   std::vector<Claim> damaged_;
-  std::int64_t cycle_ = -1;                // running, from 0
+  std::int64_t cycle_ = -1;  // running, from 0
   int counter_ = 0;
-  int after_slot_ = 0;                     // where the first cycle's coverage begins
+  int after_slot_ = 0;  // where the first cycle's coverage begins
   int last_slot_ = 0;
   std::uint64_t last_packet_ = 0, last_before_cycle_ = 0;
 };

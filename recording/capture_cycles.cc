@@ -34,8 +34,10 @@ CycleTracker::Place CycleTracker::place_by_counter(int counter) {
 }
 
 bool CycleTracker::disagrees_for_a_cycle(int by, std::int64_t advance) {
-  if (disagreement_ != by) disagreed_cycles_ = 0;
-  else disagreed_cycles_ += advance;
+  if (disagreement_ != by)
+    disagreed_cycles_ = 0;
+  else
+    disagreed_cycles_ += advance;
   disagreement_ = by;
   return disagreed_cycles_ > 0;
 }

@@ -1,9 +1,9 @@
 // Which communication cycle a captured frame was sent in: from its cycle counter, and from when it was captured.
 //
-// The counter wraps after gCycleCountMax and may be wrong; the capture's clock runs off the cluster's and knows no cycle's
-// start. A frame's slot says how far into its cycle it was sent; so two frames' stamps say how many cycles lie between them,
-// to within what clocks may differ (0.15 % each) and what stamping is off. Where counter and stamps agree, the counter is
-// believed; where not, the stamps are, and the counter is in error.
+// The counter wraps after gCycleCountMax and may be wrong; the capture's clock runs off the cluster's and knows no
+// cycle's start. A frame's slot says how far into its cycle it was sent; so two frames' stamps say how many cycles lie
+// between them, to within what clocks may differ (0.15 % each) and what stamping is off. Where counter and stamps
+// agree, the counter is believed; where not, the stamps are, and the counter is in error.
 #pragma once
 
 #include <cstdint>
@@ -22,9 +22,9 @@ class CycleTracker {
     int counter = 0;           // what the cycle counter must be
     bool counter_fits = true;
   };
-  // Frames in the order of time. The first one's counter is believed. A counter that disagrees throughout a cycle is the
-  // cluster's new one (it was started anew) and believed from the next frame on. Without stamps, a counter that moves on
-  // by more than one is in error, and believed from the next frame on.
+  // Frames in the order of time. The first one's counter is believed. A counter that disagrees throughout a cycle is
+  // the cluster's new one (it was started anew) and believed from the next frame on. Without stamps, a counter that
+  // moves on by more than one is in error, and believed from the next frame on.
   Place place(int slot, int counter, std::optional<std::int64_t> time_ns);
 
  private:
@@ -34,12 +34,12 @@ class CycleTracker {
 
   schedules::GlobalParameters flexray_;
   std::int64_t cycle_ns_;
-  int counters_;                        // gCycleCountMax + 1
+  int counters_;  // gCycleCountMax + 1
   bool started_ = false;
-  int counter_ = 0;                     // of the current cycle
-  std::optional<std::int64_t> start_;   // of the current cycle, by the capture's clock
-  int astray_ = 0;                      // frames in a row whose stamps do not fit `start_`
-  std::optional<int> disagreement_;     // of the frames before: counter less what is due
+  int counter_ = 0;                    // of the current cycle
+  std::optional<std::int64_t> start_;  // of the current cycle, by the capture's clock
+  int astray_ = 0;                     // frames in a row whose stamps do not fit `start_`
+  std::optional<int> disagreement_;    // of the frames before: counter less what is due
   std::int64_t disagreed_cycles_ = 0;
 };
 

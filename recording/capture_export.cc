@@ -13,6 +13,7 @@ namespace {
 constexpr char kFlexRayName[] = "FlexRay";
 constexpr std::size_t kLongestDevice = 15;  // IFNAMSIZ less the closing zero
 constexpr std::int64_t kMicrosecond = 1'000, kSecond = 1'000'000'000;
+constexpr std::int64_t kCandumpStart_s = 1'000'000'000;
 
 schedules::Channel channel_of(const LoggedFrame& frame) { return static_cast<schedules::Channel>(frame.channel); }
 
@@ -89,8 +90,7 @@ std::string export_pcapng(const FrameCollector& collector, const std::vector<Log
       put_flexray_packet(packet, channel_of(frame), check_flexray_frame(channel_of(frame), collector.data(frame)));
     else
       put_can_packet(packet, frame.id, frame.flexible_data_rate, collector.data(frame));
-    writer.packet(frame.flexray ? 0 : frame.channel + std::size_t{1}, frame.time_ns, packet,
-                  comment_of(frame, names));
+    writer.packet(frame.flexray ? 0 : frame.channel + std::size_t{1}, frame.time_ns, packet, comment_of(frame, names));
   }
   return out;
 }
@@ -102,7 +102,7 @@ std::string export_candump(const FrameCollector& collector, const std::vector<Lo
     if (frame.flexray) continue;
     const std::int64_t time = std::max<std::int64_t>(frame.time_ns, 0);
     const std::string bus = names.can_bus(frame.channel);
-    out += fmt::format("({:010}.{:06}) {} ", time / kSecond, time % kSecond / kMicrosecond,
+    out += fmt::format("({}.{:06}) {} ", kCandumpStart_s + time / kSecond, time % kSecond / kMicrosecond,
                        can_be_a_device(bus) ? bus : fmt::format("can{}", frame.channel));
     out += frame.id > kLargestBaseIdentifier ? fmt::format("{:08X}", frame.id) : fmt::format("{:03X}", frame.id);
     out += frame.flexible_data_rate ? fmt::format("##{:X}", kBitRateSwitch) : "#";
@@ -128,7 +128,9 @@ std::string export_csv(const FrameCollector& collector, const std::vector<Logged
       flags = can_flags(frame);
       out += fmt::format("{},{},,,", frame.time_ns, quoted(names.can_bus(frame.channel)));
     }
-    const char* kind = frame.flexray ? (frame.null_frame ? "null" : "frame") : frame.flexible_data_rate ? "can_fd" : "can";
+    const char* kind = frame.flexray              ? (frame.null_frame ? "null" : "frame")
+                       : frame.flexible_data_rate ? "can_fd"
+                                                  : "can";
     out += fmt::format("{},{},{},{},{},{},{},{},", frame.id, quoted(names.node(frame.sender)), kind, flags,
                        list ? quoted(names.pdu(frame.pdu)) : "", list ? std::to_string(frame.sequence) : "",
                        list ? std::to_string(frame.fragment) : "", quoted(names.measurement(frame)));

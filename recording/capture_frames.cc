@@ -15,14 +15,11 @@ std::string name_or_number(const std::vector<std::string>& names, std::size_t in
 
 std::string LogNames::node(NodeId id) const { return name_or_number(manifest_.node_names, index_of(id), "node"); }
 std::string LogNames::pdu(PduId id) const { return name_or_number(manifest_.pdu_names, index_of(id), "pdu"); }
-std::string LogNames::can_bus(std::size_t index) const {
-  return name_or_number(manifest_.can_bus_names, index, "can");
-}
+std::string LogNames::can_bus(std::size_t index) const { return name_or_number(manifest_.can_bus_names, index, "can"); }
 
 std::string LogNames::measurement(const LoggedFrame& frame) const {
   if (frame.null_frame || frame.sensor == kNoSensor) return "";
-  return fmt::format("{} {}", name_or_number(manifest_.sensor_names, index_of(frame.sensor), "sensor"),
-                     frame.sequence);
+  return fmt::format("{} {}", name_or_number(manifest_.sensor_names, index_of(frame.sensor), "sensor"), frame.sequence);
 }
 
 void FrameCollector::on(const records::SlotFrameSent& record) {

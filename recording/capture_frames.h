@@ -14,16 +14,16 @@
 namespace ttf::recording {
 
 struct LoggedFrame {
-  std::int64_t time_ns = 0;       // true time: a FlexRay frame's start, a CAN frame's end, as the log's own stamps
+  std::int64_t time_ns = 0;  // true time: a FlexRay frame's start, a CAN frame's end, as the log's own stamps
   bool flexray = false;
-  std::uint8_t channel = 0;       // FlexRay: 0 A, 1 B; else index of the CAN
-  std::uint32_t id = 0;           // slot or CAN identifier
-  std::int64_t cycle = 0;         // running; FlexRay only
-  bool null_frame = false;        // FlexRay only
+  std::uint8_t channel = 0;         // FlexRay: 0 A, 1 B; else index of the CAN
+  std::uint32_t id = 0;             // slot or CAN identifier
+  std::int64_t cycle = 0;           // running; FlexRay only
+  bool null_frame = false;          // FlexRay only
   bool flexible_data_rate = false;  // CAN only
   NodeId sender{};
   PduId pdu = kNoPdu;
-  SensorId sensor = kNoSensor;    // with `sequence` the measurement the frame carries something of
+  SensorId sensor = kNoSensor;  // with `sequence` the measurement the frame carries something of
   std::uint32_t sequence = 0;
   std::uint8_t fragment = 0;
   std::size_t data_begin = 0, data_size = 0;  // FlexRay: header, payload and trailer

@@ -58,8 +58,8 @@ CheckedFlexRayFrame check_flexray_frame(schedules::Channel channel, std::span<co
 }
 
 void put_flexray_packet(std::string& out, schedules::Channel channel, const CheckedFlexRayFrame& frame) {
-  put_byte(out, (channel == schedules::Channel::kB ? kChannelB : 0u) |
-                    static_cast<unsigned>(FlexRayPacket::Kind::kFrame));
+  put_byte(out,
+           (channel == schedules::Channel::kB ? kChannelB : 0u) | static_cast<unsigned>(FlexRayPacket::Kind::kFrame));
   put_byte(out, frame.errors);
   put_bytes(out, frame.header_and_payload);
 }
@@ -70,12 +70,15 @@ FlexRayPacket parse_flexray_packet(std::span<const std::byte> data) {
   const auto first = static_cast<std::uint8_t>(data[0]);
   packet.channel = (first & kChannelB) != 0 ? schedules::Channel::kB : schedules::Channel::kA;
   switch (first & kTypeMask) {
-    case static_cast<int>(FlexRayPacket::Kind::kFrame): packet.kind = FlexRayPacket::Kind::kFrame; break;
+    case static_cast<int>(FlexRayPacket::Kind::kFrame):
+      packet.kind = FlexRayPacket::Kind::kFrame;
+      break;
     case static_cast<int>(FlexRayPacket::Kind::kSymbol):
       packet.kind = FlexRayPacket::Kind::kSymbol;
       packet.symbol_bits = static_cast<int>(data[1]) & 0x7f;
       return packet;
-    default: return packet;
+    default:
+      return packet;
   }
   packet.errors = static_cast<std::uint8_t>(data[1]) & 0x1f;
   const std::span<const std::byte> frame = data.subspan(kFlexRayPrefix);

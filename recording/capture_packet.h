@@ -36,24 +36,24 @@ struct CheckedFlexRayFrame {
   std::span<const std::byte> header_and_payload;
 };
 
-// Computes both CRCs anew from `bytes` (header, payload, trailer). Bytes that are too few for a header and a trailer, or
-// not as many as the header says, fail the frame CRC, too few for a header also the header CRC.
+// Computes both CRCs anew from `bytes` (header, payload, trailer). Bytes that are too few for a header and a trailer,
+// or not as many as the header says, fail the frame CRC, too few for a header also the header CRC.
 CheckedFlexRayFrame check_flexray_frame(schedules::Channel channel, std::span<const std::byte> bytes);
 
 // Appends a packet of link type 210.
 void put_flexray_packet(std::string& out, schedules::Channel channel, const CheckedFlexRayFrame& frame);
 
-// A packet of link type 210 as somebody captured it. Nothing in it is believed: the header may be cut short, the payload
-// may have another length than the header says.
+// A packet of link type 210 as somebody captured it. Nothing in it is believed: the header may be cut short, the
+// payload may have another length than the header says.
 struct FlexRayPacket {
   enum class Kind : std::uint8_t { kFrame = 1, kSymbol = 2, kUnknown = 0 };
   Kind kind = Kind::kUnknown;
   schedules::Channel channel{};
-  std::uint8_t errors = 0;       // FlexRayErrors, of a frame
-  int symbol_bits = 0;           // of a symbol
-  bool whole_header = false;     // of a frame; without it the fields below are zero
+  std::uint8_t errors = 0;    // FlexRayErrors, of a frame
+  int symbol_bits = 0;        // of a symbol
+  bool whole_header = false;  // of a frame; without it the fields below are zero
   wire::FrameHeader header;
-  bool header_crc_holds = false; // recomputed
+  bool header_crc_holds = false;  // recomputed
   std::span<const std::byte> payload;
 };
 FlexRayPacket parse_flexray_packet(std::span<const std::byte> data);

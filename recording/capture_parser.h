@@ -27,8 +27,7 @@ Int number_at(std::string_view bytes, std::size_t at, bool swapped) {
 // A capture while it is read: where we are, and how to complain.
 class CaptureParser {
  public:
-  CaptureParser(Capture& capture, const std::string& name)
-      : capture_(capture), name_(name), bytes_(capture.bytes) {}
+  CaptureParser(Capture& capture, const std::string& name) : capture_(capture), name_(name), bytes_(capture.bytes) {}
 
  protected:
   std::size_t left() const { return bytes_.size() - at_; }

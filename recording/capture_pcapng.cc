@@ -26,7 +26,8 @@ Int128 nanoseconds(const Clock& clock, std::uint64_t ticks) {
   Int128 per_second = 1;
   for (int i = 0; i < clock.digits; ++i) per_second *= clock.binary ? 2 : 10;
   const Int128 count = ticks;
-  return (count / per_second) * kSecond + (count % per_second) * kSecond / per_second + Int128{clock.offset_s} * kSecond;
+  return (count / per_second) * kSecond + (count % per_second) * kSecond / per_second +
+         Int128{clock.offset_s} * kSecond;
 }
 
 class PcapngParser : CaptureParser {
@@ -52,12 +53,23 @@ class PcapngParser : CaptureParser {
       damaged("block before " + next_packet(), fmt::format("{} and {} bytes", size_, again),
               "must state the same length at both ends");
     switch (static_cast<BlockType>(type_)) {
-      case BlockType::kSection: begin_section(); break;
-      case BlockType::kInterface: interface(); break;
-      case BlockType::kEnhancedPacket: enhanced_packet(); break;
-      case BlockType::kObsoletePacket: obsolete_packet(); break;
-      case BlockType::kSimplePacket: simple_packet(); break;
-      default: break;  // statistics, names, and what others made
+      case BlockType::kSection:
+        begin_section();
+        break;
+      case BlockType::kInterface:
+        interface();
+        break;
+      case BlockType::kEnhancedPacket:
+        enhanced_packet();
+        break;
+      case BlockType::kObsoletePacket:
+        obsolete_packet();
+        break;
+      case BlockType::kSimplePacket:
+        simple_packet();
+        break;
+      default:
+        break;  // statistics, names, and what others made
     }
     at_ += size_;
   }
@@ -94,8 +106,7 @@ class PcapngParser : CaptureParser {
       const auto code = number<std::uint16_t>(offset);
       const std::size_t size = number<std::uint16_t>(offset + 2);
       if (code == static_cast<std::uint16_t>(BlockOption::kEnd)) return;
-      if (padded(size) > end - offset - 4)
-        damaged(what, fmt::format("option of {} bytes", size), "must fit its block");
+      if (padded(size) > end - offset - 4) damaged(what, fmt::format("option of {} bytes", size), "must fit its block");
       take(static_cast<BlockOption>(code), at_ + offset + 4, size);
       offset += 4 + padded(size);
     }
@@ -145,8 +156,7 @@ class PcapngParser : CaptureParser {
 
   void stamped_packet(std::size_t interface) {
     check_interface(interface);
-    const std::uint64_t ticks =
-        (std::uint64_t{number<std::uint32_t>(12)} << 32) | number<std::uint32_t>(16);
+    const std::uint64_t ticks = (std::uint64_t{number<std::uint32_t>(12)} << 32) | number<std::uint32_t>(16);
     const Int128 time = nanoseconds(clocks_[interface], ticks);
     if (time < 0 || time > kLatest)
       damaged(next_packet(), fmt::format("time stamp {}", ticks), "must be between 1970 and 2116");

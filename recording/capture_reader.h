@@ -1,8 +1,9 @@
 // Reads captures that other programs made: pcap (either byte order, microseconds or nanoseconds) and pcapng (sections
 // of either byte order; interfaces, enhanced, simple and obsolete packet blocks; all other blocks are skipped).
 //
-// Nothing in the file is trusted. What is damaged ends in one sentence that names the file and the packet; only a file that
-// breaks off within a packet or block, as when the capturing program was killed, is read up to there with a warning.
+// Nothing in the file is trusted. What is damaged ends in one sentence that names the file and the packet; only a file
+// that breaks off within a packet or block, as when the capturing program was killed, is read up to there with a
+// warning.
 #pragma once
 
 #include <cstddef>
@@ -27,13 +28,13 @@ struct CapturedPacket {
   std::optional<std::int64_t> time_ns;  // 1970 to 2116; simple packet blocks have none
   std::uint64_t data_begin = 0;         // in the file
   std::uint32_t data_size = 0;
-  std::uint32_t original_size = 0;      // before the capture cut it
-  std::string comment;                  // all of the packet's, one per line
+  std::uint32_t original_size = 0;  // before the capture cut it
+  std::string comment;              // all of the packet's, one per line
 };
 
 struct Capture {
-  std::string bytes;  // of the file
-  std::vector<CaptureSource> interfaces;   // of all sections
+  std::string bytes;                      // of the file
+  std::vector<CaptureSource> interfaces;  // of all sections
   std::vector<CapturedPacket> packets;
   std::string warning;  // one line, empty for a whole file
 

@@ -58,9 +58,9 @@ CaptureWriter::CaptureWriter(std::string& out, std::span<const CaptureInterface>
     : out_(out), interfaces_(interfaces.size()) {
   Block section(out_, BlockType::kSection);
   put(out_, kByteOrderMagic);
-  put(out_, std::uint16_t{1});   // version 1.0
+  put(out_, std::uint16_t{1});  // version 1.0
   put(out_, std::uint16_t{0});
-  put(out_, std::int64_t{-1});   // length of the section: not said
+  put(out_, std::int64_t{-1});  // length of the section: not said
   if (!comment.empty()) section.option(BlockOption::kComment, printable(comment));
   section.close();
   for (const CaptureInterface& interface : interfaces) {

@@ -1,5 +1,6 @@
 // Writes a pcapng capture, little endian, with stamps in nanoseconds (draft-ietf-opsawg-pcapng): one section, its
-// interfaces first, then the packets as enhanced packet blocks. No dates and no host: the same packets give the same bytes.
+// interfaces first, then the packets as enhanced packet blocks. No dates and no host: the same packets give the same
+// bytes.
 #pragma once
 
 #include <cstddef>

@@ -143,7 +143,7 @@ expect 2 'scenario|MCAP|mcap' diagram "$source/README.md" -o "$work/none.svg"
 expect 0 'Example: ttfusion export' export --help
 expect 2 'pcapng' export "$work/a/tt.mcap" --format asc -o "$work/drive.asc"
 expect 2 'README.md' export "$source/README.md" --format csv -o "$work/drive.csv"
-expect 2 'absent/drive.csv: cannot be' export "$work/a/tt.mcap" --format csv -o "$work/absent/drive.csv"
+expect 1 'absent/drive.csv: cannot be written' export "$work/a/tt.mcap" --format csv -o "$work/absent/drive.csv"
 expect 0 '[1-9][0-9]* FlexRay and [1-9][0-9]* CAN frames' export "$work/a/tt.mcap" --format pcapng -o "$work/drive.pcapng"
 expect 0 '"can_frames": [1-9]' export "$work/a/tt.mcap" --format candump --json -o "$work/drive.log"
 expect 0 'warning: .*cut.mcap' export "$work/cut.mcap" --format csv -o "$work/drive.csv"

@@ -1,6 +1,6 @@
-// Any bytes as a capture, and any capture against a schedule. Laws: only InputError ends the reading, with one sentence;
-// packets lie within the file and are numbered from 1; packets written again are read the same; and the verdict on a
-// capture counts what it lists.
+// Any bytes as a capture, and any capture against a schedule. Laws: only InputError ends the reading, with one
+// sentence; packets lie within the file and are numbered from 1; packets written again are read the same; and the
+// verdict on a capture counts what it lists.
 #include "core/check.h"
 #include "recording/capture_check.h"
 #include "recording/capture_packet.h"
@@ -62,8 +62,7 @@ void check_written_again(const Capture& capture) {
 
 void check_verdict(const Capture& capture) {
   recording::CaptureVerdict verdict;
-  const bool said =
-      fuzz::accepted(kFile, [&] { verdict = recording::check_capture(capture, kFile, cluster(), {}); });
+  const bool said = fuzz::accepted(kFile, [&] { verdict = recording::check_capture(capture, kFile, cluster(), {}); });
   if (!said) return;
   TTF_CHECK(verdict.frames > 0 && verdict.cycles > 0, "{} frames, {} cycles", verdict.frames, verdict.cycles);
   TTF_CHECK(verdict.frames + verdict.symbols + verdict.other_packets == capture.packets.size(), "{} of {} packets",

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "core/errors.h"
 #include "bus/wire/flexray_crc.h"
+#include "core/errors.h"
 #include "recording/capture_check.h"
 #include "tests/recording/capture_fixture.h"
 
@@ -176,15 +176,14 @@ TEST(CaptureCheck, APayloadOfAnotherLength) {
 
 TEST(CaptureCheck, APacketThatWasCutWhenCaptured) {
   std::string bytes;
-  const CaptureInterface interface{LinkType::kFlexRay, ""};
+  const CaptureInterface interface { LinkType::kFlexRay, "" };
   CaptureWriter writer(bytes, {&interface, 1}, "");
   const std::vector<BusFrame> frames = scheduled_frames(cluster(), 2);
   for (std::size_t i = 0; i < frames.size(); ++i)
     writer.packet(0, frames[i].time_ns, frames[i].packet().substr(0, i == 10 ? 40 : i == 12 ? 5 : 400), "");
   const CaptureVerdict verdict = check_capture(parse_capture(bytes, "bus.pcapng"), "bus.pcapng", cluster(), {});
-  EXPECT_EQ(verdict.counts, counts({{Contradiction::kPayloadLength, 1},
-                                    {Contradiction::kMalformed, 1},
-                                    {Contradiction::kMissing, 1}}));
+  EXPECT_EQ(verdict.counts,
+            counts({{Contradiction::kPayloadLength, 1}, {Contradiction::kMalformed, 1}, {Contradiction::kMissing, 1}}));
 }
 
 TEST(CaptureCheck, ADamagedHeaderIsFoundWithoutTheCapturesFlagAndNotMissingBesides) {
@@ -279,7 +278,7 @@ TEST(CaptureCheck, PacketsOutOfOrderAndWithoutStampsAreCheckedToo) {
 
 TEST(CaptureCheck, NothingIsSaidOfACaptureWithoutFlexRayFrames) {
   EXPECT_THROW(verdict_on({}), InputError);
-  const CaptureInterface interface{LinkType::kCan, "can0"};
+  const CaptureInterface interface { LinkType::kCan, "can0" };
   std::string bytes;
   CaptureWriter writer(bytes, {&interface, 1}, "");
   writer.packet(0, 0, scheduled_frames(cluster(), 1)[0].packet(), "");

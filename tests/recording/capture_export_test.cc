@@ -40,7 +40,8 @@ struct Exported {
     sent.data = data;
     return sent;
   }
-  void flexray(std::int64_t start_ns, int slot, std::uint8_t channel, PduId pdu, bool null_frame, int flipped_bit = -1) {
+  void flexray(std::int64_t start_ns, int slot, std::uint8_t channel, PduId pdu, bool null_frame,
+               int flipped_bit = -1) {
     wire::FrameHeader header;
     header.frame_id = static_cast<std::uint16_t>(slot);
     header.cycle = 9;
@@ -49,7 +50,8 @@ struct Exported {
     const std::byte payload[]{std::byte{1}, std::byte{0xab}};
     std::array<std::byte, 10> bytes{};
     wire::encode_frame(header, static_cast<Channel>(channel), payload, bytes);
-    if (flipped_bit >= 0) bytes[static_cast<std::size_t>(flipped_bit / 8)] ^= static_cast<std::byte>(0x80 >> flipped_bit % 8);
+    if (flipped_bit >= 0)
+      bytes[static_cast<std::size_t>(flipped_bit / 8)] ^= static_cast<std::byte>(0x80 >> flipped_bit % 8);
     records::SlotFrameSent sent;
     sent.stamp = {{start_ns}, {}, {}, *nodes.find_node("gateway")};
     sent.cycle = 73;
@@ -77,9 +79,9 @@ TEST(CaptureExport, CandumpLinesAreThoseCanplayerReads) {
   log.can(2, -1, 0x800, false, "camera_frame", 4);
   log.flexray(0, 1, 0, kNoPdu, false);
   EXPECT_EQ(log.candump(),
-            "(0000000000.000000) odd,\"name\" 00000800#DEAD07\n"
-            "(0000000001.000000) can1 7FF#DEAD07\n"
-            "(0000000001.234567) laser_can 100##1DEAD07\n");
+            "(1000000000.000000) odd,\"name\" 00000800#DEAD07\n"
+            "(1000000001.000000) can1 7FF#DEAD07\n"
+            "(1000000001.234567) laser_can 100##1DEAD07\n");
 }
 
 TEST(CaptureExport, RowsNameEverythingAFrameIs) {
@@ -113,9 +115,9 @@ TEST(CaptureExport, PacketsCarryTheMeasurementInTheirComments) {
   EXPECT_EQ(capture.interfaces[2].name, "a name with spaces");
   std::vector<std::string> comments;
   for (const CapturedPacket& packet : capture.packets) comments.push_back(packet.comment);
-  EXPECT_THAT(comments, testing::ElementsAre("measurement laser 12: laser_scan, fragment 2", "",
-                                             "measurement laser 12: laser_objects, fragment 0", "",
-                                             "image 12, fragment 0"));
+  EXPECT_THAT(comments,
+              testing::ElementsAre("measurement laser 12: laser_scan, fragment 2", "",
+                                   "measurement laser 12: laser_objects, fragment 0", "", "image 12, fragment 0"));
   EXPECT_EQ(capture.packets[0].time_ns, 4);
   EXPECT_EQ(capture.packets[0].interface, 1u);
 }

@@ -75,13 +75,15 @@ inline std::vector<BusFrame> scheduled_frames(const schedules::Cluster& cluster,
 }
 
 inline std::string capture_bytes(const std::vector<BusFrame>& frames) {
-  const CaptureInterface interface{LinkType::kFlexRay, "FlexRay"};
+  const CaptureInterface interface { LinkType::kFlexRay, "FlexRay" };
   std::string bytes;
   CaptureWriter writer(bytes, {&interface, 1}, "");
   for (const BusFrame& frame : frames) writer.packet(0, frame.time_ns, frame.packet(), "");
   return bytes;
 }
 
-inline Capture capture_of(const std::vector<BusFrame>& frames) { return parse_capture(capture_bytes(frames), "bus.pcapng"); }
+inline Capture capture_of(const std::vector<BusFrame>& frames) {
+  return parse_capture(capture_bytes(frames), "bus.pcapng");
+}
 
 }  // namespace ttf::recording

@@ -24,7 +24,9 @@ TEST(CapturePacket, AKnownFramePassesBothChecksAndLosesItsTrailer) {
   const std::vector<std::byte> bytes = known_frame();
   std::string packet;
   put_flexray_packet(packet, Channel::kA, check_flexray_frame(Channel::kA, bytes));
-  EXPECT_EQ(packet, std::string("\x01\x00\x38\x01\x10\x46\xc0\x00\x01\x02\x03\x04\x05\x06\x07\x08\x09\x0a\x0b\x0c\x0d\x0e\x0f", 23));
+  EXPECT_EQ(
+      packet,
+      std::string("\x01\x00\x38\x01\x10\x46\xc0\x00\x01\x02\x03\x04\x05\x06\x07\x08\x09\x0a\x0b\x0c\x0d\x0e\x0f", 23));
 }
 
 TEST(CapturePacket, AFrameThatStraysToTheOtherChannelFailsItsFrameCrc) {
@@ -42,8 +44,7 @@ TEST(CapturePacket, EveryFlippedBitIsFlaggedByTheChecksThatCoverIt) {
     bytes[bit / 8] ^= static_cast<std::byte>(0x80 >> bit % 8);
     // Sync, startup, frame id, length (bits 3 to 22) and the header CRC itself (23 to 33).
     const bool in_header_crc = bit >= 3 && bit <= 33;
-    EXPECT_EQ(check_flexray_frame(Channel::kA, bytes).errors,
-              kFrameCrcError | (in_header_crc ? kHeaderCrcError : 0))
+    EXPECT_EQ(check_flexray_frame(Channel::kA, bytes).errors, kFrameCrcError | (in_header_crc ? kHeaderCrcError : 0))
         << "bit " << bit;
   }
 }

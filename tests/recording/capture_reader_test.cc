@@ -85,7 +85,7 @@ TEST(CaptureReader, ReadsWhatTheWriterWrote) {
 }
 
 TEST(CaptureReader, CommentsAreKeptPrintableAndShort) {
-  const CaptureInterface interface{LinkType::kCan, "a\nb"};
+  const CaptureInterface interface { LinkType::kCan, "a\nb" };
   std::string bytes;
   CaptureWriter writer(bytes, {&interface, 1}, "");
   writer.packet(0, -5, "", "one\ttwo");
@@ -118,10 +118,10 @@ TEST(CaptureReader, ReadsPcapOfEitherByteOrderAndResolution) {
 TEST(CaptureReader, ReadsEveryKindOfPacketBlockInEitherByteOrderAndSkipsTheOthers) {
   for (const bool big : {false, true}) {
     Bytes file = section(big);
-    file.block(1, file.body().u16(210).u16(0).u32(2));                               // microseconds, cuts to 2 bytes
+    file.block(1, file.body().u16(210).u16(0).u32(2));  // microseconds, cuts to 2 bytes
     file.block(0xbad, file.body().text("unknown"));
-    file.block(6, file.body().u32(0).u32(0).u32(1'500'000).u32(1).u32(1).text("a")); // enhanced
-    file.block(3, file.body().u32(5).text("bc"));                                    // simple: 2 of 5 bytes
+    file.block(6, file.body().u32(0).u32(0).u32(1'500'000).u32(1).u32(1).text("a"));           // enhanced
+    file.block(3, file.body().u32(5).text("bc"));                                              // simple: 2 of 5 bytes
     file.block(2, file.body().u16(0).u16(7).u32(0).u32(2'000'000).u32(3).u32(3).text("def"));  // obsolete
     const Capture capture = parse_capture(file.out, "bus.pcapng");
     EXPECT_EQ(capture.warning, "");
@@ -143,8 +143,12 @@ TEST(CaptureReader, TimeStampsCountInWhatTheInterfaceSays) {
     body.u16(9).u16(1).text(std::string(1, static_cast<char>(resolution)));
     body.u16(14).u16(8).put(offset_s);
     file.block(1, body.u32(0));
-    file.block(6, file.body().u32(0).u32(static_cast<std::uint32_t>(ticks >> 32)).u32(static_cast<std::uint32_t>(ticks))
-                      .u32(0).u32(0));
+    file.block(6, file.body()
+                      .u32(0)
+                      .u32(static_cast<std::uint32_t>(ticks >> 32))
+                      .u32(static_cast<std::uint32_t>(ticks))
+                      .u32(0)
+                      .u32(0));
     return parse_capture(file.out, "bus.pcapng").packets.at(0).time_ns;
   };
   EXPECT_EQ(time_of(9, 1'234'567'890'123, 0), 1'234'567'890'123);
@@ -183,10 +187,12 @@ TEST(CaptureReader, DamageIsOneSentenceThatNamesFileAndPacket) {
               StartsWith("bus.pcapng: packet 1 = interface 3: must be of one of the section's 1 interfaces"));
   EXPECT_THAT(in_block(6, empty.body().u32(0).u32(0).u32(0).u32(5).u32(5).u32(0)),
               StartsWith("bus.pcapng: packet 1 = 5 bytes: must fit its block"));
-  EXPECT_THAT(in_block(6, empty.body().u32(0).u32(0)), StartsWith("bus.pcapng: packet 1 = 20 bytes: must have at least"));
+  EXPECT_THAT(in_block(6, empty.body().u32(0).u32(0)),
+              StartsWith("bus.pcapng: packet 1 = 20 bytes: must have at least"));
   EXPECT_THAT(in_block(6, empty.body().u32(0).u32(0).u32(0).u32(0).u32(0).u16(1).u16(100)),
               StartsWith("bus.pcapng: packet 1 = option of 100 bytes: must fit its block"));
-  EXPECT_THAT(in_block(3, empty.body().u32(9).text("bc")), StartsWith("bus.pcapng: packet 1 = 9 bytes: must fit its block"));
+  EXPECT_THAT(in_block(3, empty.body().u32(9).text("bc")),
+              StartsWith("bus.pcapng: packet 1 = 9 bytes: must fit its block"));
   EXPECT_THAT(in_block(1, empty.body().u32(9)), HasSubstr("interface 1 before packet 1 = 16 bytes"));
 
   std::string bytes = two_packets();
