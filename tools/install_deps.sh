@@ -11,8 +11,11 @@ packages=(
   librsvg2-dev libcairo2-dev fonts-dejavu-core
   # tests
   libgtest-dev libgmock-dev libbenchmark-dev
-  nodejs npm   # the log's official reader
-  tshark       # captures, as Wireshark sees them
+)
+# Programs the tests call, wherever they come from, and the package that has them.
+programs=(
+  node:nodejs npm:npm   # the log's official reader
+  tshark:tshark         # captures, as Wireshark sees them
 )
 # The slower gates (.ci/run) also need a second compiler, sanitizers' runtime and the formatter.
 if [[ ${1:-} == --gates ]]; then
@@ -23,8 +26,11 @@ missing=()
 for package in "${packages[@]}"; do
   dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'install ok installed' || missing+=("$package")
 done
+for program in "${programs[@]}"; do
+  command -v "${program%%:*}" >/dev/null || missing+=("${program##*:}")
+done
 if [[ ${#missing[@]} -eq 0 ]]; then
-  echo "dependencies: all ${#packages[@]} packages are installed"
+  echo "dependencies: all $((${#packages[@]} + ${#programs[@]})) are installed"
   exit 0
 fi
 
