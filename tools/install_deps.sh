@@ -17,9 +17,9 @@ programs=(
   node:nodejs npm:npm   # the log's official reader
   tshark:tshark         # captures, as Wireshark sees them
 )
-# The slower gates (.ci/run) also need a second compiler, sanitizers' runtime and the formatter.
+# The slower gates (.ci/run) also need a second compiler and the fuzzer's runtime.
 if [[ ${1:-} == --gates ]]; then
-  packages+=(clang clang-tidy clang-format libclang-rt-14-dev)
+  packages+=(clang libclang-rt-14-dev)
 fi
 
 missing=()
