@@ -44,6 +44,7 @@ void FlexRayController::State::tell(const PocEvent& event, Microticks at) {
   const PocStep step = poc_step(poc_parameters, poc, event);
   poc = step.next;
   act(step.actions, at);
+  if (poc.kind != PocKind::kWakeupSend) wakeup_sent = kNever;
   if (poc.kind != from) events.state_changed(from, step, at);
 }
 
@@ -56,7 +57,7 @@ void FlexRayController::State::act(const PocActions& actions, Microticks at) {
   if (actions.has(PocAction::kRestartNoiseTimer)) noise_timer = at + poc_parameters.noise_timeout();
   if (actions.has(PocAction::kSendWakeupPattern)) send_wakeup_pattern(at);
   if (actions.has(PocAction::kSendCas)) send_cas(at);
-  // kDeriveSchedule: hear() has given the frame to the initialisation.
+  if (actions.has(PocAction::kDeriveSchedule)) initialisation.reset();   // hear() gives it the frame that set this off
 }
 
 void FlexRayController::State::drop_schedule() {

@@ -2,6 +2,7 @@
 #include <cstdlib>
 
 #include "bus/controller_state.h"
+#include "core/check.h"
 
 namespace ttf::bus {
 namespace {
@@ -17,8 +18,22 @@ bool receiver_on(PocKind kind) {
     case PocKind::kConfig:
     case PocKind::kReady:
     case PocKind::kHalt: return false;
-    default: return true;
+    case PocKind::kNormalActive:
+    case PocKind::kNormalPassive:
+    case PocKind::kWakeupListen:
+    case PocKind::kWakeupSend:
+    case PocKind::kWakeupDetect:
+    case PocKind::kColdstartListen:
+    case PocKind::kColdstartCollisionResolution:
+    case PocKind::kColdstartConsistencyCheck:
+    case PocKind::kColdstartGap:
+    case PocKind::kColdstartJoin:
+    case PocKind::kIntegrationColdstartCheck:
+    case PocKind::kIntegrationListen:
+    case PocKind::kIntegrationConsistencyCheck:
+    case PocKind::kInitialiseSchedule: return true;
   }
+  TTF_CHECK(false, "state {}", static_cast<int>(kind));
 }
 
 bool has_header(const Reception& reception) {
@@ -36,7 +51,6 @@ void FlexRayController::State::receive(const Reception& reception) {
   if (!clock || in_startup(poc.kind)) {
     tell({PocEventKind::kChannelActive}, reception.end);
     if (conflict && wakeup_sent != kNever) {
-      wakeup_sent = kNever;
       tell({PocEventKind::kWakeupCollision}, reception.end);
     } else if (!conflict) {
       if (reception.signal == Signal::kCas) tell({PocEventKind::kCasReceived}, reception.end);
@@ -64,7 +78,6 @@ void FlexRayController::State::hear(const Reception& reception) {
   if (poc.kind == PocKind::kColdstartListen || poc.kind == PocKind::kIntegrationListen) {
     tell(event, reception.end);
     if (poc.kind != PocKind::kInitialiseSchedule) return;
-    initialisation.reset();
     initialisation.hear(heard);
     partner_overdue = reception.end + Microticks{p.pMicroPerCycle + p.pRateCorrectionOut + 1};
   } else if (poc.kind == PocKind::kInitialiseSchedule && heard.frame_id == poc.reference) {

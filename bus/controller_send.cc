@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "bus/controller_state.h"
+#include "core/check.h"
 
 namespace ttf::bus {
 namespace {
@@ -99,8 +100,9 @@ void FlexRayController::State::send_dynamic(Channel channel, Microticks at) {
     cni.carried(slot, channel);
     const int words = static_cast<int>((content.payload.size() + 1) / 2);
     const int last = minislots.dts_end(*clock, at + bits(schedules::frame_bits(g, words)), bits(1));
-    // pLatestTx keeps the longest frame within the segment; the checker proves it.
-    const Microticks end = clock->start_of(minislots.action_point(std::min(last, minislots.count())));
+    TTF_CHECK(last <= minislots.count(), "slot {} ends in minislot {}: pLatestTx {} is too late for its frame", slot.slot,
+              last, p.pLatestTx);
+    const Microticks end = clock->start_of(minislots.action_point(last));
     d.counter.occupied(d.minislot, last);
     send_frame(slot, channel, at, end, content, false, content.last);
   }

@@ -26,7 +26,7 @@ PocStep step_in_state(const poc::Now& now) {
     case PocKind::kNormalActive: return poc::in_normal_active(now);
     case PocKind::kNormalPassive: return poc::in_normal_passive(now);
   }
-  return {};
+  poc::unlisted(now);
 }
 
 bool runs_timers(PocKind kind) {

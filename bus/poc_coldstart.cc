@@ -46,7 +46,7 @@ PocStep in_coldstart_listen(const Now& now) {
     case PocEventKind::kClockCorrected:
     case PocEventKind::kCycleStarted: return ignore(now, PocReason::kNoSchedule);
   }
-  return {};
+  return unlisted(now);
 }
 
 namespace {
@@ -92,7 +92,7 @@ PocStep in_collision_resolution(const Now& now) {
     case PocEventKind::kScheduleNotDerived: return ignore(now, PocReason::kNotDerivingSchedule);
     case PocEventKind::kClockCorrected: return ignore(now, PocReason::kOwnClockOnly);
   }
-  return {};
+  return unlisted(now);
 }
 
 namespace {
@@ -146,7 +146,7 @@ PocStep in_consistency_check(const Now& now) {
     case PocEventKind::kWakeupCollision: return ignore(now, PocReason::kNotSendingWakeup);
     case PocEventKind::kScheduleNotDerived: return ignore(now, PocReason::kNotDerivingSchedule);
   }
-  return {};
+  return unlisted(now);
 }
 
 PocStep in_gap(const Now& now) {
@@ -178,7 +178,7 @@ PocStep in_gap(const Now& now) {
     case PocEventKind::kScheduleNotDerived: return ignore(now, PocReason::kNotDerivingSchedule);
     case PocEventKind::kClockCorrected: return ignore(now, PocReason::kOwnClockOnly);
   }
-  return {};
+  return unlisted(now);
 }
 
 }  // namespace ttf::bus::poc

@@ -30,7 +30,7 @@ PocStep in_default_config(const Now& now) {
     case PocEventKind::kClockCorrected:
     case PocEventKind::kCycleStarted: return ignore(now, PocReason::kNoSchedule);
   }
-  return {};
+  return unlisted(now);
 }
 
 PocStep in_config(const Now& now) {
@@ -60,7 +60,7 @@ PocStep in_config(const Now& now) {
     case PocEventKind::kClockCorrected:
     case PocEventKind::kCycleStarted: return ignore(now, PocReason::kNoSchedule);
   }
-  return {};
+  return unlisted(now);
 }
 
 namespace {
@@ -114,7 +114,7 @@ PocStep in_ready(const Now& now) {
     case PocEventKind::kClockCorrected:
     case PocEventKind::kCycleStarted: return ignore(now, PocReason::kNoSchedule);
   }
-  return {};
+  return unlisted(now);
 }
 
 namespace {
@@ -159,7 +159,7 @@ PocStep in_halt(const Now& now) {
     case PocEventKind::kClockCorrected:
     case PocEventKind::kCycleStarted: return ignore(now, PocReason::kNoSchedule);
   }
-  return {};
+  return unlisted(now);
 }
 
 }  // namespace ttf::bus::poc

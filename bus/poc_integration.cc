@@ -41,7 +41,7 @@ PocStep in_integration_listen(const Now& now) {
     case PocEventKind::kClockCorrected:
     case PocEventKind::kCycleStarted: return ignore(now, PocReason::kNoSchedule);
   }
-  return {};
+  return unlisted(now);
 }
 
 namespace {
@@ -83,7 +83,7 @@ PocStep in_initialise_schedule(const Now& now) {
     case PocEventKind::kClockCorrected:
     case PocEventKind::kCycleStarted: return ignore(now, PocReason::kNotYetWholeCycle);
   }
-  return {};
+  return unlisted(now);
 }
 
 namespace {
@@ -150,7 +150,7 @@ PocStep in_integration_coldstart_check(const Now& now) {
     case PocEventKind::kWakeupCollision: return ignore(now, PocReason::kNotSendingWakeup);
     case PocEventKind::kScheduleNotDerived: return ignore(now, PocReason::kNotDerivingSchedule);
   }
-  return {};
+  return unlisted(now);
 }
 
 namespace {
@@ -198,7 +198,7 @@ PocStep in_join(const Now& now) {
     case PocEventKind::kWakeupCollision: return ignore(now, PocReason::kNotSendingWakeup);
     case PocEventKind::kScheduleNotDerived: return ignore(now, PocReason::kNotDerivingSchedule);
   }
-  return {};
+  return unlisted(now);
 }
 
 namespace {
@@ -256,7 +256,7 @@ PocStep in_integration_consistency_check(const Now& now) {
     case PocEventKind::kWakeupCollision: return ignore(now, PocReason::kNotSendingWakeup);
     case PocEventKind::kScheduleNotDerived: return ignore(now, PocReason::kNotDerivingSchedule);
   }
-  return {};
+  return unlisted(now);
 }
 
 }  // namespace ttf::bus::poc

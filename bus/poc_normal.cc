@@ -122,7 +122,7 @@ PocStep in_normal_active(const Now& now) {
     case PocEventKind::kWakeupCollision: return ignore(now, PocReason::kNotSendingWakeup);
     case PocEventKind::kScheduleNotDerived: return ignore(now, PocReason::kNotDerivingSchedule);
   }
-  return {};
+  return unlisted(now);
 }
 
 PocStep in_normal_passive(const Now& now) {
@@ -152,7 +152,7 @@ PocStep in_normal_passive(const Now& now) {
     case PocEventKind::kWakeupCollision: return ignore(now, PocReason::kNotSendingWakeup);
     case PocEventKind::kScheduleNotDerived: return ignore(now, PocReason::kNotDerivingSchedule);
   }
-  return {};
+  return unlisted(now);
 }
 
 }  // namespace ttf::bus::poc

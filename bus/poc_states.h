@@ -30,6 +30,9 @@ PocStep in_integration_consistency_check(const Now& now);
 PocStep in_normal_active(const Now& now);
 PocStep in_normal_passive(const Now& now);
 
+// The end of every function above: reached only with an event that is none.
+[[noreturn]] PocStep unlisted(const Now& now);
+
 // Same state, same data: nothing happens.
 PocStep ignore(const Now& now, PocReason why);
 // Same state, data to be changed by the caller.

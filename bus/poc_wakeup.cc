@@ -46,7 +46,7 @@ PocStep in_wakeup_listen(const Now& now) {
     case PocEventKind::kClockCorrected:
     case PocEventKind::kCycleStarted: return ignore(now, PocReason::kNoSchedule);
   }
-  return {};
+  return unlisted(now);
 }
 
 PocStep in_wakeup_send(const Now& now) {
@@ -78,7 +78,7 @@ PocStep in_wakeup_send(const Now& now) {
     case PocEventKind::kClockCorrected:
     case PocEventKind::kCycleStarted: return ignore(now, PocReason::kNoSchedule);
   }
-  return {};
+  return unlisted(now);
 }
 
 PocStep in_wakeup_detect(const Now& now) {
@@ -112,7 +112,7 @@ PocStep in_wakeup_detect(const Now& now) {
     case PocEventKind::kClockCorrected:
     case PocEventKind::kCycleStarted: return ignore(now, PocReason::kNoSchedule);
   }
-  return {};
+  return unlisted(now);
 }
 
 }  // namespace ttf::bus::poc

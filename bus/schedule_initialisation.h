@@ -41,8 +41,6 @@ class ScheduleInitialisation {
 
   void reset();
   std::optional<InitialSchedule> hear(const StartupFrame& frame);
-  // An even cycle's frame has been heard, its partner is due (E-Ray: INITIALIZE_SCHEDULE is under way).
-  bool under_way() const { return even_[0].has_value() || even_[1].has_value(); }
 
  private:
   const schedules::GlobalParameters& flexray_;

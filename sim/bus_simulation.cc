@@ -100,6 +100,8 @@ void BusSimulation::step_node(std::size_t node) {
   const Microticks ticks = nodes_[node].oscillator.ticks_at(now_);
   if (!powered_[node]) {
     powered_[node] = true;
+    controllers_[node] = std::make_unique<bus::FlexRayController>(cluster_, static_cast<NodeId>(node), *ports_[node],
+                                                                  *events_[node]);
     controllers_[node]->start_cold(ticks);
   }
   controllers_[node]->advance(ticks);

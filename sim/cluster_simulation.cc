@@ -42,7 +42,7 @@ struct ClusterSimulation::FlexRayTap final : bus::FlexRayPort {
   NodeId node;
   FlexRayTap(ClusterSimulation& s, NodeId n) : simulation(s), node(n) {}
   void transmit(const bus::Transmission& transmission) override {
-    ++simulation.frames_sent_;
+    simulation.frames_sent_ += transmission.signal == bus::Signal::kFrame ? 1 : 0;
     const timebase::Oscillator& oscillator = simulation.nodes_[index_of(node)]->oscillator();
     simulation.flexray_.transmit(node, transmission, oscillator.time_of(transmission.start),
                                  oscillator.time_of(transmission.end));
@@ -167,7 +167,10 @@ void ClusterSimulation::step_node(std::size_t node) {
 }
 
 void ClusterSimulation::deliver(const MediumEvent& event) {
-  nodes::Executive& executive = *nodes_[event.node < nodes_.size() ? event.node : 0];
+  // These two are not at a node.
+  if (event.kind == MediumEvent::Kind::kCanArbitration) return cans_[event.channel_or_bus]->arbitrate(now_);
+  if (event.kind == MediumEvent::Kind::kObservation) return observe();
+  nodes::Executive& executive = *nodes_[event.node];
   const timebase::Oscillator& oscillator = executive.oscillator();
   switch (event.kind) {
     case MediumEvent::Kind::kFlexRayArrival:
@@ -195,11 +198,7 @@ void ClusterSimulation::deliver(const MediumEvent& event) {
       executive.can_frame_sent(can_log_->in_flight[event.channel_or_bus].frame, oscillator.ticks_at(now_));
       return;
     case MediumEvent::Kind::kCanArbitration:
-      cans_[event.channel_or_bus]->arbitrate(now_);
-      return;
-    case MediumEvent::Kind::kObservation:
-      observe();
-      return;
+    case MediumEvent::Kind::kObservation: return;
   }
   refresh(event.node);
 }

@@ -3,6 +3,7 @@
 // its configuration.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -43,7 +44,11 @@ class ClusterSimulation final : private nodes::SensorLines {
   const nodes::Executive& node(NodeId id) const { return *nodes_[index_of(id)]; }
   nodes::ExecutiveCounts counts() const;       // summed over the nodes
   Duration can_busy(std::size_t bus) const { return cans_[bus]->busy(); }
-  std::uint64_t frames_sent() const { return frames_sent_; }
+  std::uint64_t frames_sent() const { return frames_sent_; }   // on FlexRay, each channel's
+  // How long the busier channel has been taken.
+  Duration flexray_busy() const {
+    return std::max(flexray_.busy(schedules::Channel::kA), flexray_.busy(schedules::Channel::kB));
+  }
 
  private:
   struct FlexRayTap;

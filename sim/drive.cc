@@ -2,7 +2,6 @@
 
 #include <optional>
 
-#include "bus/wire/flexray_frame.h"
 #include "nodes/catalog.h"
 #include "nodes/recorded.h"
 #include "recording/records/tee.h"
@@ -135,8 +134,7 @@ DriveOutcome run_drive(const DriveConfig& config, records::Sink& sink) {
   outcome.counts = simulation.counts();
   outcome.frames_sent = simulation.frames_sent();
   const double elapsed = scenario.duration.seconds();
-  const double frame = wire::frame_duration(cluster.flexray, cluster.flexray.gPayloadLengthStatic).seconds();
-  outcome.flexray_load = 0.5 * static_cast<double>(outcome.frames_sent) * frame / elapsed;
+  outcome.flexray_load = simulation.flexray_busy().seconds() / elapsed;
   for (std::size_t b = 0; b < cluster.can_buses.size(); ++b)
     outcome.can_load.push_back(simulation.can_busy(b).seconds() / elapsed);
   return outcome;

@@ -31,7 +31,7 @@ struct DriveConfig {
 struct DriveOutcome {
   Duration precision{};
   nodes::ExecutiveCounts counts;
-  double flexray_load = 0.0;          // share of the time in which a channel carries a frame
+  double flexray_load = 0.0;          // share of the time in which the busier channel is taken
   std::vector<double> can_load;       // by Cluster::can_buses
   std::uint64_t frames_sent = 0;
 };

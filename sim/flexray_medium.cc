@@ -49,6 +49,7 @@ Duration FlexRayMedium::delay(NodeId from, NodeId to) const {
 void FlexRayMedium::transmit(NodeId sender, const bus::Transmission& transmission, TrueTime start, TrueTime end) {
   Leaving signal{sender, transmission.channel, transmission.signal, start, end, transmission.bytes};
   if (disturbance_ != nullptr && !disturbance_->leaving(signal)) return;
+  busy_[index_of(signal.channel)] += signal.end - signal.start;
   spread(signal, sender);
 }
 

@@ -34,6 +34,8 @@ class FlexRayMedium {
   // Whether something is arriving at the node at `now`.
   bool carrier(NodeId node, schedules::Channel channel, TrueTime now) const;
   Duration delay(NodeId from, NodeId to) const;
+  // How long the channel has been taken by what nodes sent so far.
+  Duration busy(schedules::Channel channel) const { return busy_[index_of(channel)]; }
 
   // What an arrival of the queue brings: nothing where it was drawn into another signal. The frame stays valid until
   // release() is called with the same arrival.
@@ -64,6 +66,7 @@ class FlexRayMedium {
   std::array<std::vector<NodeId>, 2> attached_;   // by channel, in bus order
   std::vector<int> position_;                     // by NodeId, -1 off the bus
   std::vector<Lane> lanes_;                       // by NodeId and channel
+  std::array<Duration, 2> busy_{};                // by channel
   int ends_ = 0;                                  // hops between the two ends of the line
   std::int64_t min_delay_ps_, max_delay_ps_;
   std::uint32_t next_id_ = 0;

@@ -43,7 +43,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if ((how & 2) != 0) make_crcs_right(channel, frame);
 
   const wire::DecodedFrame decoded = wire::decode_frame(channel, frame);
-  TTF_CHECK(decoded.error <= wire::FrameError::kReservedId, "error {}", static_cast<int>(decoded.error));
+  TTF_CHECK(decoded.error <= wire::FrameError::kNullPreamble, "error {}", static_cast<int>(decoded.error));
   if (decoded.error != wire::FrameError::kNone) return 0;
   TTF_CHECK(frame.size() <= wire::kMaxFrameBytes && decoded.payload.size() == 2u * decoded.header.payload_words,
             "{} bytes, {} words", frame.size(), decoded.header.payload_words);

@@ -1,7 +1,6 @@
 // Start-up of clusters of 2 to 64 nodes from random power-on delays, on random clocks.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <memory>
 #include <vector>
 
@@ -51,10 +50,8 @@ class StartupConformance : public testing::TestWithParam<Size> {};
 // A lone coldstart node spends five cycles and a gap on each of its attempts. Whoever comes within that time joins.
 TEST_P(StartupConformance, StartsFromAnyPowerOnDelaysWithinTheAttempts) {
   const Size size = GetParam();
-  const char* more = std::getenv("TTF_STARTUP_RUNS_FACTOR");
-  const int runs = size.runs * (more == nullptr ? 1 : std::atoi(more));
   const Duration window = Duration::milliseconds(6 * 5 * 6);   // six of eight attempts of six cycles
-  for (int run = 0; run < runs; ++run) {
+  for (int run = 0; run < size.runs; ++run) {
     const auto seed = static_cast<std::uint64_t>(run);
     Started started(bus_cluster(size.nodes, size.coldstart, size.sync),
                     delays(static_cast<std::size_t>(size.nodes), window, seed), seed);
