@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include "cli/commands.h"
 #include "cli/time_window.h"
@@ -23,7 +24,7 @@ struct Options {
   double from_s = -1.0, to_s = -1.0;
   std::string kind = "timing";
   std::string out;
-  int frame = 0;
+  std::optional<int> frame;
 };
 
 report::Names names_of(const recording::LogManifest& manifest) {
@@ -54,10 +55,11 @@ recording::LogInfo read(const std::string& path, records::Sink& sink) {
 std::string boxes(const Options& options) {
   if (options.logs.size() != 1) throw InputError({"command line", 0, "--kind", "boxes", "takes one recording"});
   const auto scans = recording::read_lidar_scans(options.logs[0]);
-  if (options.frame >= static_cast<int>(scans.size()))
-    throw InputError({"command line", 0, "--frame", fmt::format("{}", options.frame),
+  const int frame = options.frame.value_or(0);
+  if (frame >= static_cast<int>(scans.size()))
+    throw InputError({"command line", 0, "--frame", fmt::format("{}", frame),
                       fmt::format("must be 0..{}: the recording has {} scans", scans.size() - 1, scans.size())});
-  const recording::RecordedScan& scan = scans[static_cast<std::size_t>(options.frame)];
+  const recording::RecordedScan& scan = scans[static_cast<std::size_t>(frame)];
   std::vector<nodes::ScanPoint> points;
   std::vector<report::Point> drawn;
   for (const recording::RecordedReturn& hit : scan.returns) {
@@ -79,11 +81,17 @@ int run(const Options& options) {
     report::write_picture(boxes(options), options.out);
     return 0;
   }
+  if (options.frame)
+    throw InputError({"command line", 0, "--frame", fmt::format("{}", *options.frame), "goes with --kind boxes only"});
   const TimeWindow window = time_window(options.from_s, options.to_s);
   Extent extent;
   std::vector<recording::LogInfo> infos;
   for (const std::string& log : options.logs) infos.push_back(read(log, extent));
   const TrueTime from = window.from;
+  if (extent.last == TrueTime{}) throw InputError({options.logs[0], 0, "", "", "holds no task's run: nothing to draw"});
+  if (from > extent.last)
+    throw InputError({"command line", 0, "--from", fmt::format("{:g} s", options.from_s),
+                      fmt::format("must be before the end of the log, {:g} s", (extent.last - TrueTime{}).seconds())});
   // A timing diagram of a whole drive is unreadable: 160 ms unless told.
   const bool timing = options.kind == "timing";
   const TrueTime to = window.to ? *window.to : timing ? from + Duration::milliseconds(160) : extent.last;
@@ -126,8 +134,8 @@ void add_diagram(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("diagram", "Timing diagram and position plots from logs");
   command->footer("Example: ttfusion diagram out/drive/tt.mcap --from 1.5 --to 1.65 -o timing.svg");
   command->add_option("logs", options->logs, "Logs; several are drawn side by side (with --kind boxes: a recording of laser scans)")->required();
-  command->add_option("--from", options->from_s, "Start of the window, true time in seconds")->check(CLI::NonNegativeNumber);
-  command->add_option("--to", options->to_s, "End of the window, true time in seconds")->check(CLI::NonNegativeNumber);
+  command->add_option("--from", options->from_s, "Start of the window, true time in seconds (default: 0)")->check(CLI::NonNegativeNumber);
+  command->add_option("--to", options->to_s, "End of the window, true time in seconds (default: the end; of a timing diagram 160 ms after its start)")->check(CLI::NonNegativeNumber);
   command->add_option("--kind", options->kind, "timing, position (x and y over time), plane (y over x), or boxes (of a recorded laser scan)")
       ->check(CLI::IsMember({"timing", "position", "plane", "boxes"}))->capture_default_str();
   command->add_option("--frame", options->frame, "Which scan of a recording, with --kind boxes")

@@ -26,6 +26,7 @@ std::string converted(const std::string& format, const recording::FrameCollector
 }
 
 int run(const Options& options) {
+  refuse_overwriting(options.log, options.out, "--out");
   recording::FrameCollector collector;
   const recording::LogInfo info = recording::read_log(options.log, collector);
   if (!info.warning.empty()) fmt::print(stderr, "warning: {}\n", info.warning);

@@ -3,8 +3,11 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <memory>
 #include <stdexcept>
+
+#include "core/errors.h"
 
 namespace ttf::cli {
 namespace {
@@ -20,6 +23,12 @@ void write_file(const std::string& path, std::string_view text) {
   if (file == nullptr || std::fwrite(text.data(), 1, text.size(), file.get()) != text.size()) fail(path);
   // What is still buffered may fail as well.
   if (std::fclose(file.release()) != 0) fail(path);
+}
+
+void refuse_overwriting(const std::string& input, const std::string& path, const std::string& flag) {
+  std::error_code none;   // what does not exist yet is nobody's input
+  if (std::filesystem::equivalent(input, path, none))
+    throw InputError({"command line", 0, flag, path, "must be another file than the input"});
 }
 
 void finish_standard_output() {

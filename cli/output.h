@@ -9,6 +9,9 @@ namespace ttf::cli {
 // Writes the whole file. Throws std::runtime_error with path and reason where it cannot.
 void write_file(const std::string& path, std::string_view text);
 
+// Throws InputError where `path`, given as `flag`, is the very file that is being read.
+void refuse_overwriting(const std::string& input, const std::string& path, const std::string& flag);
+
 // Hands what was printed to the system. Throws std::runtime_error with the reason where it is not taken (disk full, closed).
 void finish_standard_output();
 

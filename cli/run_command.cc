@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <charconv>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -24,7 +25,7 @@ namespace {
 struct Options {
   std::string scenario;
   std::string strategy;
-  std::optional<std::uint64_t> seed;
+  std::optional<std::string> seed;
   std::string input;
   std::string out;
   bool json = false;
@@ -106,6 +107,7 @@ StrategyResult run_strategy(const Options& options, const nodes::Scenario& scena
   std::unique_ptr<recording::LogWriter> log;
   if (!options.no_log) {
     result.log_path = fmt::format("{}/{}.mcap", folder, nodes::name_of(strategy));
+    if (!options.input.empty()) refuse_overwriting(options.input, result.log_path, "--out");
     log = std::make_unique<recording::LogWriter>(result.log_path,
                                                  manifest_of(scenario, result.cluster, strategy, seed, recording));
     log->attach(std::filesystem::path(scenario.file).filename().string(), "application/yaml", scenario.text);
@@ -124,11 +126,28 @@ StrategyResult run_strategy(const Options& options, const nodes::Scenario& scena
   return result;
 }
 
+// The same rule as for a scenario's seed, and decimal digits only.
+std::uint64_t seed_of(const std::string& text) {
+  constexpr std::uint64_t kMost = std::uint64_t{1} << 62;
+  std::uint64_t seed = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
+  if (error != std::errc{} || end != text.data() + text.size() || seed > kMost)
+    throw InputError({"command line", 0, "--seed", text, fmt::format("must be a whole number 0..{}", kMost)});
+  return seed;
+}
+
+// Where results go without --out; a name that leads elsewhere is no name.
+std::string folder_of(const nodes::Scenario& scenario) {
+  if (scenario.name.empty() || scenario.name.find('/') != std::string::npos || scenario.name.front() == '.')
+    throw InputError({scenario.file, 0, "name", scenario.name, "must name a folder under out/, or --out be given"});
+  return "out/" + scenario.name;
+}
+
 int run(const Options& options) {
   const nodes::Scenario scenario = nodes::load_scenario(options.scenario);
-  const std::uint64_t seed = options.seed.value_or(scenario.seed);
+  const std::uint64_t seed = options.seed ? seed_of(*options.seed) : scenario.seed;
   const Recording recording = read_recording(options.input);
-  const std::string folder = options.out.empty() ? "out/" + scenario.name : options.out;
+  const std::string folder = options.out.empty() ? folder_of(scenario) : options.out;
   std::error_code failure;
   std::filesystem::create_directories(folder, failure);
   if (failure) throw InputError({folder, 0, "--out", "", "cannot be created: " + failure.message()});

@@ -35,6 +35,12 @@ std::string worst_cell(const experiments::AgeStatistics& ages) {
   return ages.count == 0 ? "-" : report::cell(ms(ages.worst), 1);
 }
 
+// Lists that were made and never fused: too late for the strategy, or lost between a task's end and its reader's start.
+std::uint64_t lost_lists(const StrategyResult& result) {
+  const nodes::ExecutiveCounts& counts = result.outcome.counts;
+  return result.summary.dropped + counts.torn_lists + counts.overwritten_lists + counts.discarded_lists;
+}
+
 const Row kRows[] = {
     {"position RMSE against truth [m]", [](const StrategyResult& r) { return report::cell(r.summary.position_rmse_truth, 3); }},
     {"velocity RMSE against truth [m/s]", [](const StrategyResult& r) { return report::cell(r.summary.velocity_rmse_truth, 3); }},
@@ -59,10 +65,7 @@ const Row kRows[] = {
     {"  arrived out of sequence", [](const StrategyResult& r) { return number(r.summary.out_of_sequence); }},
     {"  fused late (retrodicted)", [](const StrategyResult& r) { return number(r.summary.fused_late); }},
     {"  times held back", [](const StrategyResult& r) { return number(r.summary.held); }},
-    {"  dropped", [](const StrategyResult& r) {
-       return number(r.summary.dropped + r.outcome.counts.torn_lists + r.outcome.counts.overwritten_lists +
-                     r.outcome.counts.discarded_lists);
-     }},
+    {"  dropped", [](const StrategyResult& r) { return number(lost_lists(r)); }},
     {"objects compared / missed / spurious", [](const StrategyResult& r) {
        return fmt::format("{} / {} / {}", r.summary.matched, r.summary.missed, r.summary.spurious);
      }},
@@ -136,7 +139,7 @@ nlohmann::ordered_json to_json(const nodes::Scenario& scenario, std::uint64_t se
                            {"late", s.fused_late}, {"held", s.held}, {"dropped", s.dropped},
                            {"duplicates", s.duplicates}, {"torn", result.outcome.counts.torn_lists},
                            {"overwritten", result.outcome.counts.overwritten_lists},
-                           {"discarded", result.outcome.counts.discarded_lists}};
+                           {"discarded", result.outcome.counts.discarded_lists}, {"lost", lost_lists(result)}};
     one["objects"] = {{"compared", s.matched}, {"missed", s.missed}, {"spurious", s.spurious}};
     one["uses"] = s.uses;
     one["uses_with_warning"] = s.warnings;

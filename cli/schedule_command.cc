@@ -77,6 +77,7 @@ void write_text(const std::string& text, const std::string& path) {
 }
 
 int export_cluster(const Options& options) {
+  if (!options.out.empty()) refuse_overwriting(options.file, options.out, "--out");
   if (options.format == "fibex") {
     write_text(schedules::fibex_text(schedules::load_checked_cluster(options.file)), options.out);
     return 0;

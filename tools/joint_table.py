@@ -26,7 +26,7 @@ ROWS = [
     ("  arrived out of sequence", lambda s: str(s["observations"]["out_of_sequence"])),
     ("  fused late (retrodicted)", lambda s: str(s["observations"]["late"])),
     ("  times held back", lambda s: str(s["observations"]["held"])),
-    ("  dropped", lambda s: str(sum(s["observations"][key] for key in ("dropped", "torn", "overwritten")))),
+    ("  dropped", lambda s: str(s["observations"]["lost"])),
     ("objects compared", lambda s: str(s["objects"]["compared"])),
     ("  missed", lambda s: str(s["objects"]["missed"])),
     ("  spurious", lambda s: str(s["objects"]["spurious"])),

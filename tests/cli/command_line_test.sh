@@ -38,7 +38,13 @@ expect 2 "required" run
 expect 2 "--strategy" run "$source/scenarios/paper_scenario1.yaml" --strategy best
 expect 2 "nothing.yaml: cannot be read" run "$work/nothing.yaml"
 
+for seed in 12x 010x 4611686018427387905 99999999999999999999999; do
+  expect 2 '--seed.*must be a whole number 0..4611686018427387904' run "$source/scenarios/paper_scenario1.yaml" "--seed=$seed"
+done
+
 drive=$work/scenarios/broken.yaml
+mutate scenarios/paper_scenario1.yaml 's|^name: .*|name: ../elsewhere|' "$drive"
+expect 2 'name = ../elsewhere: must name a folder' run "$drive"
 mutate scenarios/paper_scenario1.yaml 's/^seed: 1/seed: one/' "$drive"
 expect 2 'broken.yaml:3: seed = one: must be a whole number' run "$drive"
 mutate scenarios/paper_scenario1.yaml 's/^seed: 1/sede: 1/' "$drive"
@@ -135,6 +141,16 @@ expect 2 'command line: --from = 1e.300: must be 0..1000000000 s' \
   diagram "$work/a/tt.mcap" --from 1e300 -o "$work/timing.pdf"
 expect 2 'must be after --from' diagram "$work/a/tt.mcap" --from 1.5 --to 1.5 -o "$work/timing.pdf"
 expect 0 '' diagram "$work/a/tt.mcap" "$work/a/adva.mcap" --kind plane -o "$work/plane.svg"
+expect 2 '--from = 50 s: must be before the end of the log' diagram "$work/a/tt.mcap" --from 50 -o "$work/none.svg"
+expect 2 '--frame = 3: goes with --kind boxes' diagram "$work/a/tt.mcap" --frame 3 -o "$work/none.svg"
+head -c 100 "$work/a/tt.mcap" >"$work/empty.mcap"
+expect 2 "holds no task's run" diagram "$work/empty.mcap" -o "$work/none.svg"
+cp "$work/a/tt.mcap" "$work/itself.mcap"
+expect 2 '--out = .*itself.mcap: must be another file than the input' \
+  export "$work/itself.mcap" --format csv -o "$work/./itself.mcap"
+cmp -s "$work/a/tt.mcap" "$work/itself.mcap" || fail "a refused export changed its input"
+expect 2 'must be another file than the input' \
+  schedule export "$work/schedules/paper_synchronised.yaml" --format fibex -o "$work/schedules/paper_synchronised.yaml"
 head -c 200000 "$work/a/tt.mcap" >"$work/cut.mcap"
 expect 0 'warning: .*cut.mcap' diagram "$work/cut.mcap" -o "$work/cut.svg"
 expect 2 'scenario|MCAP|mcap' diagram "$source/README.md" -o "$work/none.svg"
