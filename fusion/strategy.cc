@@ -20,8 +20,8 @@ class TimelineStrategy : public Strategy {
       free_.push_back(kMaxPending - 1 - i);
     }
     waiting_.reserve(kMaxPending);
-    report_.reserve(4 * kMaxPending);
-    between_.reserve(2 * kMaxPending);
+    between_.reserve(kMaxListedArrivals);
+    report_.reserve(kMaxListedArrivals + kMaxPending);
     views_.reserve(static_cast<std::size_t>(config.max_objects));
     newest_.reserve(sensors_.size());
     newest_received_.resize(sensors_.size());
@@ -36,14 +36,14 @@ class TimelineStrategy : public Strategy {
     const bool waiting = std::any_of(waiting_.begin(), waiting_.end(),
                                      [&](std::size_t w) { return pending_[w].id == scan.id; });
     if (waiting || timeline_.contains(scan.id)) {
-      note(between_, {scan.id, scan.measured, Disposition::kDuplicate});
+      note_between({scan.id, scan.measured, Disposition::kDuplicate});
       return;
     }
     if (free_.empty()) {
       // More waits than there is room for: the oldest waits no longer, what it overtakes is repaired as late.
       const std::size_t oldest = waiting_.front();
       waiting_.erase(waiting_.begin());
-      take(pending_[oldest], between_);
+      note_between(take(pending_[oldest]));
       free_.push_back(oldest);
     }
     const std::size_t slot = free_.back();
@@ -71,11 +71,11 @@ class TimelineStrategy : public Strategy {
       // wrong, and would make everything after it late.
       blocked = blocked || scan.measured > now || !may_fuse(scan);
       if (blocked) {
-        note(report_, {scan.id, scan.measured, Disposition::kHeld});
+        report_.push_back({scan.id, scan.measured, Disposition::kHeld});
         waiting_[kept++] = slot;
         continue;
       }
-      take(scan, report_);
+      report_.push_back(take(scan));
       free_.push_back(slot);
     }
     waiting_.resize(kept);
@@ -83,6 +83,7 @@ class TimelineStrategy : public Strategy {
   }
 
   std::span<const FusedScan> last_fused() const final { return report_; }
+  std::uint64_t unlisted() const final { return unlisted_; }
   std::span<const TrackView> tracks() const final { return views_; }
   std::span<const MeasurementId> newest() const final { return newest_; }
   GlobalTime newest_measured() const final { return timeline_.current().time; }
@@ -112,8 +113,12 @@ class TimelineStrategy : public Strategy {
   bool settled(std::size_t s, GlobalTime instant) const { return settled_[s] >= instant; }
 
  private:
-  static void note(std::vector<FusedScan>& report, const FusedScan& what) {
-    if (report.size() < report.capacity()) report.push_back(what);
+  // How many scans arrive between two fusion instants is not ours to say.
+  void note_between(const FusedScan& what) {
+    if (between_.size() < kMaxListedArrivals)
+      between_.push_back(what);
+    else
+      ++unlisted_;
   }
 
   void receive(const StoredScan& scan) {
@@ -124,7 +129,7 @@ class TimelineStrategy : public Strategy {
     }
   }
 
-  void take(const StoredScan& scan, std::vector<FusedScan>& report) {
+  FusedScan take(const StoredScan& scan) {
     Disposition disposition = Disposition::kFused;
     switch (timeline_.insert(scan.view())) {
       case Timeline::Insertion::kInOrder:
@@ -136,14 +141,15 @@ class TimelineStrategy : public Strategy {
         disposition = Disposition::kDroppedTooOld;
         break;
     }
-    note(report, {scan.id, scan.measured, disposition});
-    if (disposition == Disposition::kDroppedTooOld) return;
+    const FusedScan result{scan.id, scan.measured, disposition};
+    if (disposition == Disposition::kDroppedTooOld) return result;
     const auto known = std::find_if(newest_.begin(), newest_.end(),
                                     [&](const MeasurementId& id) { return id.sensor == scan.id.sensor; });
     if (known == newest_.end())
       newest_.push_back(scan.id);
     else if (scan.id.sequence > known->sequence)
       *known = scan.id;
+    return result;
   }
 
   void show() {
@@ -159,6 +165,7 @@ class TimelineStrategy : public Strategy {
   std::vector<StoredScan> pending_;          // storage
   std::vector<std::size_t> free_, waiting_;  // waiting: chronological
   std::vector<FusedScan> report_, between_;  // between_: what happened since the last fusion instant
+  std::uint64_t unlisted_ = 0;
   std::vector<TrackView> views_;
   std::vector<MeasurementId> newest_;
   std::vector<GlobalTime> newest_received_;

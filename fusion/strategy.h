@@ -59,6 +59,10 @@ struct FusedScan {
 // Most scans that can wait (of one more, the oldest is fused at once), and most observations in one.
 inline constexpr std::size_t kMaxPending = 32;
 inline constexpr std::size_t kMaxObservations = 64;
+// Most scans accepted between two fusion instants whose fate is certain to be listed. An accept() settles at most one, a
+// duplicate or the oldest that waits, and the fusion instant what waits then; of what accepting more settles, the first
+// kMaxListedArrivals are listed and the rest is counted.
+inline constexpr std::size_t kMaxListedArrivals = 64;
 
 class Strategy {
  public:
@@ -67,8 +71,10 @@ class Strategy {
   virtual void accept(const Scan& scan) = 0;
   // The fusion instant: fuses what may be fused at `now`.
   virtual void fuse(GlobalTime now) = 0;
-  // What became of each scan at the last fusion instant, and which are held.
+  // What became of each scan at the last fusion instant or since the one before it, and which are held.
   virtual std::span<const FusedScan> last_fused() const = 0;
+  // How many fates since construction last_fused() had no room for (kMaxListedArrivals).
+  virtual std::uint64_t unlisted() const = 0;
   // Confirmed tracks predicted to `at`, into `out` (which keeps its capacity). Never touches the filter
   // state; where `at` is before the newest measurement, the tracks are shown as of that measurement.
   virtual void image(GlobalTime at, std::vector<TrackView>& out) const = 0;

@@ -153,6 +153,20 @@ TEST_P(EveryStrategy, MoreThanCanWaitIsFusedOldestFirst) {
   EXPECT_EQ(strategy->newest()[0].sequence, many - 1);
 }
 
+TEST_P(EveryStrategy, WhatTheAccountHasNoRoomForIsCounted) {
+  const auto strategy = make_strategy(GetParam(), {}, laser_and_camera());
+  const OwnedScan same = scan(0, 0, at_ms(0));
+  strategy->accept(same.view());
+  for (std::size_t k = 0; k < kMaxListedArrivals; ++k) strategy->accept(same.view());
+  strategy->fuse(at_ms(100));
+  EXPECT_EQ(strategy->last_fused().size(), kMaxListedArrivals + 1) << "each is accounted for";
+  EXPECT_EQ(strategy->unlisted(), 0u);
+  for (std::size_t k = 0; k < kMaxListedArrivals + 3; ++k) strategy->accept(same.view());
+  strategy->fuse(at_ms(110));
+  EXPECT_GE(strategy->last_fused().size(), kMaxListedArrivals);
+  EXPECT_EQ(strategy->unlisted(), 3u);
+}
+
 TEST_P(EveryStrategy, AllocatesNothingAfterConstruction) {
   std::vector<Arrival> arrivals = drawn_drive(4, 60);
   for (std::size_t i = 0; i < 20; ++i)
