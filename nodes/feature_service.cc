@@ -11,13 +11,11 @@ namespace {
 
 // From the origin to the outline of a rectangle, towards its centre; zero within it.
 double clearance(const records::ImageObject& object, double range) {
-  const double length = object.status & records::kImageHasLength ? object.length : kAssumedLength_m;
-  const double width = object.status & records::kImageHasWidth ? object.width : kAssumedWidth_m;
   const double aspect = object.heading - std::atan2(object.y, object.x);
   // Half the chord along the line of sight: it leaves the rectangle through the sides or through the ends.
   constexpr double kAlongTheSides = 1e-9;
-  const double through_ends = 0.5 * length / std::max(kAlongTheSides, std::abs(std::cos(aspect)));
-  const double through_sides = 0.5 * width / std::max(kAlongTheSides, std::abs(std::sin(aspect)));
+  const double through_ends = 0.5 * object.length / std::max(kAlongTheSides, std::abs(std::cos(aspect)));
+  const double through_sides = 0.5 * object.width / std::max(kAlongTheSides, std::abs(std::sin(aspect)));
   return std::max(0.0, range - std::min(through_ends, through_sides));
 }
 

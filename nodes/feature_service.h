@@ -17,11 +17,9 @@ struct FeatureConfig {
 };
 FeatureConfig load_feature(YamlMap& yaml);
 
-// Sizes that stand in where the image says that none was measured: a passenger car's.
-inline constexpr double kAssumedLength_m = 4.4, kAssumedWidth_m = 1.8;
-
 // What the image says is measured in the sensor car's frame, so its velocities are relative to the sensor car: the own speed is in
-// them already. Clearance: distance along the line of sight to the outline.
+// them already. Clearance: distance along the line of sight to the outline, which is what is typical of vehicles where it was
+// not measured (records.h).
 //   time to collision  clearance / closing speed, the closing speed being - d(range)/dt, as ISO 15623 has it for constant speeds
 //   time gap           clearance / own speed of what is ahead, as ISO 15622 has it: the time until the sensor car is where the
 //                      object's near edge is now

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "fusion/extent.h"
+
 namespace ttf::nodes {
 namespace {
 
@@ -79,11 +81,14 @@ TEST(FeatureService, ClearanceEndsAtTheOutline) {
   EXPECT_EQ(10.0 * judge(car(1.0, 0.0, 0.0, 0.0), driving(10.0)).time_gap_s, 0.0) << "within the outline";
 }
 
-TEST(FeatureService, WhatWasNotMeasuredIsTakenAsAPassengerCars) {
+TEST(FeatureService, WhatWasNotMeasuredIsAsTypicalAsTheImageSays) {
   records::ImageObject object = car(22.0, 0.0, 0.0, 0.0);
   object.status = records::kImageConfirmed;
-  object.length = object.width = 0.0;
-  EXPECT_NEAR(10.0 * judge(object, driving(10.0)).time_gap_s, 22.0 - 0.5 * kAssumedLength_m, 1e-9);
+  object.length = fusion::Extent::kTypicalLength;
+  object.width = fusion::Extent::kTypicalWidth;
+  EXPECT_NEAR(10.0 * judge(object, driving(10.0)).time_gap_s, 22.0 - 0.5 * object.length, 1e-9);
+  object.heading = kPi / 2;
+  EXPECT_NEAR(10.0 * judge(object, driving(10.0)).time_gap_s, 22.0 - 0.5 * object.width, 1e-9);
 }
 
 TEST(FeatureService, WarnsInTheCorridorOnly) {
