@@ -20,9 +20,8 @@ std::string all_sentences(const std::vector<Finding>& findings) {
 // What comes from outside must not break the line, nor fill the screen: control characters as \xNN, and no more than
 // `most` bytes (cut between characters of UTF-8).
 std::string shown(std::string_view text, std::size_t most) {
-  constexpr std::size_t kAll = std::string_view::npos;
   std::size_t end = std::min(most, text.size());
-  while (most != kAll && end < text.size() && end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
+  while (end < text.size() && end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
   std::string out;
   for (const char c : text.substr(0, end)) {
     const auto code = static_cast<unsigned char>(c);
@@ -34,18 +33,19 @@ std::string shown(std::string_view text, std::size_t most) {
   return end < text.size() ? out + "..." : out;
 }
 
+constexpr std::size_t kWhole = std::string_view::npos;
 constexpr std::size_t kMostKey = 200, kMostValue = 100;
 
 }  // namespace
 
 std::string Finding::sentence() const {
-  std::string text = file.empty() ? "input" : file;
+  std::string text = file.empty() ? "input" : shown(file, kWhole);
   if (line > 0) text += fmt::format(":{}", line);
   text += ": ";
   if (!key.empty()) text += shown(key, kMostKey);
   if (!value.empty()) text += fmt::format("{}{}", key.empty() ? "" : " = ", shown(value, kMostValue));
   if (!key.empty() || !value.empty()) text += ": ";
-  return text + shown(expected, std::string_view::npos);
+  return text + shown(expected, kWhole);
 }
 
 InputError::InputError(std::vector<Finding> findings)
