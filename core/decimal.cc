@@ -22,9 +22,10 @@ std::optional<std::int64_t> parse_scaled(std::string_view text, std::int64_t sca
     any = true;
   }
   const Int128 scaled = digits * scale;
-  if (!any || scaled % denominator != 0 || scaled / denominator > INT64_MAX) return std::nullopt;
-  const auto value = static_cast<std::int64_t>(scaled / denominator);
-  return negative ? -value : value;
+  if (!any || scaled % denominator != 0) return std::nullopt;
+  const Int128 value = negative ? -(scaled / denominator) : scaled / denominator;
+  if (value < INT64_MIN || value > INT64_MAX) return std::nullopt;
+  return static_cast<std::int64_t>(value);
 }
 
 std::string scaled_text(std::int64_t value, std::int64_t scale) {

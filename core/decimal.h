@@ -9,12 +9,12 @@
 
 namespace ttf {
 
-// Decimal text ("-12.50") times `scale`, exactly; nothing where it is no plain decimal, not whole, or does
-// not fit.
+// Decimal text ("-12.50") times `scale`, 1..10^13, exactly; nothing where it is no plain decimal, has more than 13
+// decimals, is not whole, or does not fit.
 std::optional<std::int64_t> parse_scaled(std::string_view text, std::int64_t scale);
 
-// value / scale as a decimal without trailing zeros; scale is a power of ten. parse_scaled gives the value
-// again.
+// value / scale as a decimal without trailing zeros; scale is a power of ten up to 10^13. parse_scaled gives the
+// value again, whichever it is.
 std::string scaled_text(std::int64_t value, std::int64_t scale);
 
 }  // namespace ttf

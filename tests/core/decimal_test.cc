@@ -33,5 +33,15 @@ TEST(Decimal, WhatIsWrittenIsReadAgain) {
   }
 }
 
+TEST(Decimal, TheEndsOfTheRangeAreInIt) {
+  EXPECT_EQ(parse_scaled("9223372036854775807", 1), INT64_MAX);
+  EXPECT_EQ(parse_scaled("9223372036854775808", 1), std::nullopt);
+  EXPECT_EQ(parse_scaled("-9223372036854775808", 1), INT64_MIN);
+  EXPECT_EQ(parse_scaled("-9223372036854775809", 1), std::nullopt);
+  for (std::int64_t scale = 1; scale <= 10'000'000'000'000; scale *= 10)
+    for (const std::int64_t value : {INT64_MIN, INT64_MIN + 1, std::int64_t{-1}, std::int64_t{0}, INT64_MAX})
+      EXPECT_EQ(parse_scaled(scaled_text(value, scale), scale), value) << value << " / " << scale;
+}
+
 }  // namespace
 }  // namespace ttf
