@@ -7,6 +7,7 @@
 #include "bus/wire/pdu_codec.h"
 #include "core/check.h"
 #include "core/random.h"
+#include "schedules/limits.h"
 
 namespace ttf::nodes {
 namespace {
@@ -258,7 +259,8 @@ void Executive::start_next(Microticks now) {
 
     Duration execution = state.task->worst_case;
     if (state.task->draw == schedules::ExecutionDraw::kUniform) {
-      const auto entity = static_cast<std::uint16_t>(index_of(config_.node) * 16 + index);
+      static_assert(schedules::kMostNamed * schedules::kMostTasks <= 1U << 16, "every task has a stream of its own");
+      const auto entity = static_cast<std::uint16_t>(index_of(config_.node) * schedules::kMostTasks + index);
       RandomStream stream(
           {config_.seed, config_.replication, Purpose::kExecutionTime, entity, state.activations});
       execution = Duration{stream.integer(state.task->best_case.ns, state.task->worst_case.ns)};

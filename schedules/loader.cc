@@ -10,6 +10,7 @@
 
 #include "core/strict_yaml.h"
 #include "schedules/checker.h"
+#include "schedules/limits.h"
 #include "schedules/parameter_table.h"
 
 namespace ttf::schedules {
@@ -17,10 +18,6 @@ namespace {
 
 constexpr Duration kLongest = Duration::milliseconds(10'000);
 constexpr Range<Duration> kExecution{Duration::microseconds(1), kLongest};
-constexpr int kLastSlot = 1023;           // cStaticSlotIDMax
-constexpr std::size_t kMostNamed = 200;   // ids are bytes, one value means none
-constexpr std::size_t kMostCans = 127;    // a record's bus is a signed byte, below zero for FlexRay
-constexpr int kMostFragments = 256;       // a fragment's number is a byte in records
 
 class Loader {
  public:
@@ -124,11 +121,11 @@ class Loader {
       Signal signal;
       signal.name = entry.text("name");
       signal.unit = entry.text_or("unit", "");
-      signal.bits = static_cast<int>(entry.integer("bits", {1, 32}));
-      signal.resolution = entry.number_or("resolution", 1.0, {1e-9, 1e9});
-      signal.low = entry.number_or("low", 0.0, {-1e9, 1e9});
+      signal.bits = static_cast<int>(entry.integer("bits", {1, kMostSignalBits}));
+      signal.resolution = entry.number_or("resolution", 1.0, {kFinestResolution, kCoarsestResolution});
+      signal.low = entry.number_or("low", 0.0, {-kLargestLow, kLargestLow});
       const double top = signal.low + (std::ldexp(1.0, signal.bits) - 1.0) * signal.resolution;
-      signal.high = entry.number_or("high", top, {-1e9, 1e10});
+      signal.high = entry.number_or("high", top, {-kLargestLow, kLargestHigh});
       if (signal.high <= signal.low || signal.high > top + 0.5 * signal.resolution)
         entry.fail("high", fmt::format("must be above {} and at most {}: more does not fit {} bits", signal.low, top,
                                        signal.bits));
@@ -145,9 +142,9 @@ class Loader {
   void load_pdu(YamlMap& map, PduLayout& layout) {
     layout.line = map.line();
     if (map.has("sensor")) layout.sensor = sensor(map, "sensor");
-    layout.fragment_bytes = static_cast<int>(map.integer("fragment_bytes", {1, 254}, "bytes"));
+    layout.fragment_bytes = static_cast<int>(map.integer("fragment_bytes", {1, kMostFragmentBytes}, "bytes"));
     layout.max_elements = static_cast<int>(map.integer("max_elements", {1, 65535}));
-    layout.elements_per_fragment = static_cast<int>(map.integer("elements_per_fragment", {1, 2032}));
+    layout.elements_per_fragment = static_cast<int>(map.integer("elements_per_fragment", {1, 8 * kMostFragmentBytes}));
     load_signals(map, "header", layout.header, layout.header_bits);
     load_signals(map, "element", layout.element, layout.element_bits);
     layout.header_bits = (layout.header_bits + 7) / 8 * 8;
@@ -306,7 +303,7 @@ class Loader {
     if (map.has("drift_ppm")) item.drift_ppb = map.scaled("drift_ppm", 1'000, {-kMostDrift, kMostDrift}, "ppm");
     remember(map, "drift_ppm");
     auto tasks = map.named_maps("tasks");
-    if (tasks.size() > 16) map.fail("tasks", "must have at most 16 entries");
+    if (tasks.size() > kMostTasks) map.fail("tasks", fmt::format("must have at most {} entries", kMostTasks));
     for (auto& [name, entry] : tasks) {
       item.tasks.emplace_back().name = name;
       load_task(entry, item.tasks.back());
@@ -317,7 +314,7 @@ class Loader {
   void load_frame(YamlMap& map) {
     FrameSlot frame;
     frame.line = map.line();
-    frame.slot = static_cast<int>(map.integer("slot", {1, kLastSlot}));
+    frame.slot = static_cast<int>(map.integer("slot", {1, kLastStaticSlot}));
     frame.channels =
         map.choice<Channels>("channels", {{"A", Channels::kA}, {"B", Channels::kB}, {"AB", Channels::kAB}});
     frame.sender = node(map, "sender");
@@ -325,12 +322,12 @@ class Loader {
     std::int64_t fragments = 1;
     if (map.has("pdu")) {
       frame.pdu = pdu(map, "pdu");
-      fragments = map.integer("fragments", {1, kLastSlot});
-      frame.fragment = static_cast<int>(map.integer_or("first_fragment", 0, {0, 1022}));
+      fragments = map.integer("fragments", {1, kLastStaticSlot});
+      frame.fragment = static_cast<int>(map.integer_or("first_fragment", 0, {0, kLastStaticSlot - 1}));
     }
-    if (frame.slot + fragments - 1 > kLastSlot) {
-      map.fail("fragments", fmt::format("must be at most {}: static slots end at {}", kLastSlot - frame.slot + 1,
-                                        kLastSlot));
+    if (frame.slot + fragments - 1 > kLastStaticSlot) {
+      map.fail("fragments", fmt::format("must be at most {}: static slots end at {}", kLastStaticSlot - frame.slot + 1,
+                                        kLastStaticSlot));
       fragments = 1;
     }
     map.finish();
