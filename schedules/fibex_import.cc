@@ -8,13 +8,10 @@
 
 #include "schedules/fibex_assumptions.h"
 #include "schedules/fibex_lists.h"
+#include "schedules/limits.h"
 
 namespace ttf::schedules {
 namespace {
-
-// What a cluster file can say (schedules/loader.h).
-constexpr std::size_t kMostNamed = 200;
-constexpr int kLastStaticSlot = 1023;  // cStaticSlotIDMax
 
 class Importer {
  public:

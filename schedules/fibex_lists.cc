@@ -6,12 +6,10 @@
 #include <cmath>
 #include <set>
 
+#include "schedules/limits.h"
+
 namespace ttf::schedules {
 namespace {
-
-// What a cluster file may say of a PDU (schedules/loader.h).
-constexpr int kMostFragments = 256;
-constexpr int kMostBytes = 254;
 
 bool same_meaning(const Signal& a, const Signal& b) {
   return a.unit == b.unit && a.bits == b.bits && a.low == b.low && a.high == b.high &&
@@ -23,8 +21,9 @@ std::string unlike_ours(const FibexSignal& signal) {
   const Signal& s = signal.meaning;
   if (!signal.unlike.empty()) return fmt::format("{}: {}", signal.name, signal.unlike);
   const double top = s.low + (std::ldexp(1.0, s.bits) - 1.0) * s.resolution;
-  const bool in_range = s.bits <= 32 && s.resolution >= 1e-9 && s.resolution <= 1e9 &&
-                        std::abs(s.low) <= 1e9 && s.high <= 1e10 && s.high > s.low &&
+  const bool in_range = s.bits <= kMostSignalBits && s.resolution >= kFinestResolution &&
+                        s.resolution <= kCoarsestResolution && std::abs(s.low) <= kLargestLow &&
+                        s.high <= kLargestHigh && s.high > s.low &&
                         s.high <= top + 0.5 * s.resolution;
   return in_range ? "" : fmt::format("{}: its range is not one of a cluster file", signal.name);
 }
@@ -145,7 +144,7 @@ std::string take_list(const FibexPdu& pdu, const std::map<std::string, const Fib
   if (std::string reason = take_contiguous(*elements, all, bits); !reason.empty()) return reason;
   layout.elements_per_fragment = take_elements(all, layout.element);
   layout.element_bits = bits / layout.elements_per_fragment;
-  if (layout.fragment_bytes > kMostBytes || layout.header_bits + bits > 8 * layout.fragment_bytes)
+  if (layout.fragment_bytes > kMostFragmentBytes || layout.header_bits + bits > 8 * layout.fragment_bytes)
     return "its signals do not fit its length";
   if (!names_differ(layout.header) || !names_differ(layout.element))
     return "two of its signals have the same name";

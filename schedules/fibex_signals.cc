@@ -6,6 +6,7 @@
 
 #include "core/decimal.h"
 #include "schedules/fibex_file.h"
+#include "schedules/limits.h"
 
 namespace ttf::schedules {
 
@@ -18,8 +19,7 @@ std::optional<int> FibexSignal::offset() const {
 
 namespace {
 
-constexpr int kMostBytes = 254;
-constexpr int kMostBits = 8 * kMostBytes;
+constexpr int kMostBits = 8 * kMostFragmentBytes;
 
 using Units = std::map<std::string, std::string>;
 
@@ -292,7 +292,7 @@ std::vector<FibexFrame> read_frames(XmlElement& elements, FibexReader& reader) {
     frame.id = element.attribute("ID");
     frame.name = reader.name_of(element);
     frame.line = element.line();
-    frame.bytes = reader.integer(element, "fx:BYTE-LENGTH", 0, kMostBytes);
+    frame.bytes = reader.integer(element, "fx:BYTE-LENGTH", 0, kMostFragmentBytes);
     element.ignore("fx:FRAME-TYPE");
     for (XmlElement& instance : element.children_of("fx:PDU-INSTANCES", "fx:PDU-INSTANCE")) {
       frame.places.push_back({instance.reference("fx:PDU-REF"),
