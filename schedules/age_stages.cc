@@ -8,14 +8,12 @@
 #include "core/check.h"
 #include "schedules/can_load.h"
 #include "schedules/responses.h"
+#include "schedules/round.h"
 #include "schedules/slot_groups.h"
 
 namespace ttf::schedules {
 namespace {
 
-constexpr std::int64_t kCycles = 64;
-// Oscillators count whole microticks, at most 50 ns; a span starts and ends at one.
-constexpr std::int64_t kGranularity_ns = 100;
 // The intermission belongs to a frame's duration, but the list is there before it.
 constexpr std::int64_t kIntermissionBits = 3;
 

@@ -6,13 +6,11 @@
 #include <optional>
 
 #include "schedules/age_stages.h"
+#include "schedules/round.h"
 #include "schedules/settled.h"
 
 namespace ttf::schedules {
 namespace {
-
-// The grid repeats after 64 cycles; starting a few rounds in keeps every instant before it positive.
-constexpr std::int64_t kFromCycle = 256;
 
 // One extreme walk from the measurement on: the share of each stage, and their sum.
 struct Extreme {
@@ -105,7 +103,7 @@ class Ages {
         before.push_back(latest ? path.stages[gate].worst.ns : path.stages[gate].best.ns);
     std::vector<std::int64_t> starts;
     if (sensor.scheduled) {
-      for (std::int64_t cycle = kFromCycle; cycle < kFromCycle + 64; ++cycle)
+      for (std::int64_t cycle = kFromCycle; cycle < kFromCycle + kCycles; ++cycle)
         if (cycle % sensor.at.repetition == sensor.at.base_cycle)
           starts.push_back(time_of(cluster_.flexray, cycle, sensor.at.offset).ns);
     } else if (gate < last) {

@@ -6,13 +6,12 @@
 #include "core/int128.h"
 #include "schedules/can_load.h"
 #include "schedules/clock_bounds.h"
+#include "schedules/round.h"
 #include "schedules/slot_groups.h"
 
 namespace ttf::schedules {
 namespace {
 
-constexpr int kCycles = 64;
-constexpr std::int64_t kGranularity_ns = 100;                // spans begin and end at whole microticks of at most 50 ns
 constexpr std::int64_t kLongest_ns = 20'000'000'000;         // twice the longest deadline a file can ask for
 constexpr int kMostRounds = 10'000;
 

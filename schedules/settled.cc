@@ -4,13 +4,11 @@
 #include <numeric>
 
 #include "schedules/age_stages.h"
+#include "schedules/round.h"
 
 namespace ttf::schedules {
 namespace {
 
-constexpr std::int64_t kCycles = 64;
-// A few rounds in, so that every instant before is positive.
-constexpr std::int64_t kFromCycle = 256;
 // Stamps are rounded to the nearest microsecond.
 constexpr std::int64_t kStampRounding_ns = 500;
 

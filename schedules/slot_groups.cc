@@ -4,6 +4,8 @@
 #include <map>
 #include <utility>
 
+#include "schedules/round.h"
+
 namespace ttf::schedules {
 
 std::vector<SlotGroup> slot_groups(const Cluster& cluster, PduId pdu) {
@@ -28,7 +30,6 @@ Macroticks slot_start(const GlobalParameters& g, int slot) {
 }
 
 std::optional<SlotGap> shortest_slot_gap(const Cluster& cluster, PduId pdu) {
-  constexpr std::int64_t kCycles = 64;
   const GlobalParameters& g = cluster.flexray;
   std::vector<std::int64_t> starts;
   SlotGap result;
