@@ -40,8 +40,11 @@ std::array<std::uint32_t, 4> philox4x32_10(std::array<std::uint32_t, 4> counter,
 // Reads one stream from its beginning. A value type: copying forks the position, not the state of the world.
 class RandomStream {
  public:
-  // From block `first` on: blocks are four 32-bit words, two uniform numbers or, every second time, two normal ones. For streams
-  // that are cut into parts of known length, each of which can be read without the others.
+  // What draws take from the stream, in 32-bit words; it is made in blocks of four. normal() draws a pair and gives the
+  // second one at the next call, for nothing. integer() takes kWordsOfUniform, and rarely more.
+  static constexpr std::uint32_t kWordsOfABlock = 4, kWordsOfUniform = 2, kWordsOfANormalPair = 4;
+
+  // From block `first` on: a stream whose parts have a known length is cut into blocks, and a part read without the others.
   explicit RandomStream(StreamKey key, std::uint32_t first = 0) : key_(key), block_(first) {}
 
   std::uint64_t bits();

@@ -3,14 +3,24 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/check.h"
 #include "core/random.h"
 #include "sim/world/shape.h"
 
 namespace ttf::world {
+namespace {
+
+// A beam's own part of the scan's stream: in every layer a uniform number and a normal one.
+constexpr std::uint32_t kWordsOfABeam = LaserConfig::kMostLayers * RandomStream::kWordsOfUniform +
+                                        (LaserConfig::kMostLayers + 1) / 2 * RandomStream::kWordsOfANormalPair;
+constexpr std::uint32_t kBlocksOfABeam =
+    (kWordsOfABeam + RandomStream::kWordsOfABlock - 1) / RandomStream::kWordsOfABlock;
+
+}  // namespace
 
 LaserConfig load_laser(YamlMap& yaml) {
   LaserConfig c;
-  c.layers = static_cast<int>(yaml.integer_or("layers", c.layers, {1, 4}));
+  c.layers = static_cast<int>(yaml.integer_or("layers", c.layers, {1, LaserConfig::kMostLayers}));
   c.azimuth_step_rad = yaml.number_or("azimuth_step", c.azimuth_step_rad, {0.001, 0.1}, "rad");
   c.half_field_rad = yaml.number_or("half_field", c.half_field_rad, {0.01, 1.4}, "rad");
   c.range_sigma_m = yaml.number_or("range_sigma", c.range_sigma_m, {0.0, 2.0}, "m");
@@ -24,6 +34,7 @@ LaserConfig load_laser(YamlMap& yaml) {
 void measure_laser(const LaserConfig& config, std::span<const ObjectState> objects, std::uint64_t seed,
                    std::uint32_t replication, std::uint16_t sensor, std::uint32_t sequence,
                    std::vector<HitPoint>& hits, std::vector<ObjectId>& truth) {
+  TTF_CHECK(config.layers <= LaserConfig::kMostLayers, "{} layers", config.layers);
   hits.clear();
   truth.clear();
   const auto half = static_cast<int>(config.half_field_rad / config.azimuth_step_rad);
@@ -43,8 +54,6 @@ void measure_laser(const LaserConfig& config, std::span<const ObjectState> objec
     }
     if (hit == nullptr) continue;
     const double loss = std::min(1.0, config.miss_at_100m * nearest * nearest * 1e-4);
-    // A layer takes a uniform number and a normal one: two words and, every second time, four.
-    constexpr std::uint32_t kBlocksOfABeam = 4;
     RandomStream noise({seed, replication, Purpose::kSensorNoise, sensor, sequence},
                        kBlocksOfABeam * static_cast<std::uint32_t>(beam + half));
     for (int layer = 0; layer < config.layers; ++layer) {

@@ -17,7 +17,8 @@
 namespace ttf::world {
 
 struct LaserConfig {
-  int layers = 4;
+  static constexpr int kMostLayers = 4;    // as many have draws of their own
+  int layers = kMostLayers;
   double azimuth_step_rad = 0.00436;       // 0.25 degrees
   double half_field_rad = 1.05;            // 60 degrees to either side
   double range_sigma_m = 0.06;

@@ -71,5 +71,22 @@ TEST(RandomStream, APartOfAStreamIsReadWithoutTheOthers) {
   }
 }
 
+TEST(RandomStream, DrawsTakeAsManyWordsAsTheySay) {
+  const StreamKey key{.seed = 5, .entity = 3, .index = 9};
+  const auto words_until = [&](RandomStream stream) {
+    const std::uint64_t next = stream.bits();
+    std::uint32_t words = 0;
+    for (RandomStream whole(key); words < 100 && whole.bits() != next;) words += 2;
+    return words;
+  };
+  RandomStream uniform(key), normal(key);
+  uniform.uniform();
+  EXPECT_EQ(words_until(uniform), RandomStream::kWordsOfUniform);
+  normal.normal();
+  EXPECT_EQ(words_until(normal), RandomStream::kWordsOfANormalPair);
+  normal.normal();
+  EXPECT_EQ(words_until(normal), RandomStream::kWordsOfANormalPair) << "the second of a pair takes none";
+}
+
 }  // namespace
 }  // namespace ttf
