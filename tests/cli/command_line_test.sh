@@ -191,13 +191,14 @@ printf 'L\t1.0\t0.1\t1000000\t1.0\t0.1\t5.0\t0.0\t0.0\t0.0\n' >"$work/short.txt"
 expect 2 'paper_scenario1.yaml: clusters = .*: takes no recording, so --input would be ignored' \
   run "$source/scenarios/paper_scenario1.yaml" --input "$work/short.txt" --out "$work/none"
 [[ -e $work/none/buff.mcap ]] && fail "a refused recording leaves a log"
-recording=$source/../shared/data/laser_radar/measurements.txt
+recording=${TTF_RECORDINGS:-$source/../shared/data}/laser_radar/measurements.txt
 if [[ -r $recording ]]; then
   expect 0 'position RMSE' run "$source/scenarios/laser_radar_recorded.yaml" --input "$recording" --out "$work/r" --no-pictures
   sed '7s/[0-9]/x/' "$recording" >"$work/broken.txt"
   expect 2 'broken.txt:7' run "$source/scenarios/laser_radar_recorded.yaml" --input "$work/broken.txt" --out "$work/r"
 else
-  echo "recorded input: skipped, the recording is not beside this repository"
+  echo "recorded input: skipped, there is no recording $recording;" \
+    "set TTF_RECORDINGS to the folder that holds laser_radar/measurements.txt"
 fi
 expect 2 '--input' run "$source/scenarios/laser_radar_recorded.yaml" --out "$work/r"
 

@@ -12,6 +12,7 @@
 
 #include "fusion/strategy.h"
 #include "tests/fusion/scenes.h"
+#include "tests/support/recordings.h"
 
 namespace ttf::fusion {
 namespace {
@@ -59,9 +60,9 @@ TrackerConfig config_for(MotionModel motion) {
 class Recorded : public testing::TestWithParam<MotionModel> {
  protected:
   void SetUp() override {
-    const std::string path = std::string(TTF_SOURCE_DIR) + "/../shared/data/laser_radar/measurements.txt";
-    if (!std::filesystem::exists(path)) GTEST_SKIP() << "the recording is not here: " << path;
-    rows = read_rows(path);
+    const std::string name = "laser_radar/measurements.txt";
+    if (!std::filesystem::exists(support::recording_path(name))) GTEST_SKIP() << support::recording_missing(name);
+    rows = read_rows(support::recording_path(name));
     ASSERT_EQ(rows.size(), 500u);
   }
   std::vector<Row> rows;

@@ -1,4 +1,4 @@
-// A real scanner in a real street (shared data, read only; not part of the repository): no ground truth, so
+// A real scanner in a real street (a recording that is not part of the repository): no ground truth, so
 // what is asked for is that the boxes are plausible as vehicles and hold still from scan to scan.
 #include <gtest/gtest.h>
 
@@ -10,12 +10,15 @@
 
 #include "nodes/laser/laser_preprocessor.h"
 #include "recording/recorded_input.h"
+#include "tests/support/recordings.h"
 
 namespace ttf::nodes {
 namespace {
 
+const std::string kScans = "lidar_scans/scans.csv";
+
 std::vector<std::vector<ScanPoint>> street_scans() {
-  const std::string path = std::string(TTF_SOURCE_DIR) + "/../shared/data/lidar_scans/scans.csv";
+  const std::string path = support::recording_path(kScans);
   std::vector<std::vector<ScanPoint>> scans;
   if (!std::filesystem::exists(path)) return scans;
   for (const recording::RecordedScan& recorded : recording::read_lidar_scans(path)) {
@@ -30,7 +33,7 @@ constexpr double kMostStep_m = 1.5;
 
 TEST(StreetScans, YieldPlausibleVehicles) {
   const auto scans = street_scans();
-  if (scans.empty()) GTEST_SKIP() << "the recording shared/data/lidar_scans is not beside this repository";
+  if (scans.empty()) GTEST_SKIP() << support::recording_missing(kScans);
   ASSERT_EQ(scans.size(), 22U);
   std::size_t most_points = 0;
   for (const auto& scan : scans) most_points = std::max(most_points, scan.size());
