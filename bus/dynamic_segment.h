@@ -6,9 +6,10 @@
 // and gdDynamicSlotIdlePhase idle minislots follow. So the counters of two channels may diverge within a
 // cycle, but every node on a channel counts alike.
 //
-//   minislot   1   2   3   4   5   6   7   8        slot 42 is sent in minislots 2..5 (its DTS ends at the
-//   action slot       41  42  42  42  42  42  43  44       point of 5), minislot 6 is idle
-//   (gdDynamicSlotIdlePhase 1)
+// clang-format off
+//   minislot   1   2   3   4   5   6   7   8     slot 42 is sent in minislots 2..5 (its DTS ends at the action
+//   slot      41  42  42  42  42  42  43  44     point of 5), minislot 6 is idle (gdDynamicSlotIdlePhase 1)
+// clang-format on
 //
 // Cluster files cannot use it yet: the loader and the checker know static slots only. A designer of frames by hand keeps
 // pLatestTx so that the longest frame ends within the segment.

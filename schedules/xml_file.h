@@ -1,9 +1,12 @@
 // A strict reader of XML: what nobody asked for is named by its path and line, never silently dropped.
 //
-//   XmlFile file = XmlFile::load("cluster.xml");        // throws InputError on unreadable or damaged XML,
-//   with its line Findings left_out; XmlElement root = file.root(left_out); for (XmlElement& one :
-//   root.children("fx:CLUSTER")) { ...; one.finish(); } root.finish(); // names elements, attributes and text
-//   nobody asked for
+// clang-format off
+//   XmlFile file = XmlFile::load("cluster.xml");   // throws InputError on unreadable or damaged XML, with its line
+//   Findings left_out;
+//   XmlElement root = file.root(left_out);
+//   for (XmlElement& one : root.children("fx:CLUSTER")) { ...; one.finish(); }
+//   root.finish();                                 // names elements, attributes and text nobody asked for
+// clang-format on
 //
 // Elements are called by the customary prefix of their namespace (fx, ho, flexray), whatever prefix the file
 // gave it.

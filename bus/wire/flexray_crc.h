@@ -1,8 +1,9 @@
 // The two CRCs of a FlexRay frame (FlexRay 2.1A, chapter 4.5).
 //
-//   header  11 bits, x^11+x^9+x^8+x^7+x^2+1 (0x385), initial 0x01A, over sync, startup, frame id and payload
-//   length frame   24 bits, 0x5D6DCB, initial 0xFEDCBA on channel A and 0xABCDEF on B, over header and
-//   payload
+// clang-format off
+//   header  11 bits, x^11+x^9+x^8+x^7+x^2+1 (0x385), initial 0x01A, over sync, startup, frame id and payload length
+//   frame   24 bits, 0x5D6DCB, initial 0xFEDCBA on channel A and 0xABCDEF on B, over header and payload
+// clang-format on
 //
 // Neither is reflected nor inverted at the end. The initial values differ so that a frame that strays to the
 // other channel fails there.
