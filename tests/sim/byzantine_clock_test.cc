@@ -14,7 +14,8 @@
 namespace ttf::sim {
 namespace {
 
-// The assumed precision (flexray.md 1.6: 34 microticks and 20 per microtick of damping) and the delays of the bus.
+// (34 + 20 gClusterDriftDamping) gdMaxMicrotick + 2 gdMaxPropagationDelay: the worst case of FlexRay 2.1A, annex B, here with a
+// damping of 2 (schedules/checker.h).
 constexpr Duration kAssumedPrecision{(34 + 20 * 2) * 25 + 2 * 2500};
 
 // The sync frames of nodes 0..traitors-1 reach each receiver at a time of its own: late at some, early at others, within
