@@ -15,7 +15,9 @@
 
 namespace ttf::records {
 
-// When and where something happened: on all three clocks. `global` is what the node's own clock showed.
+// When and where something happened: on all three clocks. `global` is what the node's own clock of the cluster showed; where
+// it has none (off FlexRay, or while its controller is not in normal operation: starting up, integrating, halted), it is
+// `local` once more.
 struct Stamp {
   TrueTime true_time{};
   LocalTime local{};
