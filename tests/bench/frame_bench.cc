@@ -6,6 +6,7 @@
 
 #include "bus/wire/flexray_crc.h"
 #include "bus/wire/flexray_frame.h"
+#include "tests/bench/yardstick.h"
 
 namespace ttf::wire {
 namespace {
