@@ -1,4 +1,4 @@
-// The window of a diagram, as the command line gives it.
+// The window of a diagram or of a capture that is held against a schedule, as the command line gives it.
 #pragma once
 
 #include <optional>

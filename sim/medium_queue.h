@@ -8,7 +8,8 @@
 
 namespace ttf::sim {
 
-// A pending arrival or arbitration.
+// What is still to come on a medium: on FlexRay an arrival; on a private CAN an arbitration, the end of a frame for its sender
+// and its arrival; and what reaches a host or device beside the buses: a trigger, a strobe, a recorded observation.
 struct MediumEvent {
   enum class Kind : std::uint8_t {
     kFlexRayArrival, kCanArrival, kCanSent, kCanArbitration, kStrobe, kTrigger, kObservation
