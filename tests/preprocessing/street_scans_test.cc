@@ -15,7 +15,7 @@
 namespace ttf::nodes {
 namespace {
 
-const std::string kScans = "lidar_scans/scans.csv";
+constexpr const char* kScans = "lidar_scans/scans.csv";
 
 std::vector<std::vector<ScanPoint>> street_scans() {
   const std::string path = support::recording_path(kScans);
