@@ -6,4 +6,5 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 tools/install_deps.sh
 tools/build.sh asan-ubsan
+export LSAN_OPTIONS=suppressions=$PWD/tools/lsan.supp:print_suppressions=0
 exec ctest --test-dir build/asan-ubsan --output-on-failure -j"$(nproc)" -E 'test_sim|test_report|mcap_official_reader'
