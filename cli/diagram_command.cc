@@ -29,6 +29,7 @@ struct Options {
 
 report::Names names_of(const recording::LogManifest& manifest) {
   report::Names names;
+  names.run = fmt::format("{}, {}", manifest.scenario_name, manifest.strategy);
   names.nodes = manifest.node_names;
   names.tasks = manifest.task_names;
   names.pdus = manifest.pdu_names;

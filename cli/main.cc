@@ -29,8 +29,12 @@ int main(int argc, char** argv) {
     ttf::cli::finish_standard_output();
     return code;
   } catch (const ttf::InputError& error) {
-    for (const ttf::Finding& finding : error.findings())
-      fmt::print(stderr, "error: {}\n", finding.sentence());
+    // A file of another kind is wrong in every line: nobody reads thousands of them.
+    constexpr std::size_t kShown = 200;
+    const auto& findings = error.findings();
+    for (std::size_t i = 0; i < findings.size() && i < kShown; ++i)
+      fmt::print(stderr, "error: {}\n", findings[i].sentence());
+    if (findings.size() > kShown) fmt::print(stderr, "error: and {} more\n", findings.size() - kShown);
     return 2;
   } catch (const std::exception& error) {
     fmt::print(stderr, "error: {}\n", error.what());

@@ -176,7 +176,8 @@ void write_pictures(const nodes::Scenario& scenario, const std::vector<StrategyR
   std::vector<const report::PositionPlots*> panels;
   std::vector<std::string> titles;
   for (const StrategyResult& result : results) {
-    const report::Names names = report::names_of(result.cluster);
+    report::Names names = report::names_of(result.cluster);
+    names.run = fmt::format("{}, {}", scenario.name, nodes::name_of(result.strategy));
     const std::string strategy(nodes::name_of(result.strategy));
     // The timing diagram shows 160 ms, four images, from where the drive is judged.
     const TrueTime from = sim::evaluation_start(scenario);

@@ -65,8 +65,8 @@ class Painter {
     const double legend_width = plot_.width + plot_.x - 24;
     const double legend_top = plot_.y + plot_.height + 46;
     const double height = legend_top + legend_height(legend_, legend_width) + 12;
-    const std::string title =
-        fmt::format("Timing diagram, {} ms to {} ms", number(ms(from_)), number(ms(to_)));
+    const std::string title = fmt::format("{}: {} ms to {} ms", names_.run.empty() ? "Timing diagram" : names_.run,
+                                          number(ms(from_)), number(ms(to_)));
     Svg svg(plot_.x + plot_.width + 24, height, title);
     svg_ = &svg;
     svg.text({24, 22}, title, {.size = 14, .bold = true});
