@@ -1,10 +1,17 @@
 #!/usr/bin/env bash
 # Builds the fuzz targets (clang, libFuzzer, AddressSanitizer, UndefinedBehaviorSanitizer) and runs each for a while, two
 # at a time. Exits with 1 if one of them finds something; the input is then in build/fuzz/findings.
-#   tools/fuzz.sh [SECONDS_PER_TARGET] [TARGET...]        default: 20 s of every target (tests/fuzz/*_fuzz.cc)
-# What a target learns stays in build/fuzz/corpus and is where the next run begins.
+#   tools/fuzz.sh [--keep] [SECONDS_PER_TARGET] [TARGET...]   default: 20 s of every target (tests/fuzz/*_fuzz.cc)
+# A run begins with the seeds, what earlier runs in this tree learned (build/fuzz/corpus) and the kept corpus
+# (tests/fuzz/corpus, an archive per target). --keep makes that anew from all three: the fewest inputs that reach what they
+# reach together.
 set -euo pipefail
 cd "$(dirname "$0")/.."
+keep=0
+if [[ ${1:-} == --keep ]]; then
+  keep=1
+  shift
+fi
 seconds=20
 if [[ ${1:-} =~ ^[0-9]+$ ]]; then
   seconds=$1
@@ -19,6 +26,7 @@ tools/build.sh fuzz --target fuzz
 
 build=$PWD/build/fuzz
 findings=$build/findings
+kept=$PWD/tests/fuzz/corpus
 seeds=$build/seeds
 mkdir -p "$findings" "$build/fuzz-logs"
 "$build/tests/fuzz/fuzz_seeds" "$seeds"
@@ -36,6 +44,7 @@ run() {
   local target=$1 corpus=$build/corpus/$1 log=$build/fuzz-logs/$1.log program=$build/tests/fuzz/fuzz_$1 dictionary=()
   mkdir -p "$corpus"
   [[ -f $seeds/$target.dict ]] && dictionary=("-dict=$seeds/$target.dict")
+  [[ -f $kept/$target.tar.gz ]] && tar -xzf "$kept/$target.tar.gz" -C "$corpus"
   local inputs=("$corpus" "$seeds/$target") found=$findings/$target
   [[ -d tests/fuzz/regressions/$target ]] && inputs+=("tests/fuzz/regressions/$target")
   mkdir -p "$found"
@@ -50,6 +59,19 @@ run() {
     for input in $(sed -n 's/.*Test unit written to //p' "$log"); do echo "  again: $program $input"; done
     return 1
   fi
+  [[ $keep -eq 0 ]] || pack "$target"
+}
+
+# Archives with the same inputs are the same bytes.
+pack() {
+  local target=$1 program=$build/tests/fuzz/fuzz_$1 small=$build/corpus-small/$1
+  rm -rf "$small"
+  mkdir -p "$small" "$kept"
+  "$program" -merge=1 -rss_limit_mb=3000 -max_len="$(max_length "$target")" "$small" "$build/corpus/$target" \
+    >>"$build/fuzz-logs/$target.log" 2>&1
+  (cd "$small" && LC_ALL=C ls | tar --mtime=@0 --owner=0 --group=0 --numeric-owner --mode=644 -T - -cf -) |
+    gzip -9n >"$kept/$target.tar.gz"
+  printf '%-16s kept %s inputs, %s bytes\n' "$target" "$(ls "$small" | wc -l)" "$(stat -c %s "$kept/$target.tar.gz")"
 }
 
 failed=0
