@@ -114,6 +114,8 @@ void check_cycle(const Cluster& cluster, ClusterFindings& findings) {
       wrong("gdSymbolWindow", g.gdSymbolWindow,
             fmt::format("must be 0 (none) or at least {} macroticks (constraint 16)", needed));
   }
+  if (cluster.guardian && cluster.topology != Topology::kStar)
+    findings.parameter("guardian", "true", "needs topology: star, in whose middle it sits");
   if (g.gOffsetCorrectionStart < g.gMacroPerCycle - g.gdNIT || g.gOffsetCorrectionStart >= g.gMacroPerCycle)
     wrong("gOffsetCorrectionStart", g.gOffsetCorrectionStart,
           fmt::format("must lie in the network idle time, {}..{} macroticks", g.gMacroPerCycle - g.gdNIT,

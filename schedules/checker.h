@@ -3,8 +3,10 @@
 // The rules and where they come from:
 //   cycle        constraints 16 and 18, static slot length, action point against the assumed precision, durations of cycle,
 //                macrotick, microtick and bit against each other (FlexRay 2.1A, annex B)
+//   star         a guardian sits in a star
 //   clocks       sync and startup nodes, key slots, correction limits against the drifts the file allows
-//   slots        nobody owns a slot another owns in the same cycle and channel; payload fits; a PDU's fragments complete
+//   slots        nobody owns a slot another owns in the same cycle and channel; payload fits, behind the network
+//                management vector where the frame carries it; a PDU's fragments complete
 //   CAN          frames fit, identifiers are unique, worst-case load, responses within periods (schedules/can_load.h)
 //   tasks        no overlap, deadlines with every wait for other tasks, an end before the next activation
 //                (schedules/responses.h)

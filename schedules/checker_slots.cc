@@ -95,6 +95,27 @@ void check_list(const Cluster& cluster, PduId pdu, ClusterFindings& findings) {
   }
 }
 
+// What the frame carries fits its payload: the fragment, behind the network management vector where there is one.
+void check_payload(const Cluster& cluster, const FrameSlot& frame, const std::string& key, ClusterFindings& findings) {
+  const GlobalParameters& g = cluster.flexray;
+  const int payload = 2 * g.gPayloadLengthStatic;
+  const PduLayout* layout = frame.pdu != kNoPdu ? &cluster.pdu(frame.pdu) : nullptr;
+  const int fragment = layout != nullptr ? layout->fragment_bytes : 0;
+  if (fragment > payload)
+    findings.at(frame.line, key, fmt::format("{} ({} bytes)", layout->name, fragment),
+                fmt::format("must fit the payload of {} bytes (gPayloadLengthStatic)", payload));
+  if (!frame.network_management) return;
+  const int vector = g.gNetworkManagementVectorLength;
+  if (vector == 0)
+    findings.at(frame.line, key, "network_management: true",
+                "needs a network management vector: gNetworkManagementVectorLength is 0");
+  else if (fragment <= payload && vector + fragment > payload)
+    findings.at(frame.line, key, fmt::format("network_management: true ({} bytes)", vector + fragment),
+                fmt::format("must fit the payload of {} bytes (gPayloadLengthStatic): the vector's {} bytes and the "
+                            "fragment's {}",
+                            payload, vector, fragment));
+}
+
 }  // namespace
 
 void check_slots(const Cluster& cluster, ClusterFindings& findings) {
@@ -108,14 +129,8 @@ void check_slots(const Cluster& cluster, ClusterFindings& findings) {
       findings.at(frame.line, key, fmt::format("{}", frame.slot),
                   fmt::format("must be 1..{} (gNumberOfStaticSlots)", g.gNumberOfStaticSlots));
     if (!sender.flexray) findings.at(frame.line, key, sender.name, "must be a node with a FlexRay controller");
-    if (frame.pdu != kNoPdu) {
-      lists.insert(frame.pdu);
-      const PduLayout& layout = cluster.pdu(frame.pdu);
-      if (layout.fragment_bytes > 2 * g.gPayloadLengthStatic)
-        findings.at(frame.line, key, fmt::format("{} ({} bytes)", layout.name, layout.fragment_bytes),
-                    fmt::format("must fit the payload of {} bytes (gPayloadLengthStatic)",
-                                2 * g.gPayloadLengthStatic));
-    }
+    if (frame.pdu != kNoPdu) lists.insert(frame.pdu);
+    check_payload(cluster, frame, key, findings);
     // Frames are ordered by slot, so the others of this one stand right before it. One owner too many is enough to say.
     for (std::size_t j = i; j-- > 0 && cluster.frames[j].slot == frame.slot;) {
       const FrameSlot& other = cluster.frames[j];

@@ -37,6 +37,9 @@ struct FrameSlot {
   PduId pdu = kNoPdu;
   int fragment = 0;
   int line = 0;
+  // Static frames only: the payload begins with the network management vector, gNetworkManagementVectorLength bytes,
+  // and says so (payload preamble indicator); the fragment follows it.
+  bool network_management = false;
 };
 
 // Whether `frame` is the next fragment of the same list in the next slot, otherwise like `before`.
@@ -129,18 +132,26 @@ struct Sensor {
   int line = 0;
 };
 
+// How the nodes are wired, on either channel alike.
+enum class Topology : std::uint8_t {
+  kBus,    // one line with all nodes on it
+  kStar,   // every node on a branch of its own, an active star in the middle
+};
+
 struct Cluster {
   std::string name;
   std::string file;              // for messages
   std::string text;              // the YAML as read, attached to logs
   GlobalParameters flexray;
   bool synchronisation = true;   // clock correction on (off only to show what it is for)
+  Topology topology = Topology::kBus;
+  bool guardian = false;         // the stars let through only what their schedule allows; needs kStar
   std::vector<PduLayout> pdus;
   std::vector<Node> nodes;
   std::vector<FrameSlot> frames; // ordered by slot, then base cycle
   std::vector<CanBus> can_buses;
   std::vector<Sensor> sensors;
-  std::map<std::string, int, std::less<>> parameter_lines;   // "nodes", "flexray.gdNIT", "nodes.fusion.flexray.pKeySlotId"
+  std::map<std::string, int, std::less<>> parameter_lines;   // "nodes", "guardian", "flexray.gdNIT", "nodes.fusion.flexray.pKeySlotId"
 
   const Node& node(NodeId id) const { return nodes[index_of(id)]; }
   const PduLayout& pdu(PduId id) const { return pdus[index_of(id)]; }

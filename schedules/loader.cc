@@ -29,6 +29,9 @@ class Loader {
   Cluster load() {
     cluster_.name = root_.text("name");
     cluster_.synchronisation = root_.boolean("synchronisation");
+    cluster_.topology = root_.choice_or("topology", Topology::kBus, {{"bus", Topology::kBus}, {"star", Topology::kStar}});
+    cluster_.guardian = root_.boolean_or("guardian", false);
+    remember(root_, "guardian");
     YamlMap globals = root_.map("flexray");
     load_globals(globals);
     YamlMap shared = root_.map("node_parameters");
@@ -325,6 +328,7 @@ class Loader {
       fragments = map.integer("fragments", {1, kLastStaticSlot});
       frame.fragment = static_cast<int>(map.integer_or("first_fragment", 0, {0, kLastStaticSlot - 1}));
     }
+    frame.network_management = map.boolean_or("network_management", false);
     if (frame.slot + fragments - 1 > kLastStaticSlot) {
       map.fail("fragments", fmt::format("must be at most {}: static slots end at {}", kLastStaticSlot - frame.slot + 1,
                                         kLastStaticSlot));

@@ -3,6 +3,8 @@
 //
 //   name: paper_synchronised
 //   synchronisation: true
+//   topology: bus|star                          how nodes are wired; bus if absent
+//   guardian: true                              the star has a guardian; false if absent
 //   flexray: {gColdStartAttempts: 8, ...}       global parameters; times in us, gdMaxMicrotick in ns
 //   node_parameters: {pSamplesPerMicrotick: 2, ...}   what holds in every node that does not say otherwise
 //   pdus:   {NAME: {sensor, fragment_bytes, max_elements, elements_per_fragment, header: [...], element: [...]}}
@@ -11,7 +13,7 @@
 //         or {NAME: {kind, device, host, measurement: scheduled, base_cycle, repetition, offset}}
 //   nodes:  {NAME: {flexray: {pKeySlotId: 1, ...}, drift_ppm, max_drift_ppm, tasks: {NAME: {...}}}}
 //           off FlexRay `microtick` in ns instead of `flexray`; without drift_ppm it is drawn within max_drift_ppm
-//   frames: [{slot, channels: A|B|AB, sender, base_cycle, repetition, pdu, fragments, first_fragment}]
+//   frames: [{slot, channels: A|B|AB, sender, base_cycle, repetition, pdu, fragments, first_fragment, network_management}]
 //   can:    {NAME: {flexible_data_rate, nominal_bit_rate, data_bit_rate, other_load, messages:
 //            [{pdu, identifier, sender, shortest_period}]}}   data_bit_rate with flexible_data_rate only
 //
@@ -19,7 +21,8 @@
 // activation one of {kind: time, base_cycle, repetition, offset}, {kind: message, port}, {kind: sensor, sensor} and
 // {kind: completion, after}. Ports are bound as `port: PDU on flexray` or `port: PDU on NAME_OF_A_CAN`. Times carry their unit
 // (`2.5 ms`), offsets are macroticks. A frame entry with `fragments: n` stands for n consecutive slots with the fragments
-// first_fragment (0 if absent) and on; without `pdu` it is a status frame.
+// first_fragment (0 if absent) and on; without `pdu` it is a status frame. With
+// `network_management: true` each begins with the network management vector.
 //
 // At most 200 nodes, sensors and PDUs, 127 CANs, 16 tasks per node and 256 fragments per list: what records can number.
 #pragma once
