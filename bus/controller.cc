@@ -31,6 +31,7 @@ FlexRayController::State::State(const schedules::Cluster& c, NodeId n, FlexRayPo
       sync(c.flexray.gSyncNodeMax),
       initialisation(c.flexray, parameters(c, n)),
       seen(static_cast<std::size_t>(g.gNumberOfStaticSlots)),
+      seen_last(seen.size()),
       dynamic{Dynamic{DynamicSlotCounter(c.flexray)}, Dynamic{DynamicSlotCounter(c.flexray)}} {}
 
 Microticks FlexRayController::State::bits(int count) const {
@@ -71,6 +72,8 @@ void FlexRayController::State::begin_schedule(Microticks start, int rate, std::i
   clock.emplace(geometry, start, rate, cycle);
   next_rate = rate;
   sync.reset();
+  sync_status = {};
+  std::fill(seen_last.begin(), seen_last.end(), Seen{});
 }
 
 // ---- the cycle
@@ -146,19 +149,27 @@ void FlexRayController::State::enter_cycle(const StartupFramesSeen& ended, Micro
   events.cycle_started(clock->cycle(), at);
 }
 
+void FlexRayController::State::tell_slot_problems(Microticks at) {
+  for (int slot = 1; slot <= g.gNumberOfStaticSlots; ++slot)
+    for (const schedules::Channel channel : kChannels) {
+      const auto c = index_of(channel);
+      const Seen& status = seen[static_cast<std::size_t>(slot - 1)];
+      std::uint8_t errors = status.errors[c];
+      if (errors == 0 && !status.valid[c] && slots.expected(slot, counter(), channel) != nullptr) errors = kNoFrame;
+      if (errors != 0) events.slot_problem(clock->cycle(), slot, channel, static_cast<SlotStatus>(errors), at);
+    }
+}
+
 // All static frames of the cycle have been heard: what is missing is reported, and in odd cycles the corrections are
 // computed.
 void FlexRayController::State::close_static_segment(Microticks at) {
   const std::int64_t cycle = clock->cycle();
-  if (!in_startup(poc.kind))
-    for (int slot = 1; slot <= g.gNumberOfStaticSlots; ++slot)
-      for (const schedules::Channel channel : kChannels) {
-        const auto c = index_of(channel);
-        const Seen& status = seen[static_cast<std::size_t>(slot - 1)];
-        std::uint8_t errors = status.errors[c];
-        if (errors == 0 && !status.valid[c] && slots.expected(slot, counter(), channel) != nullptr) errors = kNoFrame;
-        if (errors != 0) events.slot_problem(cycle, slot, channel, static_cast<SlotStatus>(errors), at);
-      }
+  if (!in_startup(poc.kind)) tell_slot_problems(at);
+  seen.swap(seen_last);
+  const int valid_a = sync.valid(schedules::Channel::kA), valid_b = sync.valid(schedules::Channel::kB);
+  (cycle % 2 == 0 ? sync_status.VSAE : sync_status.VSAO) = valid_a;
+  (cycle % 2 == 0 ? sync_status.VSBE : sync_status.VSBO) = valid_b;
+  events.static_segment_ended(cycle, at);
   segment = minislots.count() > 0 ? Segment::kDynamic : Segment::kRest;
   for (const schedules::Channel channel : kChannels) {
     dynamic[index_of(channel)].counter.start();
@@ -174,6 +185,10 @@ void FlexRayController::State::close_static_segment(Microticks at) {
     clock->set_offset_correction(offset.value);
     next_rate = rate.value;
   }
+  sync_status.MOCS = offset.missing;
+  sync_status.MRCS = rate.missing;
+  sync_status.OCLR = offset.limit_reached;
+  sync_status.RCLR = rate.limit_reached;
   events.clock_corrected(cycle, offset, rate, at);
   tell(PocEvent::clock_corrected(offset.missing || rate.missing, offset.limit_reached || rate.limit_reached), at);
 }
@@ -222,6 +237,21 @@ const PocState& FlexRayController::state() const { return state_->poc; }
 
 bool FlexRayController::synchronised() const {
   return state_->poc.kind == PocKind::kNormalActive || state_->poc.kind == PocKind::kNormalPassive;
+}
+
+SlotSeen FlexRayController::slot_status(int slot, schedules::Channel channel) const {
+  const State& s = *state_;
+  TTF_CHECK(slot >= 1 && slot <= s.g.gNumberOfStaticSlots, "static slot {} of {}", slot, s.g.gNumberOfStaticSlots);
+  const State::Seen& seen = s.seen_last[static_cast<std::size_t>(slot - 1)];
+  const std::uint8_t errors = seen.errors[index_of(channel)];
+  return {seen.valid[index_of(channel)], (errors & kSyntaxError) != 0, (errors & kContentError) != 0,
+          (errors & kBoundaryViolation) != 0, (errors & kTransmissionConflict) != 0};
+}
+
+SyncStatus FlexRayController::sync_status() const {
+  SyncStatus status = state_->sync_status;
+  status.vClockCorrectionFailed = state_->poc.vClockCorrectionFailed;
+  return status;
 }
 
 OutgoingList& FlexRayController::outgoing(PduId pdu) { return state_->cni.outgoing(pdu); }

@@ -44,6 +44,30 @@ enum SlotStatus : std::uint8_t {
   kNoFrame = 16,
 };
 
+// The same as a host reads it back, of one static slot on one channel in one cycle. Nothing set: nothing was heard, which is so
+// in the node's own slots, too. More than one may be set: a valid frame and noise behind it.
+struct SlotSeen {
+  bool valid_frame = false;
+  bool syntax_error = false;
+  bool content_error = false;
+  bool boundary_violation = false;
+  bool transmission_conflict = false;
+
+  bool operator==(const SlotSeen&) const = default;
+};
+
+// What clock synchronisation has had to go by since the schedule began, under E-Ray's names (SPNU563A: registers SFS and CCEV).
+struct SyncStatus {
+  // Valid sync frames on channel A or B in the last even or odd cycle whose static segment is over, the node's own included;
+  // counted up to 15, whatever gSyncNodeMax says.
+  int VSAE = 0, VSAO = 0, VSBE = 0, VSBO = 0;
+  // Of the last double cycle: the offset or the rate term was missing, or was beyond its limit.
+  bool MOCS = false, MRCS = false, OCLR = false, RCLR = false;
+  int vClockCorrectionFailed = 0;   // odd cycles in a row in which a term was missing, up to kMaxClockCorrectionFailed
+
+  bool operator==(const SyncStatus&) const = default;
+};
+
 // What the controller tells its host. Called from advance(), receive() and the commands.
 class ControllerEvents {
  public:
@@ -53,6 +77,9 @@ class ControllerEvents {
   virtual void slot_problem(std::int64_t cycle, int slot, schedules::Channel channel, SlotStatus status, Microticks at) {
     (void)cycle, (void)slot, (void)channel, (void)status, (void)at;
   }
+  // The static segment of a cycle is over, its slot problems have been told, and slot_status() is of it. During start-up
+  // too: what that is worth is the host's to judge by state().
+  virtual void static_segment_ended(std::int64_t cycle, Microticks at) { (void)cycle, (void)at; }
   // A frame of an outgoing list left; `last` with the last fragment of that list.
   virtual void frame_sent(const Transmission& transmission, std::int64_t cycle, bool null_frame, PduId pdu,
                           std::uint32_t sequence, int fragment, bool last) {
@@ -100,6 +127,10 @@ class FlexRayController {
   const PocState& state() const;
   // Whether the clock is the cluster's, which the host may rely on.
   bool synchronised() const;
+  // What was seen in a static slot (1..gNumberOfStaticSlots) of the cycle whose static segment ended last, until the next one
+  // ends. A frame that outlasts the segment is added when it is over.
+  SlotSeen slot_status(int slot, schedules::Channel channel) const;
+  SyncStatus sync_status() const;
   OutgoingList& outgoing(PduId pdu);            // must be a PDU this node sends
   IncomingList& incoming(PduId pdu);            // any other PDU on FlexRay
 

@@ -130,11 +130,13 @@ void FlexRayController::State::judge_static(const Reception& reception, int slot
   const auto c = index_of(reception.channel);
   const wire::FrameHeader& header = reception.frame.header;
   const FrameSlot* expected = slots.expected(slot, counter(), reception.channel);
-  Seen& status = seen[static_cast<std::size_t>(slot - 1)];
+  // A frame that outlasts the segment is judged when that has been closed without it.
+  std::vector<Seen>& slots_seen = segment == Segment::kStatic ? seen : seen_last;
+  Seen& status = slots_seen[static_cast<std::size_t>(slot - 1)];
   const int last = static_slot_at(reception.end - Microticks{1});
   if (last != slot) {
     errors |= kBoundaryViolation;
-    if (last <= g.gNumberOfStaticSlots) seen[static_cast<std::size_t>(last - 1)].errors[c] |= kBoundaryViolation;
+    if (last <= g.gNumberOfStaticSlots) slots_seen[static_cast<std::size_t>(last - 1)].errors[c] |= kBoundaryViolation;
   }
   if (status.element[c]) errors |= kSyntaxError;   // a second communication element
   status.element[c] = true;
@@ -144,7 +146,6 @@ void FlexRayController::State::judge_static(const Reception& reception, int slot
     errors |= kContentError;
   status.errors[c] |= errors;
   if (errors != 0) {
-    // The segment has been closed without it.
     if (segment != Segment::kStatic && !in_startup(poc.kind))
       events.slot_problem(clock->cycle(), slot, reception.channel, static_cast<SlotStatus>(errors), reception.end);
     return;

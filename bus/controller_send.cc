@@ -40,7 +40,7 @@ void FlexRayController::State::send_static(Microticks at) {
   const bool null_frame = starting || (slot.pdu != kNoPdu && content.payload.empty());
   const Microticks end = at + bits(schedules::frame_bits(g, g.gPayloadLengthStatic));
   const Channel last_channel = includes(slot.channels, Channel::kB) ? Channel::kB : Channel::kA;
-  if (p.pKeySlotUsedForSync && slot.slot == p.pKeySlotId) sync.own(slot.slot);
+  if (p.pKeySlotUsedForSync && slot.slot == p.pKeySlotId) sync.own(slot.slot, slot.channels);
   for (const Channel channel : kChannels)
     if (includes(slot.channels, channel))
       send_frame(slot, channel, at, end, content, null_frame, content.last && channel == last_channel);

@@ -43,12 +43,14 @@ struct FlexRayController::State {
   Microticks partner_overdue = kNever;     // while a schedule is being derived
   std::array<Microticks, 2> sending_from{kNever, kNever}, sending_to{};   // by channel: this node's last transmission
 
-  // What was seen in one static slot of this cycle, per channel.
+  // What was seen in one static slot of a cycle, per channel.
   struct Seen {
     std::array<bool, 2> valid{}, element{};
     std::array<std::uint8_t, 2> errors{};
   };
-  std::vector<Seen> seen;                  // by slot - 1
+  std::vector<Seen> seen;                  // by slot - 1: in the segment under way
+  std::vector<Seen> seen_last;             // ... in the one that is over
+  SyncStatus sync_status;                  // without its counter, which is protocol operation control's
 
   // How far the cycle is.
   enum class Segment : std::uint8_t { kBefore, kStatic, kDynamic, kRest };   // kBefore: the first cycle is to start
@@ -77,6 +79,7 @@ struct FlexRayController::State {
   void start_cycle();
   void enter_cycle(const StartupFramesSeen& ended, Microticks at);
   void close_static_segment(Microticks at);
+  void tell_slot_problems(Microticks at);
   int counter() const { return static_cast<int>(clock->cycle() % (g.gCycleCountMax + 1)); }
   Macroticks slot_start(int slot) const { return {static_cast<std::int64_t>(slot - 1) * g.gdStaticSlot}; }
   Macroticks action_point(int slot) const { return slot_start(slot) + Macroticks{g.gdActionPointOffset}; }

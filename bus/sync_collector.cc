@@ -15,9 +15,12 @@ void SyncCollector::start_cycle(int counter) {
   // An odd cycle that was entered from nowhere has no even partner: then reset() has emptied that.
   (even_ ? measurements_.even_count : measurements_.odd_count) = 0;
   startup_[even_ ? 0 : 1] = {};
+  valid_ = {};
 }
 
 void SyncCollector::measure(int frame_id, schedules::Channel channel, int deviation) {
+  int& valid = valid_[index_of(channel)];
+  valid = std::min(valid + 1, timebase::kMaxSyncNodes);
   auto& list = even_ ? measurements_.even : measurements_.odd;
   int& count = even_ ? measurements_.even_count : measurements_.odd_count;
   int index = 0;
@@ -31,9 +34,9 @@ void SyncCollector::measure(int frame_id, schedules::Channel channel, int deviat
   (channel == schedules::Channel::kA ? entry.a : entry.b) = deviation;
 }
 
-void SyncCollector::own(int frame_id) {
-  measure(frame_id, schedules::Channel::kA, 0);
-  measure(frame_id, schedules::Channel::kB, 0);
+void SyncCollector::own(int frame_id, schedules::Channels channels) {
+  for (const schedules::Channel channel : {schedules::Channel::kA, schedules::Channel::kB})
+    if (includes(channels, channel)) measure(frame_id, channel, 0);
 }
 
 void SyncCollector::heard(int frame_id, schedules::Channel channel, int deviation, bool startup) {

@@ -17,14 +17,16 @@ class SyncCollector {
 
   void reset();                      // nothing of the past counts
   void start_cycle(int counter);
-  // This node's own sync frame left: it is exactly where it is expected.
-  void own(int frame_id);
+  // This node's own sync frame leaves on these channels: it is exactly where it is expected.
+  void own(int frame_id, schedules::Channels channels);
   // A valid sync frame of another node; `deviation` [uT]: observed minus expected start. `startup`: it is a startup frame,
   // near enough to count as one during start-up (pdAcceptedStartupRange).
   void heard(int frame_id, schedules::Channel channel, int deviation, bool startup);
 
   const timebase::SyncMeasurements& measurements() const { return measurements_; }
   std::span<const timebase::SyncDeviation> odd() const;
+  // Sync frames of the cycle so far on one channel, own included, those that are not used too; counts up to 15.
+  int valid(schedules::Channel channel) const { return valid_[index_of(channel)]; }
   // Startup frames of other nodes, in the cycle that is ending and as pairs of its double cycle.
   StartupFramesSeen startup_frames(int reference) const;
 
@@ -39,6 +41,7 @@ class SyncCollector {
   int sync_node_max_;
   bool even_ = true;
   timebase::SyncMeasurements measurements_;
+  std::array<int, 2> valid_{};       // by channel
   std::array<Ids, 2> startup_;       // of the double cycle's even and odd cycle
 };
 

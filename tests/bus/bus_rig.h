@@ -68,6 +68,8 @@ struct Heard final : ControllerEvents {
   std::vector<Sent> sent;
   std::vector<Arrived> arrived;
   std::vector<Corrected> corrected;
+  std::vector<std::int64_t> static_segments;   // cycles whose static segment has ended
+  std::function<void(std::int64_t)> on_static_segment_ended;
   struct Changed { PocKind from, to; PocReason reason, consequence; Microticks at; };
   std::vector<std::int64_t> cycles;
   std::vector<Changed> changed;
@@ -79,6 +81,10 @@ struct Heard final : ControllerEvents {
   }
   void slot_problem(std::int64_t cycle, int slot, schedules::Channel channel, SlotStatus status, Microticks) override {
     problems.push_back({cycle, slot, channel, status});
+  }
+  void static_segment_ended(std::int64_t cycle, Microticks) override {
+    static_segments.push_back(cycle);
+    if (on_static_segment_ended) on_static_segment_ended(cycle);
   }
   void frame_sent(const Transmission& t, std::int64_t cycle, bool null_frame, PduId pdu, std::uint32_t sequence,
                   int fragment, bool last) override {
