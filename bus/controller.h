@@ -95,6 +95,10 @@ class ControllerEvents {
                                const timebase::Correction& rate, Microticks at) {
     (void)cycle, (void)offset, (void)rate, (void)at;
   }
+  // A symbol left, on one channel; within normal operation Signal::kCas is a media access test symbol.
+  virtual void symbol_sent(Signal signal, schedules::Channel channel, Microticks start, Microticks end) {
+    (void)signal, (void)channel, (void)start, (void)end;
+  }
   // Protocol operation control went from one state to another.
   virtual void state_changed(PocKind from, const PocStep& step, Microticks at) { (void)from, (void)step, (void)at; }
 };

@@ -113,6 +113,7 @@ void FlexRayController::State::send_symbol(Signal signal, Channel channel, Micro
   sending_from[index_of(channel)] = at;
   sending_to[index_of(channel)] = end;
   port.transmit({channel, signal, at, end, 0, {}});
+  events.symbol_sent(signal, channel, at, end);
 }
 
 void FlexRayController::State::send_cas(Microticks at) {

@@ -14,6 +14,7 @@ enum class SensorId : std::uint8_t {};    // index in Cluster::sensors
 enum class ObjectId : std::uint16_t {};   // index in the world's objects; truth, never on a bus
 enum class TrackId : std::uint16_t {};    // given when a track is first confirmed (fusion/identities.h)
 
+inline constexpr NodeId kNoNode{0xff};
 inline constexpr PduId kNoPdu{0xff};
 inline constexpr SensorId kNoSensor{0xff};
 inline constexpr TrackId kNoTrack{0xffff};

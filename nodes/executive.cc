@@ -396,6 +396,21 @@ void Executive::clock_corrected(std::int64_t cycle, const timebase::Correction& 
                                    offset.limit_reached, rate.limit_reached});
 }
 
+void Executive::symbol_sent(bus::Signal signal, schedules::Channel channel, Microticks start, Microticks end) {
+  // A collision avoidance symbol comes before there is a schedule; within one the same bits are a test of the medium.
+  const std::uint8_t kind = signal == bus::Signal::kWakeup ? records::kSymbolWakeup
+                            : flexray_->synchronised()     ? records::kSymbolMediaTest
+                                                           : records::kSymbolCas;
+  sink_.on(records::SymbolSent{stamp(start), stamp(end), static_cast<std::uint8_t>(channel), kind});
+}
+
+void Executive::state_changed(bus::PocKind from, const bus::PocStep& step, Microticks at) {
+  const bus::PocKind to = step.next.kind;
+  sink_.on(records::StateChanged{stamp(at), static_cast<std::uint8_t>(from), static_cast<std::uint8_t>(to),
+                                 bus::to_text(from), bus::to_text(to), bus::to_text(step.reason),
+                                 bus::to_text(step.consequence)});
+}
+
 void Executive::hop(const records::Stamp& at, records::Hop what, PduId pdu, std::uint32_t sequence, int can_bus) {
   sink_.on(records::ListHop{at, what, pdu, cluster_.pdu(pdu).sensor, sequence, static_cast<std::int8_t>(can_bus)});
 }

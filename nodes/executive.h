@@ -98,6 +98,8 @@ class Executive final : private bus::ControllerEvents {
                     Microticks at) override;
   void clock_corrected(std::int64_t cycle, const timebase::Correction& offset, const timebase::Correction& rate,
                        Microticks at) override;
+  void symbol_sent(bus::Signal signal, schedules::Channel channel, Microticks start, Microticks end) override;
+  void state_changed(bus::PocKind from, const bus::PocStep& step, Microticks at) override;
 
   void arrived(PduId pdu, int can_bus, bus::ArrivalEffect effect, std::uint32_t sequence,
                std::optional<std::uint32_t> torn, Microticks at);

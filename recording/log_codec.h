@@ -39,6 +39,10 @@ struct Payloads {
   ttfusion::Feature feature;
   ttfusion::Reference reference;
   ttfusion::Truth truth;
+  ttfusion::StateChange state_change;
+  ttfusion::Symbol symbol;
+  ttfusion::Power power;
+  ttfusion::Fault fault;
 
   // The payload of each kind; null for a value that is no kind.
   google::protobuf::Message* of(RecordKind kind);
@@ -67,6 +71,10 @@ Encoded encode(const records::ImageWritten&, Payloads&);
 Encoded encode(const records::FeatureUsed&, Payloads&);
 Encoded encode(const records::ReferenceFix&, Payloads&);
 Encoded encode(const records::TruthState&, Payloads&);
+Encoded encode(const records::StateChanged&, Payloads&);
+Encoded encode(const records::SymbolSent&, Payloads&);
+Encoded encode(const records::PowerChanged&, Payloads&);
+Encoded encode(const records::FaultActivity&, Payloads&);
 
 class Decoder {
  public:

@@ -101,6 +101,14 @@ google::protobuf::Message* Payloads::of(RecordKind kind) {
       return &reference;
     case RecordKind::kTruth:
       return &truth;
+    case RecordKind::kStateChange:
+      return &state_change;
+    case RecordKind::kSymbol:
+      return &symbol;
+    case RecordKind::kPower:
+      return &power;
+    case RecordKind::kFault:
+      return &fault;
   }
   return nullptr;
 }
@@ -238,6 +246,29 @@ bool Decoder::decode(RecordKind kind, std::string_view bytes, records::Sink& sin
                                          in.heading(), in.speed(), in.acceleration(), in.yaw_rate(),
                                          in.length(), in.width(), LocalTime{in.local()},
                                          GlobalTime{in.global()}, narrow.id<NodeId>(in.node())});
+    }
+    case RecordKind::kStateChange: {
+      const auto& in = payloads_.state_change;
+      return hand_on(records::StateChanged{stamp_of(in.stamp(), narrow), narrow.to<std::uint8_t>(in.from()),
+                                           narrow.to<std::uint8_t>(in.to()), in.from_name(), in.to_name(), in.why(),
+                                           in.consequence()});
+    }
+    case RecordKind::kSymbol: {
+      const auto& in = payloads_.symbol;
+      return hand_on(records::SymbolSent{
+          stamp_of(in.stamp(), narrow), stamp_of(in.end(), narrow), narrow.to<std::uint8_t>(in.channel()),
+          narrow.to<std::uint8_t>(in.kind(), records::kSymbolCas, records::kSymbolMediaTest)});
+    }
+    case RecordKind::kPower: {
+      const auto& in = payloads_.power;
+      return hand_on(records::PowerChanged{stamp_of(in.stamp(), narrow), in.on()});
+    }
+    case RecordKind::kFault: {
+      const auto& in = payloads_.fault;
+      return hand_on(records::FaultActivity{
+          TrueTime{in.at()}, in.fault(),
+          narrow.to<std::uint8_t>(in.what(), records::kFaultBegins, records::kFaultEnds),
+          narrow.id<NodeId>(in.node()), in.kind(), in.text()});
     }
   }
   return false;

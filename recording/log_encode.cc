@@ -42,6 +42,9 @@ void fill(ttfusion::ImageObject& out, const records::ImageObject& in) {
 
 LogTimes times_of(const records::Stamp& stamp) { return {stamp.true_time.ns, stamp.global.ns}; }
 
+// Into the string that is there: it grows to the longest words, then no more.
+void fill_text(std::string& out, std::string_view in) { out.assign(in); }
+
 void fill_bytes(std::string& out, std::span<const std::byte> in) {
   out.assign(reinterpret_cast<const char*>(in.data()), in.size());
 }
@@ -264,6 +267,45 @@ Encoded encode(const records::TruthState& in, Payloads& payloads) {
   out.set_global(in.global.ns);
   out.set_node(number(in.node));
   return {RecordKind::kTruth, &out, {in.at.ns, in.global.ns}};
+}
+
+Encoded encode(const records::StateChanged& in, Payloads& payloads) {
+  auto& out = payloads.state_change;
+  fill(*out.mutable_stamp(), in.stamp);
+  out.set_from(in.from);
+  out.set_to(in.to);
+  fill_text(*out.mutable_from_name(), in.from_name);
+  fill_text(*out.mutable_to_name(), in.to_name);
+  fill_text(*out.mutable_why(), in.why);
+  fill_text(*out.mutable_consequence(), in.consequence);
+  return {RecordKind::kStateChange, &out, times_of(in.stamp)};
+}
+
+Encoded encode(const records::SymbolSent& in, Payloads& payloads) {
+  auto& out = payloads.symbol;
+  fill(*out.mutable_stamp(), in.stamp);
+  fill(*out.mutable_end(), in.end);
+  out.set_channel(in.channel);
+  out.set_kind(in.kind);
+  return {RecordKind::kSymbol, &out, times_of(in.stamp)};
+}
+
+Encoded encode(const records::PowerChanged& in, Payloads& payloads) {
+  auto& out = payloads.power;
+  fill(*out.mutable_stamp(), in.stamp);
+  out.set_on(in.on);
+  return {RecordKind::kPower, &out, times_of(in.stamp)};
+}
+
+Encoded encode(const records::FaultActivity& in, Payloads& payloads) {
+  auto& out = payloads.fault;
+  out.set_at(in.at.ns);
+  out.set_fault(in.fault);
+  out.set_what(in.what);
+  out.set_node(number(in.node));
+  fill_text(*out.mutable_kind(), in.kind);
+  fill_text(*out.mutable_text(), in.text);
+  return {RecordKind::kFault, &out, {in.at.ns, in.at.ns}};
 }
 
 }  // namespace ttf::recording

@@ -125,5 +125,9 @@ void LogWriter::on(const records::ImageWritten& record) { write(record); }
 void LogWriter::on(const records::FeatureUsed& record) { write(record); }
 void LogWriter::on(const records::ReferenceFix& record) { write(record); }
 void LogWriter::on(const records::TruthState& record) { write(record); }
+void LogWriter::on(const records::StateChanged& record) { write(record); }
+void LogWriter::on(const records::SymbolSent& record) { write(record); }
+void LogWriter::on(const records::PowerChanged& record) { write(record); }
+void LogWriter::on(const records::FaultActivity& record) { write(record); }
 
 }  // namespace ttf::recording

@@ -54,6 +54,10 @@ class LogWriter final : public records::Sink {
   void on(const records::FeatureUsed&) override;
   void on(const records::ReferenceFix&) override;
   void on(const records::TruthState&) override;
+  void on(const records::StateChanged&) override;
+  void on(const records::SymbolSent&) override;
+  void on(const records::PowerChanged&) override;
+  void on(const records::FaultActivity&) override;
 
  private:
   struct Impl;

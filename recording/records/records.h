@@ -115,6 +115,47 @@ struct ClockCorrected {
   bool offset_missing = false, rate_missing = false, offset_limited = false, rate_limited = false;
 };
 
+// Protocol operation control of a node's controller went from one state to another: numbers as E-Ray's CCSV.POCS, words as
+// bus/poc_text.cc. A node that begins integrated has not changed its state.
+struct StateChanged {
+  Stamp stamp;                       // global time as the node has it in the new state
+  std::uint8_t from = 0, to = 0;
+  std::string_view from_name, to_name;
+  std::string_view why;              // one sentence without the final stop
+  std::string_view consequence;      // why start-up went this way and not another; empty where there is but one
+};
+
+// A symbol on one channel, as its sender sent it.
+inline constexpr std::uint8_t kSymbolCas = 1;         // collision avoidance symbol
+inline constexpr std::uint8_t kSymbolWakeup = 2;      // a wake-up pattern
+inline constexpr std::uint8_t kSymbolMediaTest = 3;   // media access test symbol
+struct SymbolSent {
+  Stamp stamp;                       // start of transmission
+  Stamp end{};
+  std::uint8_t channel = 0;          // 0 A, 1 B
+  std::uint8_t kind = kSymbolCas;
+};
+
+// A node's supply came or went. Nothing of a node is left while it is off.
+struct PowerChanged {
+  Stamp stamp;                       // off: by the clocks it had until then
+  bool on = true;
+};
+
+// What a fault of the run's fault plan does: known to who injects it, not to any node. It acts once or many times, between its
+// begin and its end.
+inline constexpr std::uint8_t kFaultBegins = 1;
+inline constexpr std::uint8_t kFaultActs = 2;
+inline constexpr std::uint8_t kFaultEnds = 3;
+struct FaultActivity {
+  TrueTime at{};
+  std::uint32_t fault = 0;           // index in the plan
+  std::uint8_t what = kFaultBegins;
+  NodeId node = kNoNode;             // the faulty node, kNoNode for the medium's faults
+  std::string_view kind;             // as the plan names it, "babbling_idiot"
+  std::string_view text;             // one sentence
+};
+
 // Largest difference between any two nodes' global times within a double cycle: seen by the simulator, which belongs to no
 // node, so its true time is all there is.
 struct PrecisionSample {
@@ -252,6 +293,10 @@ class Sink {
   virtual void on(const FeatureUsed&) {}
   virtual void on(const ReferenceFix&) {}
   virtual void on(const TruthState&) {}
+  virtual void on(const StateChanged&) {}
+  virtual void on(const SymbolSent&) {}
+  virtual void on(const PowerChanged&) {}
+  virtual void on(const FaultActivity&) {}
 };
 
 }  // namespace ttf::records

@@ -28,6 +28,10 @@ class Tee final : public Sink {
   void on(const FeatureUsed& record) override { pass(record); }
   void on(const ReferenceFix& record) override { pass(record); }
   void on(const TruthState& record) override { pass(record); }
+  void on(const StateChanged& record) override { pass(record); }
+  void on(const SymbolSent& record) override { pass(record); }
+  void on(const PowerChanged& record) override { pass(record); }
+  void on(const FaultActivity& record) override { pass(record); }
 
  private:
   template <class Record>

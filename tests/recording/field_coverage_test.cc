@@ -36,10 +36,12 @@ class Fill {
   }
 
  private:
-  // Disposition and hop are small choices, an object's status has four bits; everything else takes the next number.
+  // Dispositions, hops, symbols and what a fault does are small choices, an object's status has four bits; everything else
+  // takes the next number.
   std::uint32_t whole(const FieldDescriptor& field) {
     const bool small = field.name() == "disposition" || field.name() == "hop" ||
-                       field.full_name() == "ttfusion.ImageObject.status";
+                       field.full_name() == "ttfusion.ImageObject.status" ||
+                       field.full_name() == "ttfusion.Symbol.kind" || field.full_name() == "ttfusion.Fault.what";
     return small ? 3 : ++next_;
   }
   void set(Message& message, const FieldDescriptor& field) {
@@ -101,6 +103,10 @@ class Again final : public records::Sink {
   void on(const records::FeatureUsed& r) override { again(r); }
   void on(const records::ReferenceFix& r) override { again(r); }
   void on(const records::TruthState& r) override { again(r); }
+  void on(const records::StateChanged& r) override { again(r); }
+  void on(const records::SymbolSent& r) override { again(r); }
+  void on(const records::PowerChanged& r) override { again(r); }
+  void on(const records::FaultActivity& r) override { again(r); }
 
  private:
   template <class Record>
@@ -204,6 +210,10 @@ TEST(LogFields, ARecordHasAsManyFieldsAsItsPayload) {
   expect_same_fields<records::FeatureUsed, ttfusion::Feature>(fields_of<records::FeatureObject>() - 1);
   expect_same_fields<records::ReferenceFix, ttfusion::Reference>();
   expect_same_fields<records::TruthState, ttfusion::Truth>();
+  expect_same_fields<records::StateChanged, ttfusion::StateChange>();
+  expect_same_fields<records::SymbolSent, ttfusion::Symbol>();
+  expect_same_fields<records::PowerChanged, ttfusion::Power>();
+  expect_same_fields<records::FaultActivity, ttfusion::Fault>();
 }
 
 }  // namespace

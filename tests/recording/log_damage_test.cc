@@ -29,7 +29,7 @@ Result read(std::string_view bytes) {
 const std::string& small_log() {
   static const std::string bytes = log_of([](records::Sink& sink) {
     for (std::uint32_t i = 0; i < 36; ++i)
-      emit(sink, static_cast<int>(i * 7 % kRecordKinds) + 1, Values::kDrawn, i, std::int64_t{i} * 30'000'000);
+      emit(sink, kind_of(i), Values::kDrawn, i, std::int64_t{i} * 30'000'000);
   });
   return bytes;
 }

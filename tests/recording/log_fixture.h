@@ -5,6 +5,7 @@
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <numeric>
 #include <string>
 
 #include <unistd.h>
@@ -45,10 +46,17 @@ inline LogManifest sample_manifest() {
   return manifest;
 }
 
+// The kinds in turn, not in their order, all of them.
+inline int kind_of(std::uint32_t i) {
+  constexpr std::size_t kStride = 8;
+  static_assert(std::gcd(kStride, kRecordKinds) == 1);
+  return static_cast<int>(i * kStride % kRecordKinds) + 1;
+}
+
 // `count` drawn records of all kinds, one per millisecond.
 inline void emit_drive(records::Sink& sink, std::uint32_t count) {
   for (std::uint32_t i = 0; i < count; ++i)
-    emit(sink, static_cast<int>(i * 7 % kRecordKinds) + 1, Values::kDrawn, i, std::int64_t{i} * 1'000'000);
+    emit(sink, kind_of(i), Values::kDrawn, i, std::int64_t{i} * 1'000'000);
 }
 
 inline std::string log_of(const std::function<void(records::Sink&)>& drive) {

@@ -20,6 +20,8 @@ class Line {
   Line& add(const T& value) {
     if constexpr (std::is_same_v<T, double>)
       text_ += fmt::format(" {:016x}", std::bit_cast<std::uint64_t>(value));
+    else if constexpr (std::is_same_v<T, std::string_view>)
+      text_ += fmt::format(" \"{}\"", value);
     else if constexpr (std::is_enum_v<T>)
       text_ += fmt::format(" {}", static_cast<std::int64_t>(value));
     else if constexpr (std::is_arithmetic_v<T>)
@@ -83,6 +85,8 @@ class Draw {
       return number();
     else if constexpr (std::is_same_v<T, std::byte>)
       return static_cast<std::byte>(stream_.bits());
+    else if constexpr (std::is_same_v<T, std::string>)
+      return words();
     else if constexpr (std::is_enum_v<T>)
       return static_cast<T>(get<std::underlying_type_t<T>>());
     else if constexpr (std::is_same_v<T, MeasurementId>)
@@ -129,6 +133,12 @@ class Draw {
   }
 
  private:
+  // Printable, for text in the log is UTF-8.
+  std::string words() {
+    std::string text;
+    for (const std::uint8_t letter : list<std::uint8_t>(300)) text += static_cast<char>(' ' + letter % 95);
+    return text;
+  }
   double number() {
     using Limits = std::numeric_limits<double>;
     switch (values_) {
@@ -210,6 +220,17 @@ void TextSink::on(const records::TruthState& r) {
                        r.length, r.width, r.local, r.global, r.node));
 }
 
+void TextSink::on(const records::StateChanged& r) {
+  lines.push_back(line("state", r.stamp, r.from, r.to, r.from_name, r.to_name, r.why, r.consequence));
+}
+void TextSink::on(const records::SymbolSent& r) {
+  lines.push_back(line("symbol", r.stamp, r.end, r.channel, r.kind));
+}
+void TextSink::on(const records::PowerChanged& r) { lines.push_back(line("power", r.stamp, r.on)); }
+void TextSink::on(const records::FaultActivity& r) {
+  lines.push_back(line("fault", r.at, r.fault, r.what, r.node, r.kind, r.text));
+}
+
 void emit(records::Sink& sink, int kind, Values values, std::uint32_t index, std::int64_t at_ns) {
   Draw d(kind, values, index, at_ns);
   const auto stamp = d.get<records::Stamp>();
@@ -289,6 +310,21 @@ void emit(records::Sink& sink, int kind, Values values, std::uint32_t index, std
                                          d.get<double>(), d.get<double>(), d.get<double>(), d.get<double>(),
                                          d.get<double>(), d.get<double>(), d.get<double>(), d.get<LocalTime>(),
                                          d.get<GlobalTime>(), d.get<NodeId>()});
+    case 18: {
+      const auto words = d.fixed<std::string>(4);
+      return sink.on(records::StateChanged{stamp, d.get<U8>(), d.get<U8>(), words[0], words[1], words[2], words[3]});
+    }
+    case 19:
+      return sink.on(records::SymbolSent{stamp, d.get<records::Stamp>(), d.get<U8>(),
+                                         d.choice(records::kSymbolCas, records::kSymbolMediaTest)});
+    case 20:
+      return sink.on(records::PowerChanged{stamp, d.get<bool>()});
+    case 21: {
+      const auto words = d.fixed<std::string>(2);
+      return sink.on(records::FaultActivity{d.get<TrueTime>(), d.get<U32>(),
+                                            d.choice(records::kFaultBegins, records::kFaultEnds), d.get<NodeId>(),
+                                            words[0], words[1]});
+    }
   }
 }
 

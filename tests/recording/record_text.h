@@ -32,13 +32,17 @@ class TextSink final : public records::Sink {
   void on(const records::FeatureUsed&) override;
   void on(const records::ReferenceFix&) override;
   void on(const records::TruthState&) override;
+  void on(const records::StateChanged&) override;
+  void on(const records::SymbolSent&) override;
+  void on(const records::PowerChanged&) override;
+  void on(const records::FaultActivity&) override;
 };
 
 // What the drawn fields look like. kSmallest and kLargest: every field at that end of its type, lists empty
 // and long; kDrawn: anything, with times near `at`.
 enum class Values { kSmallest, kLargest, kZero, kDrawn };
 
-// One record of `kind` (1..17), a pure function of the arguments, to `sink`.
+// One record of `kind` (1..21), a pure function of the arguments, to `sink`.
 void emit(records::Sink& sink, int kind, Values values, std::uint32_t index, std::int64_t at_ns);
 
 }  // namespace ttf::recording
