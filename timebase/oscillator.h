@@ -6,19 +6,32 @@
 //   L1  ticks_at(time_of(k)) == k            for periods above 1 ns
 //   L2  time_of is strictly increasing, ticks_at is non-decreasing
 //   L3  time_of(k) - (phase + k * period) is in [0, 1) ns for every k
+//   L4  after change_drift(t, ...) nothing of the past is different: ticks_at of instants up to t and time_of of ticks up to
+//       ticks_at(t) are what they were. The tick that was under way comes as much earlier or later as the rest of its
+//       period demands, rounded up to an attosecond; L1 to L3 hold on, with another phase and period from there on
+//
+// Of the past one change is remembered: what lies before the last but one is as if the clock had always run as between
+// the two.
 #pragma once
 
 #include <cstdint>
 
+#include "core/int128.h"
 #include "core/time.h"
 
 namespace ttf::timebase {
 
 class Oscillator {
  public:
+  // What a faulty crystal may do; the specification's +-1'500 ppm is the schedule's business.
+  static constexpr std::int64_t kMaxDrift_ppb = 100'000'000;
+
   // nominal_period_ps: the microtick (12'500, 25'000, ...). drift_ppb: relative deviation of the frequency, positive is
-  // fast, within +-1'500'000. phase_ps: true time of tick 0, in [0, nominal period).
+  // fast, within +-kMaxDrift_ppb. phase_ps: true time of tick 0, in [0, nominal period).
   Oscillator(std::int64_t nominal_period_ps, std::int64_t drift_ppb, std::int64_t phase_ps);
+
+  // From `now` on the clock drifts by `drift_ppb`. `now` is never before an earlier change.
+  void change_drift(TrueTime now, std::int64_t drift_ppb);
 
   Microticks ticks_at(TrueTime t) const;      // ticks that have happened up to and including t
   TrueTime time_of(Microticks k) const;       // first nanosecond at or after tick k
@@ -26,9 +39,18 @@ class Oscillator {
   std::int64_t nominal_period_ps() const { return nominal_period_ps_; }
 
  private:
+  // phase + k * period, in attoseconds of true time.
+  struct Line {
+    std::int64_t period_as = 0;
+    Int128 phase_as = 0;
+    Microticks ticks_at(TrueTime t) const;
+    TrueTime time_of(Microticks k) const;
+  };
+
   std::int64_t nominal_period_ps_;
-  std::int64_t period_as_;
-  std::int64_t phase_as_;
+  Line line_, before_;                 // `before_` counts up to and including `changed_`
+  TrueTime changed_;
+  Microticks changed_tick_;            // before_.ticks_at(changed_)
 };
 
 }  // namespace ttf::timebase
