@@ -302,6 +302,8 @@ bus::IncomingList& Executive::incoming(const schedules::PortBinding& binding) {
   return binding.can_bus ? cans_[*binding.can_bus]->incoming(binding.pdu) : flexray_->incoming(binding.pdu);
 }
 
+void Executive::command(bus::PocEventKind command, Microticks now) { flexray_->command(command, now); }
+
 void Executive::receive(const bus::Reception& reception) { flexray_->receive(reception); }
 
 void Executive::receive_can(std::size_t can_bus, const bus::CanFrame& frame, Microticks now) {

@@ -4,13 +4,14 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "bus/controller.h"
 #include "core/ids.h"
 #include "core/time.h"
 #include "schedules/cluster.h"
-#include "sim/flexray_medium.h"
+#include "sim/crank.h"
 #include "timebase/oscillator.h"
 
 namespace ttf::sim {
@@ -19,49 +20,39 @@ namespace ttf::sim {
 struct BusNode {
   timebase::Oscillator oscillator;
   TrueTime power_on{};
+  // A node that begins integrated, with its supply from the start; `power_on` is not read then.
+  std::optional<bus::InitialClock> clock{};
+  // The schedule that this node believes in, with the same nodes and PDUs; null: the cluster's.
+  const schedules::Cluster* view = nullptr;
 };
 
-class BusSimulation {
+class BusSimulation final : public Crank {
  public:
   // `events`: one per node, told what its controller tells a host.
   BusSimulation(const schedules::Cluster& cluster, std::vector<BusNode> nodes,
                 std::vector<bus::ControllerEvents*> events);
-  ~BusSimulation();
+  ~BusSimulation() override;
 
-  // Everything up to and including `end`.
-  void run_until(TrueTime end);
-
-  TrueTime now() const { return now_; }
+  // Of a node without supply: in default config.
   bus::FlexRayController& controller(NodeId node) { return *controllers_[index_of(node)]; }
-  const timebase::Oscillator& oscillator(NodeId node) const { return nodes_[index_of(node)].oscillator; }
-  FlexRayMedium& medium() { return medium_; }
-  // Null: nothing goes wrong.
-  void set_disturbance(Disturbance* disturbance);
-  // The node loses its supply: nothing of it is left until it is powered on again (from `at` on).
-  void power_off(NodeId node);
-  void power_on(NodeId node, TrueTime at);
   // The largest difference between the global times of the nodes that are synchronised, now, from node `first` on. Their
   // cycle numbers may differ by whole rounds of the cycle counter; only the rest counts.
   Duration precision(NodeId first = NodeId{0}) const;
 
  private:
-  struct Port;
-  void refresh(std::size_t node);
-  void step_node(std::size_t node);
-  void deliver(const MediumEvent& event);
+  void start(std::size_t node, Microticks now) override;
+  void stop(std::size_t node) override;
+  Microticks next_event(std::size_t node) const override;
+  void advance(std::size_t node, Microticks now) override;
+  void receive(std::size_t node, const bus::Reception& reception) override;
+  void obey(std::size_t node, bus::PocEventKind command, Microticks now) override;
+  void happen(const MediumEvent& event) override;
+  void make_controller(std::size_t node);
 
-  const schedules::Cluster& cluster_;
-  std::vector<BusNode> nodes_;
+  std::vector<const schedules::Cluster*> views_;                           // these all by NodeId
   std::vector<bus::ControllerEvents*> events_;
-  MediumQueue queue_;
-  FramePool pool_;
-  FlexRayMedium medium_;
-  std::vector<std::unique_ptr<Port>> ports_;
+  std::vector<std::unique_ptr<CrankPort>> ports_;
   std::vector<std::unique_ptr<bus::FlexRayController>> controllers_;
-  std::vector<bool> powered_;
-  std::vector<TrueTime> next_;      // per node, its next own event
-  Disturbance* disturbance_ = nullptr;
-  TrueTime now_{};
 };
 
 }  // namespace ttf::sim

@@ -54,6 +54,7 @@ void CanMedium::arbitrate(TrueTime now) {
     event.flexible_data_rate = frame.flexible_data_rate;
     event.identifier = frame.identifier;
     event.frame = frame.frame;
+    event.sender = static_cast<std::uint8_t>(frame.sender);
     event.start = now;
     queue_.schedule(end, Phase::kArrival, event.node, event);
   }
@@ -66,6 +67,14 @@ void CanMedium::arbitrate(TrueTime now) {
     next.node = next.channel_or_bus = static_cast<std::uint8_t>(bus_);
     queue_.schedule(end, Phase::kArbitration, next.node, next);
   }
+}
+
+void CanMedium::power_off(NodeId node) {
+  std::erase_if(pending_, [&](const Pending& frame) {
+    if (frame.sender != node) return false;
+    for (std::size_t use = 0; use < nodes_.size(); ++use) pool_.release(frame.frame);
+    return true;
+  });
 }
 
 void CanMedium::report(const Pending& frame, TrueTime start, TrueTime end) {

@@ -6,12 +6,12 @@
 
 #include "core/check.h"
 #include "core/random.h"
+#include "sim/precision.h"
 
 namespace ttf::sim {
 namespace {
 
-constexpr TrueTime kNever{std::numeric_limits<std::int64_t>::max()};
-constexpr std::size_t kPendingEvents = 4096;
+constexpr std::int64_t kNoCycle = -1;
 
 timebase::Oscillator make_oscillator(const schedules::Node& node, std::size_t index, const SimulationConfig& config) {
   const auto entity = static_cast<std::uint16_t>(index);
@@ -35,20 +35,25 @@ bus::InitialClock integrated(const timebase::Oscillator& oscillator, const sched
   return clock;
 }
 
+void add(nodes::ExecutiveCounts& sum, const nodes::ExecutiveCounts& one) {
+  sum.overruns += one.overruns;
+  sum.deadlines_missed += one.deadlines_missed;
+  sum.torn_lists += one.torn_lists;
+  sum.overwritten_lists += one.overwritten_lists;
+  sum.discarded_lists += one.discarded_lists;
+  sum.slot_problems += one.slot_problems;
+  sum.saturated_signals += one.saturated_signals;
+  sum.refused_fragments += one.refused_fragments;
+}
+
 }  // namespace
 
-struct ClusterSimulation::FlexRayTap final : bus::FlexRayPort {
+struct ClusterSimulation::FlexRayTap final : CrankPort {
   ClusterSimulation& simulation;
-  NodeId node;
-  FlexRayTap(ClusterSimulation& s, NodeId n) : simulation(s), node(n) {}
+  FlexRayTap(ClusterSimulation& s, NodeId n) : CrankPort(s, n), simulation(s) {}
   void transmit(const bus::Transmission& transmission) override {
     simulation.frames_sent_ += transmission.signal == bus::Signal::kFrame ? 1 : 0;
-    const timebase::Oscillator& oscillator = simulation.nodes_[index_of(node)]->oscillator();
-    simulation.flexray_.transmit(node, transmission, oscillator.time_of(transmission.start),
-                                 oscillator.time_of(transmission.end));
-  }
-  bool carrier(schedules::Channel channel) const override {
-    return simulation.flexray_.carrier(node, channel, simulation.now_);
+    CrankPort::transmit(transmission);
   }
 };
 
@@ -57,7 +62,7 @@ struct ClusterSimulation::CanTap final : bus::CanPort {
   NodeId node;
   std::size_t bus;
   CanTap(ClusterSimulation& s, NodeId n, std::size_t b) : simulation(s), node(n), bus(b) {}
-  void send(const bus::CanFrame& frame) override { simulation.cans_[bus]->send(node, simulation.now_, frame); }
+  void send(const bus::CanFrame& frame) override { simulation.cans_[bus]->send(node, simulation.now(), frame); }
 };
 
 // The medium says that a frame began; its sender reports it when it has left. Both instants are looked up on the sender's
@@ -84,19 +89,21 @@ struct ClusterSimulation::CanLog final : records::Sink {
     MediumEvent event;
     event.kind = MediumEvent::Kind::kCanSent;
     event.node = static_cast<std::uint8_t>(sender);
+    event.sender = event.node;
     event.channel_or_bus = began.bus;
+    event.start = began.start.true_time;
     simulation.queue_.schedule(began.end.true_time, Phase::kArrival, event.node, event);
   }
 };
 
 ClusterSimulation::ClusterSimulation(const SimulationConfig& config, records::Sink& sink)
-    : cluster_(*config.cluster),
+    : Crank(*config.cluster),
+      config_(config),
       sink_(sink),
-      queue_(kPendingEvents),
-      pool_(kPendingEvents),
-      flexray_(cluster_, queue_, pool_),
+      can_ports_(cluster_.nodes.size(), std::vector<bus::CanPort*>(cluster_.can_buses.size())),
       can_log_(std::make_unique<CanLog>(*this, cluster_.can_buses.size())),
-      watched_cycle_(cluster_.nodes.size(), -1) {
+      nodes_(cluster_.nodes.size()),
+      watched_cycle_(cluster_.nodes.size(), kNoCycle) {
   std::vector<std::vector<bool>> on_can(cluster_.can_buses.size(), std::vector<bool>(cluster_.nodes.size()));
   for (std::size_t n = 0; n < cluster_.nodes.size(); ++n)
     for (const schedules::Task& task : cluster_.nodes[n].tasks)
@@ -112,95 +119,95 @@ ClusterSimulation::ClusterSimulation(const SimulationConfig& config, records::Si
   for (std::size_t n = 0; n < cluster_.nodes.size(); ++n) {
     const schedules::Node& node = cluster_.nodes[n];
     const auto id = static_cast<NodeId>(n);
-    const timebase::Oscillator oscillator = make_oscillator(node, n, config);
-    nodes::ExecutiveConfig executive{config.cluster, id, oscillator, std::nullopt, config.seed, config.replication,
-                                     oscillator.ticks_at(kFirstCycle)};
-    bus::FlexRayPort* port = nullptr;
-    if (node.flexray) {
-      executive.clock = integrated(oscillator, cluster_, node);
-      flexray_taps_.push_back(std::make_unique<FlexRayTap>(*this, id));
-      port = flexray_taps_.back().get();
-    }
-    std::vector<bus::CanPort*> ports(cluster_.can_buses.size(), nullptr);
-    for (std::size_t b = 0; b < ports.size(); ++b)
+    flexray_taps_.push_back(node.flexray ? std::make_unique<FlexRayTap>(*this, id) : nullptr);
+    for (std::size_t b = 0; b < cluster_.can_buses.size(); ++b)
       if (on_can[b][n]) {
         can_taps_.push_back(std::make_unique<CanTap>(*this, id, b));
-        ports[b] = can_taps_.back().get();
+        can_ports_[n][b] = can_taps_.back().get();
       }
-    nodes_.push_back(std::make_unique<nodes::Executive>(executive, config.make_steps(id), port, ports,
-                                                        static_cast<nodes::SensorLines&>(*this), sink_));
-    next_.push_back(kNever);
+    const std::optional<TrueTime> power_on = config_.power_on ? config_.power_on(id) : std::nullopt;
+    const timebase::Oscillator crystal = make_oscillator(node, n, config);
+    seat(crystal, power_on);
+    if (power_on) continue;
+    make_node(n, node.flexray ? std::optional(integrated(crystal, cluster_, node)) : std::nullopt,
+              crystal.ticks_at(kFirstCycle));
     refresh(n);
   }
 }
 
 ClusterSimulation::~ClusterSimulation() = default;
 
-void ClusterSimulation::refresh(std::size_t node) {
-  const Microticks next = nodes_[node]->next_event();
-  const bool never = next.value == std::numeric_limits<std::int64_t>::max();
-  next_[node] = never ? kNever : std::max(now_, nodes_[node]->oscillator().time_of(next));
+void ClusterSimulation::make_node(std::size_t node, std::optional<bus::InitialClock> clock, Microticks power_on) {
+  const auto id = static_cast<NodeId>(node);
+  const schedules::Cluster* view = config_.view ? config_.view(id) : nullptr;
+  const nodes::ExecutiveConfig executive{view != nullptr ? view : &cluster_, id, oscillator(id), clock, config_.seed,
+                                         config_.replication, power_on};
+  nodes_[node] = std::make_unique<nodes::Executive>(executive, config_.make_steps(id), flexray_taps_[node].get(),
+                                                    can_ports_[node], static_cast<nodes::SensorLines&>(*this), sink_);
 }
 
-void ClusterSimulation::run_until(TrueTime end) {
-  while (true) {
-    const auto earliest = static_cast<std::size_t>(std::min_element(next_.begin(), next_.end()) - next_.begin());
-    const bool node_is_due = queue_.empty() || EventOrder{next_[earliest], Phase::kNode,
-                                                          static_cast<std::uint8_t>(earliest), 0, 0} < queue_.next();
-    const TrueTime time = node_is_due ? next_[earliest] : queue_.next().time;
-    if (time > end || time == kNever) break;
-    TTF_CHECK(time >= now_, "time goes back from {} to {} ns", now_.ns, time.ns);
-    now_ = time;
-    if (node_is_due)
-      step_node(earliest);
-    else
-      deliver(queue_.pop());
-  }
-  now_ = std::max(now_, end);
+void ClusterSimulation::start(std::size_t node, Microticks now) { make_node(node, std::nullopt, now); }
+
+void ClusterSimulation::stop(std::size_t node) {
+  add(gone_, nodes_[node]->counts());
+  nodes_[node].reset();
+  watched_cycle_[node] = kNoCycle;
+  for (auto& can : cans_) can->power_off(static_cast<NodeId>(node));
 }
 
-void ClusterSimulation::step_node(std::size_t node) {
-  nodes::Executive& executive = *nodes_[node];
-  executive.advance(executive.oscillator().ticks_at(now_));
+Microticks ClusterSimulation::next_event(std::size_t node) const { return nodes_[node]->next_event(); }
+
+void ClusterSimulation::advance(std::size_t node, Microticks now) {
+  nodes_[node]->advance(now);
   watch_cycle(node);
-  refresh(node);
 }
 
-void ClusterSimulation::deliver(const MediumEvent& event) {
+void ClusterSimulation::receive(std::size_t node, const bus::Reception& reception) { nodes_[node]->receive(reception); }
+void ClusterSimulation::obey(std::size_t node, bus::PocEventKind command, Microticks now) {
+  nodes_[node]->command(command, now);
+}
+void ClusterSimulation::drifts(std::size_t node) { nodes_[node]->drift(oscillator(static_cast<NodeId>(node))); }
+
+const nodes::Executive& ClusterSimulation::node(NodeId id) const {
+  TTF_CHECK(powered(id), "{} is without supply", cluster_.node(id).name);
+  return *nodes_[index_of(id)];
+}
+
+// Whether those it needs have been there all the time.
+bool ClusterSimulation::arrives(const MediumEvent& event) const {
+  const bool on_can = event.kind == MediumEvent::Kind::kCanArrival || event.kind == MediumEvent::Kind::kCanSent;
+  if (!is_powered(event.node)) return false;
+  if (!on_can) return true;
+  return is_powered(event.sender) && powered_since(event.sender) <= event.start && powered_since(event.node) <= event.start;
+}
+
+void ClusterSimulation::happen(const MediumEvent& event) {
   // These two are not at a node.
-  if (event.kind == MediumEvent::Kind::kCanArbitration) return cans_[event.channel_or_bus]->arbitrate(now_);
+  if (event.kind == MediumEvent::Kind::kCanArbitration) return cans_[event.channel_or_bus]->arbitrate(now());
   if (event.kind == MediumEvent::Kind::kObservation) return observe();
-  nodes::Executive& executive = *nodes_[event.node];
-  const timebase::Oscillator& oscillator = executive.oscillator();
+  const std::size_t node = event.node;
+  const bool arrives = this->arrives(event);
   switch (event.kind) {
-    case MediumEvent::Kind::kFlexRayArrival:
-      if (const auto arrival = flexray_.arrive(event, now_)) {
-        bus::Reception reception{arrival->channel, arrival->signal, oscillator.ticks_at(arrival->start),
-                                 oscillator.ticks_at(arrival->end), {}};
-        if (arrival->signal == bus::Signal::kFrame) reception.frame = flexray_.frame(*arrival);
-        executive.receive(reception);
-        flexray_.release(*arrival);
-      }
-      break;
     case MediumEvent::Kind::kCanArrival:
-      executive.receive_can(event.channel_or_bus,
-                            {event.identifier, event.flexible_data_rate, pool_.bytes(event.frame)},
-                            oscillator.ticks_at(now_));
+      if (arrives)
+        nodes_[node]->receive_can(event.channel_or_bus,
+                                  {event.identifier, event.flexible_data_rate, pool_.bytes(event.frame)}, ticks(node));
       pool_.release(event.frame);
       break;
     case MediumEvent::Kind::kStrobe:
-      executive.strobe(static_cast<SensorId>(event.sensor), event.identifier, oscillator.ticks_at(now_));
+      if (arrives) nodes_[node]->strobe(static_cast<SensorId>(event.sensor), event.identifier, ticks(node));
       break;
     case MediumEvent::Kind::kTrigger:
-      executive.trigger(static_cast<SensorId>(event.sensor), oscillator.ticks_at(now_));
+      if (arrives) nodes_[node]->trigger(static_cast<SensorId>(event.sensor), ticks(node));
       break;
     case MediumEvent::Kind::kCanSent:
-      executive.can_frame_sent(can_log_->in_flight[event.channel_or_bus].frame, oscillator.ticks_at(now_));
+      if (arrives) nodes_[node]->can_frame_sent(can_log_->in_flight[event.channel_or_bus].frame, ticks(node));
       return;
+    case MediumEvent::Kind::kFlexRayArrival:
     case MediumEvent::Kind::kCanArbitration:
     case MediumEvent::Kind::kObservation: return;
   }
-  refresh(event.node);
+  refresh(node);
 }
 
 void ClusterSimulation::trigger(SensorId sensor) {
@@ -208,7 +215,7 @@ void ClusterSimulation::trigger(SensorId sensor) {
   event.kind = MediumEvent::Kind::kTrigger;
   event.node = static_cast<std::uint8_t>(cluster_.sensor(sensor).device);
   event.sensor = static_cast<std::uint8_t>(sensor);
-  queue_.schedule(now_, Phase::kArrival, event.node, event);
+  queue_.schedule(now(), Phase::kArrival, event.node, event);
 }
 
 void ClusterSimulation::strobe(SensorId sensor, std::uint32_t sequence) {
@@ -217,7 +224,7 @@ void ClusterSimulation::strobe(SensorId sensor, std::uint32_t sequence) {
   event.node = static_cast<std::uint8_t>(cluster_.sensor(sensor).host);
   event.sensor = static_cast<std::uint8_t>(sensor);
   event.identifier = sequence;
-  queue_.schedule(now_, Phase::kArrival, event.node, event);
+  queue_.schedule(now(), Phase::kArrival, event.node, event);
 }
 
 // Looks at all clocks at the corners of this node's: where its cycle starts, and where its correction starts.
@@ -228,46 +235,45 @@ void ClusterSimulation::watch_cycle(std::size_t node) {
   const Microticks correction = clock->start_of(Macroticks{cluster_.flexray.gOffsetCorrectionStart});
   MediumEvent event;
   event.kind = MediumEvent::Kind::kObservation;
-  queue_.schedule(now_, Phase::kObserver, static_cast<std::uint8_t>(node), event);
-  queue_.schedule(std::max(now_, nodes_[node]->oscillator().time_of(correction)), Phase::kObserver,
+  queue_.schedule(now(), Phase::kObserver, static_cast<std::uint8_t>(node), event);
+  queue_.schedule(std::max(now(), nodes_[node]->oscillator().time_of(correction)), Phase::kObserver,
                   static_cast<std::uint8_t>(node), event);
 }
 
 void ClusterSimulation::observe() {
-  GlobalTime earliest{std::numeric_limits<std::int64_t>::max()}, latest{std::numeric_limits<std::int64_t>::min()};
-  std::int64_t cycle = std::numeric_limits<std::int64_t>::max();
+  ClockSpread spread(cluster_);
+  std::int64_t newest = kNoCycle;
   for (const auto& node : nodes_) {
-    const timebase::CycleClock* clock = node->clock();
+    const timebase::CycleClock* clock = node ? node->clock() : nullptr;
     if (clock == nullptr) continue;
-    const Microticks ticks = node->oscillator().ticks_at(now_);
-    if (ticks < clock->cycle_start()) return;   // before this node's first cycle
-    const GlobalTime global = clock->global_time(ticks);
-    earliest = std::min(earliest, global);
-    latest = std::max(latest, global);
-    cycle = std::min(cycle, clock->cycle());
+    const Microticks at = node->oscillator().ticks_at(now());
+    if (at < clock->cycle_start()) return;   // before this node's first cycle
+    spread.add(clock->global_time(at));
+    newest = std::max(newest, clock->cycle());
   }
-  precision_of_pair_ = std::max(precision_of_pair_, latest - earliest);
+  if (newest == kNoCycle) return;
+  // The oldest of the cycles that the nodes are in, as those count that have run the longest.
+  const int round = cluster_.flexray.gCycleCountMax + 1;
+  std::int64_t cycle = newest;
+  for (const auto& node : nodes_) {
+    const timebase::CycleClock* clock = node ? node->clock() : nullptr;
+    if (clock == nullptr) continue;
+    const std::int64_t behind = (newest - clock->cycle()) % round;
+    if (behind <= round / 2) cycle = std::min(cycle, newest - behind);
+  }
+  precision_of_pair_ = std::max(precision_of_pair_, spread.width());
   precision_ = std::max(precision_, precision_of_pair_);
-  if (cycle / 2 > reported_pair_) {
-    sink_.on(records::PrecisionSample{now_, cycle, precision_of_pair_});
-    reported_pair_ = cycle / 2;
-    precision_of_pair_ = {};
-  }
+  // Once the cluster has been started anew, its cycles count from 0 again.
+  if (cycle / 2 == reported_pair_) return;
+  sink_.on(records::PrecisionSample{now(), cycle, precision_of_pair_});
+  reported_pair_ = cycle / 2;
+  precision_of_pair_ = {};
 }
 
 nodes::ExecutiveCounts ClusterSimulation::counts() const {
-  nodes::ExecutiveCounts sum;
-  for (const auto& node : nodes_) {
-    const nodes::ExecutiveCounts& one = node->counts();
-    sum.overruns += one.overruns;
-    sum.deadlines_missed += one.deadlines_missed;
-    sum.torn_lists += one.torn_lists;
-    sum.overwritten_lists += one.overwritten_lists;
-    sum.discarded_lists += one.discarded_lists;
-    sum.slot_problems += one.slot_problems;
-    sum.saturated_signals += one.saturated_signals;
-    sum.refused_fragments += one.refused_fragments;
-  }
+  nodes::ExecutiveCounts sum = gone_;
+  for (const auto& node : nodes_)
+    if (node) add(sum, node->counts());
   return sum;
 }
 

@@ -1,12 +1,16 @@
 // The whole cluster in virtual time: one executive per node, the media between them, and true time, which only this
-// room knows. Single-threaded; everything that happens is ordered by sim/event_queue.h, so a run is a pure function of
-// its configuration.
+// room knows. A run is a pure function of its configuration (sim/crank.h).
+//
+// A node that loses its supply loses everything: its executive is dropped, and at power-on a new one is made, with steps made
+// anew. A CAN frame whose sender or receiver was without supply at any time since it began does not arrive; the bus is taken to
+// its end all the same.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/ids.h"
@@ -15,7 +19,7 @@
 #include "recording/records/records.h"
 #include "schedules/cluster.h"
 #include "sim/can_medium.h"
-#include "sim/flexray_medium.h"
+#include "sim/crank.h"
 
 namespace ttf::sim {
 
@@ -26,28 +30,32 @@ struct SimulationConfig {
   const schedules::Cluster* cluster = nullptr;
   std::uint64_t seed = 0;
   std::uint32_t replication = 0;
-  // The code of a node's tasks, in file order.
+  // The code of a node's tasks, in file order. Asked at the start, and again at every power-on.
   std::function<std::vector<std::shared_ptr<nodes::Step>>(NodeId)> make_steps;
+  // When the node is powered on, cold. Nothing, or no function: it begins integrated, and off FlexRay as if powered on at
+  // kFirstCycle.
+  std::function<std::optional<TrueTime>(NodeId)> power_on = {};
+  // The schedule that the node believes in, with the same nodes, tasks, PDUs and CANs. Null, or no function: the cluster's.
+  std::function<const schedules::Cluster*(NodeId)> view = {};
 };
 
-class ClusterSimulation final : private nodes::SensorLines {
+class ClusterSimulation final : public Crank, private nodes::SensorLines {
  public:
   ClusterSimulation(const SimulationConfig& config, records::Sink& sink);
   ~ClusterSimulation() override;
 
-  // Everything up to and including `end`.
-  void run_until(TrueTime end);
-
-  // The achieved precision so far: the largest difference between any two nodes' global times at one true instant. The
-  // difference is piecewise linear with corners at the nodes' cycle starts and correction starts; it is taken there.
+  // The achieved precision so far: the largest difference between any two nodes' global times at one true instant, but
+  // for whole rounds of the cycle counter (sim/precision.h). The difference is piecewise linear with corners at the nodes' cycle starts and correction starts; it is taken there.
   Duration precision() const { return precision_; }
-  const nodes::Executive& node(NodeId id) const { return *nodes_[index_of(id)]; }
-  nodes::ExecutiveCounts counts() const;       // summed over the nodes
+  // Of a node with supply.
+  const nodes::Executive& node(NodeId id) const;
+  // Summed over the nodes, those that have lost their supply included.
+  nodes::ExecutiveCounts counts() const;
   Duration can_busy(std::size_t bus) const { return cans_[bus]->busy(); }
   std::uint64_t frames_sent() const { return frames_sent_; }   // on FlexRay, each channel's
   // How long the busier channel has been taken.
   Duration flexray_busy() const {
-    return std::max(flexray_.busy(schedules::Channel::kA), flexray_.busy(schedules::Channel::kB));
+    return std::max(medium_.busy(schedules::Channel::kA), medium_.busy(schedules::Channel::kB));
   }
 
  private:
@@ -55,27 +63,32 @@ class ClusterSimulation final : private nodes::SensorLines {
   struct CanTap;
   struct CanLog;
 
+  void start(std::size_t node, Microticks now) override;
+  void stop(std::size_t node) override;
+  Microticks next_event(std::size_t node) const override;
+  void advance(std::size_t node, Microticks now) override;
+  void receive(std::size_t node, const bus::Reception& reception) override;
+  void obey(std::size_t node, bus::PocEventKind command, Microticks now) override;
+  void drifts(std::size_t node) override;
+  void happen(const MediumEvent& event) override;
+
   void trigger(SensorId sensor) override;
   void strobe(SensorId sensor, std::uint32_t sequence) override;
-  void deliver(const MediumEvent& event);
-  void step_node(std::size_t node);
-  void refresh(std::size_t node);
+  void make_node(std::size_t node, std::optional<bus::InitialClock> clock, Microticks power_on);
+  bool arrives(const MediumEvent& event) const;
   void observe();
   void watch_cycle(std::size_t node);
 
-  const schedules::Cluster& cluster_;
+  const SimulationConfig config_;
   records::Sink& sink_;
-  MediumQueue queue_;
-  FramePool pool_;
-  FlexRayMedium flexray_;
   std::vector<std::unique_ptr<CanMedium>> cans_;
-  std::vector<std::unique_ptr<FlexRayTap>> flexray_taps_;
+  std::vector<std::unique_ptr<FlexRayTap>> flexray_taps_;      // by NodeId, null off FlexRay
   std::vector<std::unique_ptr<CanTap>> can_taps_;
+  std::vector<std::vector<bus::CanPort*>> can_ports_;          // by NodeId and CAN, null where it is not on it
   std::unique_ptr<CanLog> can_log_;
-  std::vector<std::unique_ptr<nodes::Executive>> nodes_;
-  std::vector<TrueTime> next_;                 // per node, its next own event
-  std::vector<std::int64_t> watched_cycle_;    // per node, the cycle whose corners are being observed
-  TrueTime now_{};
+  std::vector<std::unique_ptr<nodes::Executive>> nodes_;       // by NodeId, null without supply
+  std::vector<std::int64_t> watched_cycle_;                    // per node, the cycle whose corners are being observed
+  nodes::ExecutiveCounts gone_;                                // counted by executives that are no more
   Duration precision_{};
   Duration precision_of_pair_{};
   std::int64_t reported_pair_ = 0;

@@ -25,6 +25,7 @@ FlexRayMedium::FlexRayMedium(const schedules::Cluster& cluster, MediumQueue& que
       pool_(pool),
       position_(cluster.nodes.size(), -1),
       lanes_(2 * cluster.nodes.size()),
+      sent_until_(2 * cluster.nodes.size()),
       min_delay_ps_(cluster.flexray.gdMinPropagationDelay_ps),
       max_delay_ps_(cluster.flexray.gdMaxPropagationDelay_ps) {
   int on_bus = 0;
@@ -50,6 +51,7 @@ void FlexRayMedium::transmit(NodeId sender, const bus::Transmission& transmissio
   Leaving signal{sender, transmission.channel, transmission.signal, start, end, transmission.bytes};
   if (disturbance_ != nullptr && !disturbance_->leaving(signal)) return;
   busy_[index_of(signal.channel)] += signal.end - signal.start;
+  sent_until_[lane_of(sender, signal.channel)] = signal.end;
   spread(signal, sender);
 }
 
@@ -79,13 +81,13 @@ void FlexRayMedium::spread(const Leaving& signal, std::optional<NodeId> sender) 
 
 void FlexRayMedium::put(NodeId receiver, NodeId sender, const Arrival& arrival) {
   Lane& pending = lane(receiver, arrival.channel);
-  Pending made{next_id_++, arrival, sender};
+  Pending made{next_id_++, arrival, sender, false};
   for (std::size_t i = 0; i < pending.size();) {
     if (!overlap(pending[i].arrival, made.arrival)) {
       ++i;
       continue;
     }
-    // Two become one: the event of the one that is taken out finds nothing any more.
+    // Two become one.
     const Arrival other = pending[i].arrival;
     const bool cas = other.signal == Signal::kCas && made.arrival.signal == Signal::kCas;
     release(other);
@@ -93,8 +95,8 @@ void FlexRayMedium::put(NodeId receiver, NodeId sender, const Arrival& arrival) 
     made.arrival.signal = cas ? Signal::kCas : Signal::kUndecodable;
     made.arrival.start = std::min(made.arrival.start, other.start);
     made.arrival.end = std::max(made.arrival.end, other.end);
-    pending[i] = pending.back();
-    pending.pop_back();
+    made.merged = true;
+    take_out(pending, i);
     i = 0;   // grown, it may reach what it did not reach before
   }
   TTF_CHECK(pending.size() < kLaneRoom, "{} signals on their way to one node", pending.size());
@@ -115,9 +117,44 @@ std::optional<FlexRayMedium::Arrival> FlexRayMedium::arrive(const MediumEvent& e
   if (found == pending.end()) return std::nullopt;
   const Arrival arrival = found->arrival;
   TTF_CHECK(arrival.end == now, "an arrival of {} ns at {} ns", arrival.end.ns, now.ns);
-  *found = pending.back();
-  pending.pop_back();
+  take_out(pending, static_cast<std::size_t>(found - pending.begin()));
   return arrival;
+}
+
+// The event of what is taken out finds nothing any more.
+void FlexRayMedium::take_out(Lane& pending, std::size_t index) {
+  pending[index] = pending.back();
+  pending.pop_back();
+}
+
+void FlexRayMedium::power_off(NodeId node, TrueTime now) {
+  if (position_[index_of(node)] < 0) return;
+  for (const Channel channel : {Channel::kA, Channel::kB}) {
+    Lane& incoming = lane(node, channel);
+    for (const Pending& one : incoming) release(one.arrival);
+    incoming.clear();
+    TrueTime& until = sent_until_[lane_of(node, channel)];
+    if (until > now) busy_[index_of(channel)] += now - until;
+    until = std::min(until, now);
+    for (const NodeId receiver : attached_[index_of(channel)]) {
+      Lane& pending = lane(receiver, channel);
+      const TrueTime cut = now + delay(node, receiver);
+      for (std::size_t i = 0; i < pending.size();) {
+        const Pending one = pending[i];
+        if (one.sender != node || one.merged || one.arrival.end <= cut) {
+          ++i;
+          continue;
+        }
+        release(one.arrival);
+        take_out(pending, i);
+        if (one.arrival.start >= cut) continue;
+        Arrival rest = one.arrival;
+        rest.signal = Signal::kUndecodable;
+        rest.end = cut;
+        put(receiver, node, rest);
+      }
+    }
+  }
 }
 
 void FlexRayMedium::release(const Arrival& arrival) {

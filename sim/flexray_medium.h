@@ -31,6 +31,9 @@ class FlexRayMedium {
   void transmit(NodeId sender, const bus::Transmission& transmission, TrueTime start, TrueTime end);
   // What comes out of nothing and reaches everybody on the channel at once; `source` is the sender where there is one.
   void emit(const Leaving& signal, std::optional<NodeId> source);
+  // The node has lost its supply at `now`: what it is sending ends there and becomes undecodable (what was drawn into
+  // another signal stays in it), and what is on its way to it vanishes.
+  void power_off(NodeId node, TrueTime now);
   // Whether something is arriving at the node at `now`.
   bool carrier(NodeId node, schedules::Channel channel, TrueTime now) const;
   Duration delay(NodeId from, NodeId to) const;
@@ -55,11 +58,14 @@ class FlexRayMedium {
     std::uint32_t id = 0;             // the queue's event carries it
     Arrival arrival;
     NodeId sender{};
+    bool merged = false;              // of several signals
   };
   using Lane = std::vector<Pending>;
   void spread(const Leaving& signal, std::optional<NodeId> sender);
   void put(NodeId receiver, NodeId sender, const Arrival& arrival);
-  Lane& lane(NodeId node, schedules::Channel channel) { return lanes_[2 * index_of(node) + index_of(channel)]; }
+  void take_out(Lane& pending, std::size_t index);
+  static std::size_t lane_of(NodeId node, schedules::Channel channel) { return 2 * index_of(node) + index_of(channel); }
+  Lane& lane(NodeId node, schedules::Channel channel) { return lanes_[lane_of(node, channel)]; }
 
   MediumQueue& queue_;
   FramePool& pool_;
@@ -67,6 +73,7 @@ class FlexRayMedium {
   std::vector<int> position_;                     // by NodeId, -1 off the bus
   std::vector<Lane> lanes_;                       // by NodeId and channel
   std::array<Duration, 2> busy_{};                // by channel
+  std::vector<TrueTime> sent_until_;              // by NodeId and channel
   int ends_ = 0;                                  // hops between the two ends of the line
   std::int64_t min_delay_ps_, max_delay_ps_;
   std::uint32_t next_id_ = 0;

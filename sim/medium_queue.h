@@ -18,6 +18,7 @@ struct MediumEvent {
   std::uint8_t node = 0;          // receiver, or sender of what was sent; the bus for an arbitration
   std::uint8_t channel_or_bus = 0;
   std::uint8_t sensor = 0;
+  std::uint8_t sender = 0;        // of a CAN frame
   bool flexible_data_rate = false;
   std::uint32_t identifier = 0;   // CAN identifier, or a measurement's sequence
   std::uint32_t frame = 0;        // in the pool; on FlexRay the medium's own number of the arrival

@@ -1,4 +1,6 @@
 // What a fault may do to the machinery of a run, beside what it does to signals (sim/disturbance.h). Every simulation is one.
+//
+// To be used from Disturbance::act() and while the simulation stands: never from within what a node does.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +20,8 @@ class Plant {
   // The node loses its supply, at once. Nothing of it is left; what is on its way to it finds nobody; what it is sending is cut
   // off, and nobody can make out what has left of it. Without supply a node stays so.
   virtual void power_off(NodeId node) = 0;
-  // A cold start of controller and host at `at`, not before now(); until then the node is without supply.
+  // A cold start of controller and host at `at`, not before now(); until then, and for a nanosecond at least, the node is
+  // without supply.
   virtual void power_on(NodeId node, TrueTime at) = 0;
   // The node's oscillator deviates by this from now on; ticks already counted stay. With or without supply: a crystal is what
   // it is.

@@ -1,0 +1,146 @@
+#include "sim/crank.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/check.h"
+
+namespace ttf::sim {
+namespace {
+
+constexpr TrueTime kNever{std::numeric_limits<std::int64_t>::max()};
+constexpr std::size_t kPendingEvents = 4096;
+
+}  // namespace
+
+Crank::Crank(const schedules::Cluster& cluster)
+    : cluster_(cluster), queue_(kPendingEvents), pool_(kPendingEvents), medium_(cluster, queue_, pool_) {
+  seats_.reserve(cluster.nodes.size());
+  next_.reserve(cluster.nodes.size());
+}
+
+void Crank::seat(const timebase::Oscillator& oscillator, std::optional<TrueTime> power_on) {
+  TTF_CHECK(seats_.size() < cluster_.nodes.size(), "{} nodes are all", seats_.size());
+  TTF_CHECK(!power_on || *power_on >= TrueTime{}, "power-on at {} ns", power_on->ns);
+  seats_.push_back({oscillator, !power_on, TrueTime{} - Duration{1}});
+  next_.push_back(power_on.value_or(kNever));
+}
+
+void Crank::set_disturbance(Disturbance* disturbance) {
+  disturbance_ = disturbance;
+  medium_.set_disturbance(disturbance);
+}
+
+void Crank::power_off(NodeId node) {
+  const std::size_t n = index_of(node);
+  next_[n] = kNever;
+  if (!seats_[n].powered) return;
+  seats_[n].powered = false;
+  seats_[n].since = now_;
+  stop(n);
+  medium_.power_off(node, now_);
+}
+
+void Crank::power_on(NodeId node, TrueTime at) {
+  TTF_CHECK(at >= now_, "power-on at {} ns, it is {} ns", at.ns, now_.ns);
+  power_off(node);
+  const std::size_t n = index_of(node);
+  next_[n] = std::max(at, seats_[n].since + Duration{1});
+}
+
+void Crank::change_drift(NodeId node, std::int64_t ppb) {
+  const std::size_t n = index_of(node);
+  seats_[n].oscillator.change_drift(now_, ppb);
+  if (!seats_[n].powered) return;
+  drifts(n);
+  refresh(n);
+}
+
+void Crank::command(NodeId node, bus::PocEventKind command) {
+  const std::size_t n = index_of(node);
+  if (!seats_[n].powered || !cluster_.node(node).flexray) return;
+  const Microticks at = ticks(n);
+  advance(n, at);
+  obey(n, command, at);
+  refresh(n);
+}
+
+void Crank::emit(const Leaving& signal, std::optional<NodeId> source) { medium_.emit(signal, source); }
+
+void Crank::refresh(std::size_t node) {
+  if (!seats_[node].powered) return;
+  const Microticks next = next_event(node);
+  const bool never = next.value == std::numeric_limits<std::int64_t>::max();
+  next_[node] = never ? kNever : std::max(now_, seats_[node].oscillator.time_of(next));
+}
+
+void Crank::run_until(TrueTime end) {
+  while (true) {
+    const auto earliest = static_cast<std::size_t>(std::min_element(next_.begin(), next_.end()) - next_.begin());
+    const bool node_is_due = queue_.empty() || EventOrder{next_[earliest], Phase::kNode,
+                                                          static_cast<std::uint8_t>(earliest), 0, 0} < queue_.next();
+    const TrueTime time = node_is_due ? next_[earliest] : queue_.next().time;
+    if (disturbance_ != nullptr && disturbance_->next() < time) {
+      if (disturbance_->next() > end) break;
+      now_ = std::max(now_, disturbance_->next());
+      disturbance_->act(now_);
+      continue;
+    }
+    if (time > end || time == kNever) break;
+    TTF_CHECK(time >= now_, "time goes back from {} to {} ns", now_.ns, time.ns);
+    now_ = time;
+    if (node_is_due) {
+      step(earliest);
+    } else {
+      const MediumEvent event = queue_.pop();
+      if (event.kind == MediumEvent::Kind::kFlexRayArrival)
+        arrive(event);
+      else
+        happen(event);
+    }
+  }
+  now_ = std::max(now_, end);
+}
+
+void Crank::step(std::size_t node) {
+  Seat& seat = seats_[node];
+  const Microticks at = seat.oscillator.ticks_at(now_);
+  if (!seat.powered) {
+    start(node, at);
+    seat.powered = true;
+    seat.since = now_;
+  }
+  advance(node, at);
+  refresh(node);
+}
+
+void Crank::arrive(const MediumEvent& event) {
+  const auto arrival = medium_.arrive(event, now_);
+  if (!arrival) return;
+  const Seat& seat = seats_[event.node];
+  if (seat.powered) {
+    bus::Reception reception{arrival->channel, arrival->signal, seat.oscillator.ticks_at(arrival->start),
+                             seat.oscillator.ticks_at(arrival->end), {}};
+    if (arrival->start < seat.since) {
+      reception.signal = bus::Signal::kUndecodable;
+      reception.start = seat.oscillator.ticks_at(seat.since);
+    } else if (arrival->signal == bus::Signal::kFrame) {
+      reception.frame = medium_.frame(*arrival);
+    }
+    receive(event.node, reception);
+    refresh(event.node);
+  }
+  medium_.release(*arrival);
+}
+
+void CrankPort::transmit(const bus::Transmission& transmission) {
+  const timebase::Oscillator& oscillator = crank_.oscillator(node_);
+  crank_.medium().transmit(node_, transmission, oscillator.time_of(transmission.start),
+                           oscillator.time_of(transmission.end));
+}
+
+bool CrankPort::carrier(schedules::Channel channel) const {
+  return crank_.medium().carrier(node_, channel, crank_.now());
+}
+
+}  // namespace ttf::sim

@@ -1,0 +1,100 @@
+// The crank in virtual time: the nodes' oscillators and supplies, the queue of what is to happen, and FlexRay between the
+// nodes. What a node is made of is the business of who derives from it: controllers alone (sim/bus_simulation.h) or whole
+// executives (sim/cluster_simulation.h).
+//
+// Single-threaded; everything that happens is ordered by sim/event_queue.h, a disturbance's own acts coming after all else of
+// their instant, so a run is a pure function of its configuration.
+//
+// A node that is powered on while signals are on their way to it hears the rest of them as activity that it cannot make out,
+// from the instant of its power-on.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "bus/flexray_port.h"
+#include "core/ids.h"
+#include "core/time.h"
+#include "schedules/cluster.h"
+#include "sim/flexray_medium.h"
+#include "sim/plant.h"
+#include "timebase/oscillator.h"
+
+namespace ttf::sim {
+
+class Crank : public Plant {
+ public:
+  // Everything up to and including `end`.
+  void run_until(TrueTime end);
+
+  TrueTime now() const final { return now_; }
+  void power_off(NodeId node) final;
+  void power_on(NodeId node, TrueTime at) final;
+  void change_drift(NodeId node, std::int64_t ppb) final;
+  void command(NodeId node, bus::PocEventKind command) final;
+  void emit(const Leaving& signal, std::optional<NodeId> source) final;
+
+  bool powered(NodeId node) const { return seats_[index_of(node)].powered; }
+  const timebase::Oscillator& oscillator(NodeId node) const { return seats_[index_of(node)].oscillator; }
+  FlexRayMedium& medium() { return medium_; }
+  // Null: nothing goes wrong.
+  void set_disturbance(Disturbance* disturbance);
+
+ protected:
+  explicit Crank(const schedules::Cluster& cluster);
+
+  // The next node's clock, to be called once per node in the order of their ids. Nothing: it has its supply already, and
+  // start() has been or will be called by who derives; refresh() when it can say what is next.
+  void seat(const timebase::Oscillator& oscillator, std::optional<TrueTime> power_on);
+  // The node's next event may be another one now.
+  void refresh(std::size_t node);
+  bool is_powered(std::size_t node) const { return seats_[node].powered; }
+  // What began to be sent before has not reached this node, nor was it sent by what is there now.
+  TrueTime powered_since(std::size_t node) const { return seats_[node].since; }
+  Microticks ticks(std::size_t node) const { return seats_[node].oscillator.ticks_at(now_); }
+
+  // What a node is made of. Never asked of a node without supply, but for start().
+  virtual void start(std::size_t node, Microticks now) = 0;    // a cold one
+  virtual void stop(std::size_t node) = 0;                     // nothing of it is left
+  virtual Microticks next_event(std::size_t node) const = 0;
+  virtual void advance(std::size_t node, Microticks now) = 0;
+  virtual void receive(std::size_t node, const bus::Reception& reception) = 0;
+  virtual void obey(std::size_t node, bus::PocEventKind command, Microticks now) = 0;
+  virtual void drifts(std::size_t node) { (void)node; }        // its oscillator is another one now
+  // What is no arrival on FlexRay.
+  virtual void happen(const MediumEvent& event) = 0;
+
+  const schedules::Cluster& cluster_;
+  MediumQueue queue_;
+  FramePool pool_;
+  FlexRayMedium medium_;
+
+ private:
+  struct Seat {
+    timebase::Oscillator oscillator;
+    bool powered = false;
+    TrueTime since{};                  // it is with or without supply
+  };
+  void step(std::size_t node);
+  void arrive(const MediumEvent& event);
+
+  std::vector<Seat> seats_;            // by NodeId
+  std::vector<TrueTime> next_;         // by NodeId, its next own event; without supply its power-on
+  Disturbance* disturbance_ = nullptr;
+  TrueTime now_{};
+};
+
+// The port of a node's controller on the simulated FlexRay.
+class CrankPort : public bus::FlexRayPort {
+ public:
+  CrankPort(Crank& crank, NodeId node) : crank_(crank), node_(node) {}
+  void transmit(const bus::Transmission& transmission) override;
+  bool carrier(schedules::Channel channel) const override;
+
+ private:
+  Crank& crank_;
+  NodeId node_;
+};
+
+}  // namespace ttf::sim
