@@ -19,12 +19,14 @@ struct Leaving {
   std::span<const std::byte> bytes;     // may be pointed elsewhere; used before the call returns to the sender
 };
 
-// The same on its last metre.
+// The same on its last metre. Through a guardian it has two: first to the coupler (receiver kNoNode), then from there to every
+// receiver; what was marginal about the signal, the coupler has made out one way or the other and sent on afresh.
 struct Arriving {
   NodeId sender{}, receiver{};
   schedules::Channel channel{};
   bus::Signal signal{};
   TrueTime start{}, end{};
+  bool regenerated = false;             // by the coupler: no fault of the sender can make receivers disagree about it
 };
 
 class Disturbance {

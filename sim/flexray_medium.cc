@@ -27,7 +27,8 @@ FlexRayMedium::FlexRayMedium(const schedules::Cluster& cluster, MediumQueue& que
       lanes_(2 * cluster.nodes.size()),
       sent_until_(2 * cluster.nodes.size()),
       min_delay_ps_(cluster.flexray.gdMinPropagationDelay_ps),
-      max_delay_ps_(cluster.flexray.gdMaxPropagationDelay_ps) {
+      max_delay_ps_(cluster.flexray.gdMaxPropagationDelay_ps),
+      star_(cluster.topology == schedules::Topology::kStar) {
   int on_bus = 0;
   for (std::size_t n = 0; n < cluster.nodes.size(); ++n) {
     if (!cluster.nodes[n].flexray) continue;
@@ -38,10 +39,20 @@ FlexRayMedium::FlexRayMedium(const schedules::Cluster& cluster, MediumQueue& que
   }
   ends_ = on_bus - 1;
   for (Lane& lane : lanes_) lane.reserve(kLaneRoom);
+  to_coupler_.reserve(kLaneRoom);
 }
+
+std::int64_t FlexRayMedium::branch_ps(NodeId node) const {
+  const int steps = 2 * ends_ - 1;   // of the two longest branches together
+  const std::int64_t longer = steps <= 0 ? 0 : (max_delay_ps_ - min_delay_ps_) * position_[index_of(node)] / steps;
+  return min_delay_ps_ / 2 + longer;
+}
+
+Duration FlexRayMedium::branch(NodeId node) const { return {(branch_ps(node) + 999) / 1000}; }
 
 Duration FlexRayMedium::delay(NodeId from, NodeId to) const {
   if (ends_ <= 0) return {};
+  if (star_) return {(branch_ps(from) + branch_ps(to) + 999) / 1000};
   const int hops = std::abs(position_[index_of(from)] - position_[index_of(to)]);
   const std::int64_t ps = min_delay_ps_ + (max_delay_ps_ - min_delay_ps_) * hops / ends_;
   return {(ps + 999) / 1000};
@@ -52,12 +63,23 @@ void FlexRayMedium::transmit(NodeId sender, const bus::Transmission& transmissio
   if (disturbance_ != nullptr && !disturbance_->leaving(signal)) return;
   busy_[index_of(signal.channel)] += signal.end - signal.start;
   sent_until_[lane_of(sender, signal.channel)] = signal.end;
-  spread(signal, sender);
+  if (coupler_[index_of(signal.channel)] != nullptr) return to_coupler(signal, start);
+  spread(signal, sender, false);
 }
 
-void FlexRayMedium::emit(const Leaving& signal, std::optional<NodeId> source) { spread(signal, source); }
+void FlexRayMedium::emit(const Leaving& signal, std::optional<NodeId> source) {
+  Coupler* coupler = coupler_[index_of(signal.channel)];
+  if (coupler == nullptr) return spread(signal, source, false);
+  if (source) {
+    Leaving from_branch = signal;
+    from_branch.sender = *source;
+    return to_coupler(from_branch, signal.start);
+  }
+  coupler->disturbed(signal);
+  spread(signal, source, false);
+}
 
-void FlexRayMedium::spread(const Leaving& signal, std::optional<NodeId> sender) {
+void FlexRayMedium::spread(const Leaving& signal, std::optional<NodeId> sender, bool regenerated) {
   const auto& attached = attached_[index_of(signal.channel)];
   const auto receivers = static_cast<int>(std::count_if(attached.begin(), attached.end(),
                                                         [&](NodeId node) { return node != sender; }));
@@ -66,9 +88,9 @@ void FlexRayMedium::spread(const Leaving& signal, std::optional<NodeId> sender) 
   if (signal.signal == Signal::kFrame) arrival.frame = pool_.put_frame(signal.channel, signal.bytes, receivers);
   for (const NodeId node : attached) {
     if (node == sender) continue;
-    const Duration on_the_way = sender ? delay(*sender, node) : Duration{};
+    const Duration on_the_way = regenerated ? branch(node) : sender ? delay(*sender, node) : Duration{};
     Arriving last{signal.sender, node, signal.channel, signal.signal, signal.start + on_the_way,
-                  signal.end + on_the_way};
+                  signal.end + on_the_way, regenerated};
     const bool arrives = disturbance_ == nullptr || disturbance_->arriving(last);
     arrival.channel = signal.channel;
     arrival.signal = last.signal;
@@ -77,6 +99,41 @@ void FlexRayMedium::spread(const Leaving& signal, std::optional<NodeId> sender) 
     if (signal.signal == Signal::kFrame && (!arrives || last.signal != Signal::kFrame)) pool_.release(arrival.frame);
     if (arrives) put(node, signal.sender, arrival);
   }
+}
+
+void FlexRayMedium::to_coupler(const Leaving& signal, TrueTime now) {
+  const Duration on_the_way = branch(signal.sender);
+  Arriving last{signal.sender, kNoNode, signal.channel, signal.signal, signal.start + on_the_way,
+                signal.end + on_the_way, false};
+  if (disturbance_ != nullptr && !disturbance_->arriving(last)) return;
+  Pending made{next_id_++, {signal.channel, last.signal, last.start, last.end, 0}, signal.sender, false};
+  if (last.signal == Signal::kFrame) made.arrival.frame = pool_.put_frame(signal.channel, signal.bytes, 1);
+  TTF_CHECK(to_coupler_.size() < kLaneRoom, "{} signals on their way to the couplers", to_coupler_.size());
+  to_coupler_.push_back(made);
+  MediumEvent event;
+  event.kind = MediumEvent::Kind::kFlexRayArrival;
+  event.at_coupler = true;
+  event.node = static_cast<std::uint8_t>(signal.sender);
+  event.channel_or_bus = static_cast<std::uint8_t>(signal.channel);
+  event.frame = made.id;
+  // Not in the past, wherever a disturbance has put it.
+  queue_.schedule(std::max(now, last.start), Phase::kArrival, event.node, event,
+                  static_cast<std::uint16_t>(index_of(signal.channel) << 8));
+}
+
+void FlexRayMedium::at_coupler(const MediumEvent& event) {
+  const auto found = std::find_if(to_coupler_.begin(), to_coupler_.end(),
+                                  [&](const Pending& one) { return one.id == event.frame; });
+  TTF_CHECK(found != to_coupler_.end(), "nothing on its way to the coupler is {}", event.frame);
+  const auto [id, arrived, sender, merged] = *found;
+  *found = to_coupler_.back();
+  to_coupler_.pop_back();
+  const bool is_frame = arrived.signal == Signal::kFrame;
+  Leaving signal{sender, arrived.channel, arrived.signal, arrived.start, arrived.end, {}};
+  if (is_frame) signal.bytes = pool_.bytes(arrived.frame);
+  if (coupler_[index_of(arrived.channel)]->pass(signal, is_frame ? &pool_.decoded(arrived.frame) : nullptr))
+    spread(signal, sender, true);
+  release(arrived);
 }
 
 void FlexRayMedium::put(NodeId receiver, NodeId sender, const Arrival& arrival) {
@@ -111,6 +168,10 @@ void FlexRayMedium::put(NodeId receiver, NodeId sender, const Arrival& arrival) 
 }
 
 std::optional<FlexRayMedium::Arrival> FlexRayMedium::arrive(const MediumEvent& event, TrueTime now) {
+  if (event.at_coupler) {
+    at_coupler(event);
+    return std::nullopt;
+  }
   Lane& pending = lane(static_cast<NodeId>(event.node), static_cast<Channel>(event.channel_or_bus));
   const auto found =
       std::find_if(pending.begin(), pending.end(), [&](const Pending& one) { return one.id == event.frame; });

@@ -3,6 +3,10 @@
 // A linear bus with the nodes equally spaced along it; the propagation delay between two nodes grows from
 // gdMinPropagationDelay (neighbours at no distance) to gdMaxPropagationDelay (the two ends). What leaves reaches everybody who
 // is attached to the channel; what overlaps at a receiver arrives there as one signal that nobody can make out.
+//
+// Or a star: every node on a branch of its own, each longer than the one before, the first of half gdMinPropagationDelay and the
+// last two together of gdMaxPropagationDelay. Without a coupler in its middle a star forwards everything, and is a bus but
+// for the delays.
 #pragma once
 
 #include <array>
@@ -14,6 +18,7 @@
 #include "core/ids.h"
 #include "core/time.h"
 #include "schedules/cluster.h"
+#include "sim/coupler.h"
 #include "sim/disturbance.h"
 #include "sim/frame_pool.h"
 #include "sim/medium_queue.h"
@@ -26,6 +31,8 @@ class FlexRayMedium {
 
   // Null: nothing goes wrong.
   void set_disturbance(Disturbance* disturbance) { disturbance_ = disturbance; }
+  // In the middle of a star; null: it forwards everything.
+  void set_coupler(schedules::Channel channel, Coupler* coupler) { coupler_[index_of(channel)] = coupler; }
 
   // What a node sends: `start`, `end`: true times of the first and last bit at the sender.
   void transmit(NodeId sender, const bus::Transmission& transmission, TrueTime start, TrueTime end);
@@ -37,10 +44,12 @@ class FlexRayMedium {
   // Whether something is arriving at the node at `now`.
   bool carrier(NodeId node, schedules::Channel channel, TrueTime now) const;
   Duration delay(NodeId from, NodeId to) const;
+  // Of a star: from the node to the coupler, or back.
+  Duration branch(NodeId node) const;
   // How long the channel has been taken by what nodes sent so far.
   Duration busy(schedules::Channel channel) const { return busy_[index_of(channel)]; }
 
-  // What an arrival of the queue brings: nothing where it was drawn into another signal. The frame stays valid until
+  // What an arrival of the queue brings: nothing where it was drawn into another signal, or where it is one at a coupler. The frame stays valid until
   // release() is called with the same arrival.
   struct Arrival {
     schedules::Channel channel{};
@@ -61,7 +70,10 @@ class FlexRayMedium {
     bool merged = false;              // of several signals
   };
   using Lane = std::vector<Pending>;
-  void spread(const Leaving& signal, std::optional<NodeId> sender);
+  std::int64_t branch_ps(NodeId node) const;
+  void spread(const Leaving& signal, std::optional<NodeId> sender, bool regenerated);
+  void to_coupler(const Leaving& signal, TrueTime now);
+  void at_coupler(const MediumEvent& event);
   void put(NodeId receiver, NodeId sender, const Arrival& arrival);
   void take_out(Lane& pending, std::size_t index);
   static std::size_t lane_of(NodeId node, schedules::Channel channel) { return 2 * index_of(node) + index_of(channel); }
@@ -77,6 +89,9 @@ class FlexRayMedium {
   int ends_ = 0;                                  // hops between the two ends of the line
   std::int64_t min_delay_ps_, max_delay_ps_;
   std::uint32_t next_id_ = 0;
+  bool star_;
+  std::array<Coupler*, 2> coupler_{};             // by channel
+  std::vector<Pending> to_coupler_;               // signals that have not begun there yet
   Disturbance* disturbance_ = nullptr;
 };
 

@@ -20,6 +20,7 @@ struct MediumEvent {
   std::uint8_t sensor = 0;
   std::uint8_t sender = 0;        // of a CAN frame
   bool flexible_data_rate = false;
+  bool at_coupler = false;        // a FlexRay arrival not at a node but at the star coupler, from that node
   std::uint32_t identifier = 0;   // CAN identifier, or a measurement's sequence
   std::uint32_t frame = 0;        // in the pool; on FlexRay the medium's own number of the arrival
   TrueTime start{};               // of a CAN frame
