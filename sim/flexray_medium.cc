@@ -63,18 +63,14 @@ void FlexRayMedium::transmit(NodeId sender, const bus::Transmission& transmissio
   if (disturbance_ != nullptr && !disturbance_->leaving(signal)) return;
   busy_[index_of(signal.channel)] += signal.end - signal.start;
   sent_until_[lane_of(sender, signal.channel)] = signal.end;
-  if (coupler_[index_of(signal.channel)] != nullptr) return to_coupler(signal, start);
+  if (coupler_[index_of(signal.channel)] != nullptr) return to_coupler(signal, sender, start);
   spread(signal, sender, false);
 }
 
 void FlexRayMedium::emit(const Leaving& signal, std::optional<NodeId> source) {
   Coupler* coupler = coupler_[index_of(signal.channel)];
   if (coupler == nullptr) return spread(signal, source, false);
-  if (source) {
-    Leaving from_branch = signal;
-    from_branch.sender = *source;
-    return to_coupler(from_branch, signal.start);
-  }
+  if (source) return to_coupler(signal, *source, signal.start);
   coupler->disturbed(signal);
   spread(signal, source, false);
 }
@@ -101,19 +97,18 @@ void FlexRayMedium::spread(const Leaving& signal, std::optional<NodeId> sender, 
   }
 }
 
-void FlexRayMedium::to_coupler(const Leaving& signal, TrueTime now) {
-  const Duration on_the_way = branch(signal.sender);
-  Arriving last{signal.sender, kNoNode, signal.channel, signal.signal, signal.start + on_the_way,
-                signal.end + on_the_way, false};
+void FlexRayMedium::to_coupler(const Leaving& signal, NodeId sender, TrueTime now) {
+  const Duration on_the_way = branch(sender);
+  Arriving last{sender, kNoNode, signal.channel, signal.signal, signal.start + on_the_way, signal.end + on_the_way, false};
   if (disturbance_ != nullptr && !disturbance_->arriving(last)) return;
-  Pending made{next_id_++, {signal.channel, last.signal, last.start, last.end, 0}, signal.sender, false};
+  Pending made{next_id_++, {signal.channel, last.signal, last.start, last.end, 0}, sender, false};
   if (last.signal == Signal::kFrame) made.arrival.frame = pool_.put_frame(signal.channel, signal.bytes, 1);
   TTF_CHECK(to_coupler_.size() < kLaneRoom, "{} signals on their way to the couplers", to_coupler_.size());
   to_coupler_.push_back(made);
   MediumEvent event;
   event.kind = MediumEvent::Kind::kFlexRayArrival;
   event.at_coupler = true;
-  event.node = static_cast<std::uint8_t>(signal.sender);
+  event.node = static_cast<std::uint8_t>(sender);
   event.channel_or_bus = static_cast<std::uint8_t>(signal.channel);
   event.frame = made.id;
   // Not in the past, wherever a disturbance has put it.

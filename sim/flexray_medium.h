@@ -72,7 +72,7 @@ class FlexRayMedium {
   using Lane = std::vector<Pending>;
   std::int64_t branch_ps(NodeId node) const;
   void spread(const Leaving& signal, std::optional<NodeId> sender, bool regenerated);
-  void to_coupler(const Leaving& signal, TrueTime now);
+  void to_coupler(const Leaving& signal, NodeId sender, TrueTime now);
   void at_coupler(const MediumEvent& event);
   void put(NodeId receiver, NodeId sender, const Arrival& arrival);
   void take_out(Lane& pending, std::size_t index);
