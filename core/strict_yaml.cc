@@ -282,6 +282,45 @@ std::vector<YamlMap> YamlMap::maps_if(std::string_view key) {
   return has(key) ? maps(key) : std::vector<YamlMap>{};
 }
 
+std::vector<YamlMap::Entry> YamlMap::entries(std::string_view key) {
+  content_->asked.emplace(key);
+  const YAML::Node node = child(content_->node, key);
+  std::vector<Entry> list;
+  if (!node.IsDefined() || !node.IsSequence() || node.size() == 0) {
+    fail(key, node.IsDefined() ? "must be a list with at least one entry"
+                               : "is missing: must be a list with at least one entry");
+    return list;
+  }
+  std::size_t number = 0;
+  for (const auto& item : node) {
+    std::string path = fmt::format("{}[{}]", key_path(key), number++);
+    if (item.IsScalar())
+      list.push_back({item.Scalar(), std::move(path), line_of(item)});
+    else
+      findings_->add({content_->file, line_of(item), std::move(path), "", "must be a plain value"});
+  }
+  return list;
+}
+
+std::vector<std::string> YamlMap::texts(std::string_view key) {
+  std::vector<std::string> list;
+  for (Entry& entry : entries(key)) list.push_back(std::move(entry.text));
+  return list;
+}
+
+std::vector<std::int64_t> YamlMap::integers(std::string_view key, Range<std::int64_t> allowed, std::string_view unit) {
+  const std::string expected = range_text(allowed, unit, "a whole number");
+  std::vector<std::int64_t> list;
+  for (const Entry& entry : entries(key)) {
+    const auto value = parse_number<std::int64_t>(entry.text);
+    if (value && allowed.contains(*value))
+      list.push_back(*value);
+    else
+      findings_->add({content_->file, entry.line, entry.path, entry.text, expected});
+  }
+  return list;
+}
+
 std::vector<std::pair<std::string, YamlMap>> YamlMap::named_maps(std::string_view key) {
   YamlMap outer = map(key);
   std::vector<std::pair<std::string, YamlMap>> list;

@@ -69,6 +69,9 @@ class YamlMap {
   std::optional<YamlMap> map_if(std::string_view key);
   std::vector<YamlMap> maps(std::string_view key);            // a sequence of mappings
   std::vector<YamlMap> maps_if(std::string_view key);         // the same, empty when the key is absent
+  // A sequence with at least one entry; what is wrong with one is a finding about key[i], and it is left out.
+  std::vector<std::string> texts(std::string_view key);
+  std::vector<std::int64_t> integers(std::string_view key, Range<std::int64_t> allowed, std::string_view unit = "");
   std::vector<std::pair<std::string, YamlMap>> named_maps(std::string_view key);  // name: {...}, in file order
   std::vector<std::pair<std::string, std::string>> named_texts(std::string_view key);  // name: text, in file order
 
@@ -87,6 +90,11 @@ class YamlMap {
   YamlMap(std::shared_ptr<Content> content, std::string path, Findings* findings);
   std::size_t choice_index(std::string_view key, const std::vector<std::string_view>& names);
   std::string key_path(std::string_view key) const;
+  struct Entry {
+    std::string text, path;
+    int line = 0;
+  };
+  std::vector<Entry> entries(std::string_view key);
   std::optional<std::string> scalar(std::string_view key, std::string_view expected);
 
   std::shared_ptr<Content> content_;

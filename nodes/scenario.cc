@@ -80,6 +80,7 @@ Scenario read_scenario(const StrictYaml& yaml) {
     scenario.feature = load_feature(*feature);
     feature->finish();
   }
+  scenario.faults = load_fault_plan(root, scenario.duration);
   root.finish();
   findings.throw_if_any();
   return scenario;

@@ -11,6 +11,7 @@
 #include "fusion/strategy.h"
 #include "fusion/tracker_config.h"
 #include "nodes/camera/triangulation.h"
+#include "nodes/fault_plan.h"
 #include "nodes/feature_service.h"
 #include "nodes/laser/laser_preprocessor.h"
 #include "nodes/recorded.h"
@@ -40,6 +41,7 @@ struct Scenario {
   fusion::TrackerConfig tracker;
   RecordedNoise recorded_noise;
   FeatureConfig feature;
+  FaultPlan faults;                 // names as written: resolve() looks them up in the cluster of the drive
 };
 
 // Throws InputError with every finding in the file. The clusters it names are not opened here.
