@@ -8,24 +8,21 @@
 
 #include "core/int128.h"
 #include "schedules/clock_bounds.h"
+#include "schedules/limits.h"
+#include "schedules/wire_times.h"
 
 namespace ttf::schedules {
 namespace {
 
-// FlexRay 2.1A, annex B: cClockDeviationMax = 0.0015, as parts of 10000; cdCAS and cChannelIdleDelimiter in gdBit; and
-// a bus driver's longest reaction from idle to activity (electrical physical layer 2.1A, dBDRxai).
-constexpr std::int64_t kDeviation = 15, kWhole = 10'000;
-constexpr std::int64_t kCasBits = 30, kIdleDelimiterBits = 11;
+// FlexRay 2.1A, annex B: cdCAS in gdBit; and a bus driver's longest reaction from idle to activity (electrical physical
+// layer 2.1A, dBDRxai).
+constexpr std::int64_t kCasBits = 30;
 constexpr std::int64_t kDriverReaction_ps = 400'000;
-constexpr int kMostSlots = 2047;          // cSlotIDMax
-
-std::int64_t ceil_div(Int128 a, Int128 b) { return static_cast<std::int64_t>((a + b - 1) / b); }
 
 // 2 gdActionPointOffset + ceil((bits gdBitMax + delays) / (gdMacrotick (1 - cClockDeviationMax))).
 std::int64_t around_action_points(const GlobalParameters& g, std::int64_t bits, std::int64_t extra_ps) {
-  const Int128 time = static_cast<Int128>(bits) * g.gdBit_ps * (kWhole + kDeviation) +
-                      static_cast<Int128>(g.gdMinPropagationDelay_ps + g.gdMaxPropagationDelay_ps + extra_ps) * kWhole;
-  return 2 * g.gdActionPointOffset + ceil_div(time, static_cast<Int128>(g.gdMacrotick_ps) * (kWhole - kDeviation));
+  const Int128 time = longest_bits(g, bits) + scaled(g.gdMinPropagationDelay_ps + g.gdMaxPropagationDelay_ps + extra_ps);
+  return 2 * g.gdActionPointOffset + ceil_div(time, shortest_macroticks(g, 1));
 }
 
 // What an offset correction can take from the macroticks behind gOffsetCorrectionStart, in the shortest cycle that rate
@@ -80,8 +77,7 @@ void check_cycle(const Cluster& cluster, ClusterFindings& findings) {
     findings.parameter(fmt::format("flexray.{}", name), fmt::format("{}", value), expected);
   };
   // Constraint 18.
-  const int difference = g.gNumberOfMinislots == 0
-                             ? 0 : std::max(0, g.gdActionPointOffset - g.gdMinislotActionPointOffset);
+  const int difference = action_point_difference(g);
   const int sum = g.gdStaticSlot * g.gNumberOfStaticSlots + difference + g.gdMinislot * g.gNumberOfMinislots +
                   g.gdSymbolWindow + g.gdNIT;
   if (sum != g.gMacroPerCycle)
@@ -122,9 +118,9 @@ void check_cycle(const Cluster& cluster, ClusterFindings& findings) {
                       g.gMacroPerCycle - 1));
   if (static_cast<Int128>(g.gdBit_ps) * g.baudrate != 1'000'000'000'000)
     wrong("baudrate", g.baudrate, fmt::format("must be 1 / gdBit, with gdBit = {}", us(g.gdBit_ps)));
-  if (g.gNumberOfStaticSlots + g.gNumberOfMinislots > kMostSlots)
+  if (g.gNumberOfStaticSlots + g.gNumberOfMinislots > kLastSlot)
     wrong("gNumberOfMinislots", g.gNumberOfMinislots,
-          fmt::format("must be at most {}: frame ids end at {}", kMostSlots - g.gNumberOfStaticSlots, kMostSlots));
+          fmt::format("must be at most {}: frame ids end at {}", kLastSlot - g.gNumberOfStaticSlots, kLastSlot));
   if (g.gMaxWithoutClockCorrectionFatal < g.gMaxWithoutClockCorrectionPassive)
     wrong("gMaxWithoutClockCorrectionFatal", g.gMaxWithoutClockCorrectionFatal,
           fmt::format("must be {}..15: not below gMaxWithoutClockCorrectionPassive",
@@ -135,6 +131,30 @@ void check_cycle(const Cluster& cluster, ClusterFindings& findings) {
   if (g.gNumberOfMinislots > 0 && g.gdMinislotActionPointOffset >= g.gdMinislot)
     wrong("gdMinislotActionPointOffset", g.gdMinislotActionPointOffset,
           fmt::format("must be below gdMinislot = {} macroticks", g.gdMinislot));
+}
+
+// The key slot is the node's own, static, on all its channels, in every cycle. Where the node sends in nothing else until its
+// host commands ALL_SLOTS, it must have nothing else to send: no host gives that command on its own.
+void check_key_slot(const Cluster& cluster, NodeId id, ClusterFindings& findings) {
+  const Node& node = cluster.node(id);
+  const NodeParameters& p = *node.flexray;
+  const FrameSlot* other = nullptr;
+  bool owns = false;
+  for (const FrameSlot& frame : cluster.frames) {
+    if (frame.sender != id) continue;
+    owns |= frame.slot == p.pKeySlotId && frame.repetition == 1 && frame.channels == p.pChannels &&
+            !is_dynamic(cluster.flexray, frame);
+    if (frame.slot != p.pKeySlotId && other == nullptr) other = &frame;
+  }
+  if (!owns)
+    findings.parameter(fmt::format("nodes.{}.flexray.pKeySlotId", node.name), fmt::format("{}", p.pKeySlotId),
+                       fmt::format("must be a static slot that {} owns on {} in every cycle", node.name,
+                                   p.pChannels == Channels::kAB ? "both channels" : "its channel"));
+  if (p.pKeySlotOnlyEnabled && other != nullptr)
+    findings.parameter(fmt::format("nodes.{}.flexray.pKeySlotOnlyEnabled", node.name), "true",
+                       fmt::format("must be false: {} also has slot {} (line {}), but would send in its key slot only until "
+                                   "a host commands ALL_SLOTS",
+                                   node.name, other->slot, other->line));
 }
 
 void check_clocks(const Cluster& cluster, ClusterFindings& findings) {
@@ -195,16 +215,10 @@ void check_clocks(const Cluster& cluster, ClusterFindings& findings) {
             fmt::format("must be at most gNumberOfMinislots = {}", g.gNumberOfMinislots));
     if (p.pKeySlotUsedForStartup && !p.pKeySlotUsedForSync)
       wrong("pKeySlotUsedForStartup", "true", "needs pKeySlotUsedForSync: a startup frame is a sync frame");
-    // Single-slot mode ends with a host's command after start-up, and nodes begin as if started up.
-    if (p.pKeySlotOnlyEnabled)
-      wrong("pKeySlotOnlyEnabled", "true", "must be false: nodes send in all their slots from the first cycle on");
-    const bool owns = std::any_of(cluster.frames.begin(), cluster.frames.end(), [&](const FrameSlot& frame) {
-      return frame.slot == p.pKeySlotId && frame.sender == static_cast<NodeId>(n) && frame.repetition == 1 &&
-             frame.channels == Channels::kAB;
-    });
-    if (!owns)
-      wrong("pKeySlotId", text(p.pKeySlotId),
-            fmt::format("must be a slot that {} owns on both channels in every cycle", node.name));
+    if (!includes(p.pChannels, p.pWakeupChannel))
+      wrong("pWakeupChannel", p.pWakeupChannel == Channel::kA ? "A" : "B",
+            fmt::format("must be a channel that {} is attached to (pChannels = {})", node.name, channels_text(p.pChannels)));
+    check_key_slot(cluster, static_cast<NodeId>(n), findings);
   }
   if (controllers < 2)
     findings.parameter("nodes", fmt::format("{}", controllers), "must have at least 2 nodes on FlexRay");
@@ -223,6 +237,7 @@ std::vector<Finding> check(const Cluster& cluster) {
   check_cycle(cluster, findings);
   check_clocks(cluster, findings);
   check_slots(cluster, findings);
+  check_dynamic(cluster, findings);
   check_can(cluster, findings);
   check_tasks(cluster, findings);
   check_flow(cluster, findings);

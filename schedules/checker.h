@@ -5,8 +5,10 @@
 //                macrotick, microtick and bit against each other (FlexRay 2.1A, annex B)
 //   star         a guardian sits in a star
 //   clocks       sync and startup nodes, key slots, correction limits against the drifts the file allows
-//   slots        nobody owns a slot another owns in the same cycle and channel; payload fits, behind the network
-//                management vector where the frame carries it; a PDU's fragments complete
+//   slots        nobody owns a slot another owns in the same cycle and channel; a sender is attached to the
+//                frame's channels; payload fits, behind the network management vector where the frame carries it; a PDU's
+//                fragments complete
+//   dynamic      minislots that all clocks count alike, frames that end within the segment (schedules/minislots.h)
 //   CAN          frames fit, identifiers are unique, worst-case load, responses within periods (schedules/can_load.h)
 //   tasks        no overlap, deadlines with every wait for other tasks, an end before the next activation
 //                (schedules/responses.h)
@@ -51,7 +53,9 @@ std::string ms(Duration duration);
 
 void check_cycle(const Cluster& cluster, ClusterFindings& findings);
 void check_clocks(const Cluster& cluster, ClusterFindings& findings);
+void check_key_slot(const Cluster& cluster, NodeId node, ClusterFindings& findings);   // of a node with a controller
 void check_slots(const Cluster& cluster, ClusterFindings& findings);
+void check_dynamic(const Cluster& cluster, ClusterFindings& findings);   // after check_slots()
 void check_can(const Cluster& cluster, ClusterFindings& findings);
 void check_tasks(const Cluster& cluster, ClusterFindings& findings);
 // A node whose tasks passed check_tasks(): deadlines with other tasks' turns, and what its lists promise on CANs.

@@ -46,6 +46,21 @@ std::optional<NodeId> sender_of(const Cluster& cluster, const Medium& medium) {
   return std::nullopt;
 }
 
+// A reader on FlexRay is attached to a channel of every frame of the list.
+void check_hears(const Cluster& cluster, const End& end, const std::string& name, ClusterFindings& findings) {
+  const Node& node = cluster.node(end.node);
+  if (!node.flexray)
+    return findings.at(end.binding->line, end_path(cluster, end, "reads"), name, "needs a node on FlexRay");
+  for (const FrameSlot& frame : cluster.frames) {
+    if (frame.pdu != end.binding->pdu || share_a_channel(frame.channels, node.flexray->pChannels)) continue;
+    return findings.at(end.binding->line, end_path(cluster, end, "reads"), name,
+                       fmt::format("must be sent on {}: {} is attached to no other channel (pChannels), and slot {} (line {}) "
+                                   "is on {} only",
+                                   channels_text(node.flexray->pChannels), node.name, frame.slot, frame.line,
+                                   channels_text(frame.channels)));
+  }
+}
+
 void check_sensor(const Cluster& cluster, SensorId id, ClusterFindings& findings) {
   const Sensor& sensor = cluster.sensor(id);
   const std::string path = "sensors." + sensor.name;
@@ -135,8 +150,7 @@ void check_flow(const Cluster& cluster, ClusterFindings& findings) {
       else if (sender_of(cluster, medium) == end.node)
         findings.at(end.binding->line, end_path(cluster, end, "reads"), name,
                     "is sent by the same node: a controller does not hear itself");
-      if (medium.second < 0 && !cluster.node(end.node).flexray)
-        findings.at(end.binding->line, end_path(cluster, end, "reads"), name, "needs a node on FlexRay");
+      if (medium.second < 0) check_hears(cluster, end, name, findings);
     }
   for (const auto& [medium, ends] : writers) {
     const std::string name = medium_name(cluster, medium);

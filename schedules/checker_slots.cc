@@ -1,4 +1,4 @@
-// The checker's rules about who sends what when: static slots and private CANs.
+// The checker's rules about who sends what when: slots and private CANs.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,16 +13,6 @@
 
 namespace ttf::schedules {
 namespace {
-
-bool share_a_cycle(const FrameSlot& a, const FrameSlot& b) {
-  // Repetitions are powers of two, so the longer one is a multiple of the shorter.
-  const int shorter = std::min(a.repetition, b.repetition);
-  return a.base_cycle % shorter == b.base_cycle % shorter;
-}
-
-bool share_a_channel(const FrameSlot& a, const FrameSlot& b) {
-  return (static_cast<unsigned>(a.channels) & static_cast<unsigned>(b.channels)) != 0;
-}
 
 // The frames of one list in the cycles of one base and repetition, by slot.
 using Group = std::vector<const FrameSlot*>;
@@ -65,6 +55,7 @@ void check_list(const Cluster& cluster, PduId pdu, ClusterFindings& findings) {
   Groups groups;
   int line = 0;
   const NodeId* sender = nullptr;
+  const FrameSlot* first = nullptr;
   for (const FrameSlot& frame : cluster.frames) {
     if (frame.pdu != pdu) continue;
     line = line == 0 ? frame.line : line;
@@ -78,6 +69,11 @@ void check_list(const Cluster& cluster, PduId pdu, ClusterFindings& findings) {
                   fmt::format("must be {}: all fragments of {} have one sender", cluster.node(*sender).name,
                               layout.name));
     if (!sender) sender = &frame.sender;
+    if (first == nullptr) first = &frame;
+    if (is_dynamic(cluster.flexray, frame) && !is_dynamic(cluster.flexray, *first))
+      findings.at(frame.line, key, fmt::format("{}", frame.slot),
+                  fmt::format("must be 1..{} (gNumberOfStaticSlots) as slot {} is: a list is sent in one segment",
+                              cluster.flexray.gNumberOfStaticSlots, first->slot));
     groups[{frame.base_cycle, frame.repetition}].push_back(&frame);
   }
   check_order(layout, groups, findings);
@@ -95,9 +91,30 @@ void check_list(const Cluster& cluster, PduId pdu, ClusterFindings& findings) {
   }
 }
 
+// A slot there is, and what its segment asks for.
+void check_segment(const Cluster& cluster, const FrameSlot& frame, const std::string& key, ClusterFindings& findings) {
+  const GlobalParameters& g = cluster.flexray;
+  if (frame.slot > g.gNumberOfStaticSlots + g.gNumberOfMinislots)
+    findings.at(frame.line, key, fmt::format("{}", frame.slot),
+                g.gNumberOfMinislots == 0
+                    ? fmt::format("must be 1..{} (gNumberOfStaticSlots)", g.gNumberOfStaticSlots)
+                    : fmt::format("must be 1..{} (gNumberOfStaticSlots and a dynamic one per minislot)",
+                                  g.gNumberOfStaticSlots + g.gNumberOfMinislots));
+  else if (is_dynamic(g, frame) && frame.pdu == kNoPdu)
+    findings.at(frame.line, key, cluster.node(frame.sender).name,
+                fmt::format("needs a PDU in the dynamic segment (slots above {}): without one there is never anything to send",
+                            g.gNumberOfStaticSlots));
+}
+
 // What the frame carries fits its payload: the fragment, behind the network management vector where there is one.
 void check_payload(const Cluster& cluster, const FrameSlot& frame, const std::string& key, ClusterFindings& findings) {
   const GlobalParameters& g = cluster.flexray;
+  if (is_dynamic(g, frame)) {
+    if (frame.network_management)
+      findings.at(frame.line, key, "network_management: true",
+                  fmt::format("needs a static slot, 1..{} (gNumberOfStaticSlots)", g.gNumberOfStaticSlots));
+    return;   // as long as its fragment
+  }
   const int payload = 2 * g.gPayloadLengthStatic;
   const PduLayout* layout = frame.pdu != kNoPdu ? &cluster.pdu(frame.pdu) : nullptr;
   const int fragment = layout != nullptr ? layout->fragment_bytes : 0;
@@ -119,22 +136,24 @@ void check_payload(const Cluster& cluster, const FrameSlot& frame, const std::st
 }  // namespace
 
 void check_slots(const Cluster& cluster, ClusterFindings& findings) {
-  const GlobalParameters& g = cluster.flexray;
   std::set<PduId> lists;
   for (std::size_t i = 0; i < cluster.frames.size(); ++i) {
     const FrameSlot& frame = cluster.frames[i];
     const std::string key = fmt::format("frames.slot {}", frame.slot);
     const Node& sender = cluster.node(frame.sender);
-    if (frame.slot > g.gNumberOfStaticSlots)
-      findings.at(frame.line, key, fmt::format("{}", frame.slot),
-                  fmt::format("must be 1..{} (gNumberOfStaticSlots)", g.gNumberOfStaticSlots));
-    if (!sender.flexray) findings.at(frame.line, key, sender.name, "must be a node with a FlexRay controller");
+    check_segment(cluster, frame, key, findings);
+    if (!sender.flexray)
+      findings.at(frame.line, key, sender.name, "must be a node with a FlexRay controller");
+    else if ((static_cast<unsigned>(frame.channels) & ~static_cast<unsigned>(sender.flexray->pChannels)) != 0)
+      findings.at(frame.line, key, fmt::format("{} on {}", sender.name, channels_text(frame.channels)),
+                  fmt::format("must be sent on {} only: {} is not attached to more (pChannels)",
+                              channels_text(sender.flexray->pChannels), sender.name));
     if (frame.pdu != kNoPdu) lists.insert(frame.pdu);
     check_payload(cluster, frame, key, findings);
     // Frames are ordered by slot, so the others of this one stand right before it. One owner too many is enough to say.
     for (std::size_t j = i; j-- > 0 && cluster.frames[j].slot == frame.slot;) {
       const FrameSlot& other = cluster.frames[j];
-      if (!share_a_channel(other, frame) || !share_a_cycle(other, frame)) continue;
+      if (!share_a_channel(other.channels, frame.channels) || !share_a_cycle(other, frame)) continue;
       findings.at(frame.line, key, fmt::format("{} on {}", sender.name, channels_text(frame.channels)),
                   fmt::format("is owned twice: {} on {} sends there in some of the same cycles (base {}, repetition {}; "
                               "line {})",

@@ -22,6 +22,12 @@ std::string_view channels_text(Channels channels) {
   return channels == Channels::kA ? "A" : channels == Channels::kB ? "B" : "AB";
 }
 
+bool share_a_cycle(const FrameSlot& a, const FrameSlot& b) {
+  // Repetitions are powers of two, so the longer one is a multiple of the shorter.
+  const int shorter = std::min(a.repetition, b.repetition);
+  return a.base_cycle % shorter == b.base_cycle % shorter;
+}
+
 bool continues(const FrameSlot& before, const FrameSlot& frame) {
   return frame.pdu != kNoPdu && frame.pdu == before.pdu && frame.slot == before.slot + 1 &&
          frame.fragment == before.fragment + 1 && frame.sender == before.sender &&

@@ -27,7 +27,9 @@ struct CycleInstant {
   Macroticks offset{0};
 };
 
-// Fragment `fragment` of a PDU (or a status frame without PDU, pdu == kNoPdu) in one static slot.
+// Fragment `fragment` of a PDU in one slot, or a status frame without PDU (pdu == kNoPdu). Static slots are
+// 1..gNumberOfStaticSlots, those above are dynamic. A dynamic frame always carries a PDU: it is sent when there is a list to
+// send, once per list, as long as its fragment (schedules/minislots.h).
 struct FrameSlot {
   int slot = 0;                 // frame id
   Channels channels = Channels::kAB;
@@ -41,6 +43,13 @@ struct FrameSlot {
   // and says so (payload preamble indicator); the fragment follows it.
   bool network_management = false;
 };
+
+constexpr bool is_dynamic(const GlobalParameters& flexray, const FrameSlot& frame) {
+  return frame.slot > flexray.gNumberOfStaticSlots;
+}
+// Whether both have their turn in some of the same cycles; whether some channel is in both sets.
+bool share_a_cycle(const FrameSlot& a, const FrameSlot& b);
+constexpr bool share_a_channel(Channels a, Channels b) { return (static_cast<unsigned>(a) & static_cast<unsigned>(b)) != 0; }
 
 // Whether `frame` is the next fragment of the same list in the next slot, otherwise like `before`.
 bool continues(const FrameSlot& before, const FrameSlot& frame);

@@ -73,7 +73,7 @@ struct NodeParameters {
   int pKeySlotId = 0;                   // 1..; every controller has a key slot (0, none, is of 3.0.1)
   bool pKeySlotUsedForStartup = false;
   bool pKeySlotUsedForSync = false;
-  bool pKeySlotOnlyEnabled = false;     // single-slot mode, before a host's ALL_SLOTS command; refused for now
+  bool pKeySlotOnlyEnabled = false;     // single-slot mode, before a host's ALL_SLOTS command
   int pClusterDriftDamping = 2;         // [uT]
   int pOffsetCorrectionOut = 0;         // [uT]
   int pRateCorrectionOut = 0;           // [uT]

@@ -10,6 +10,7 @@ inline constexpr std::size_t kMostNamed = 200;        // nodes, sensors, PDUs: i
 inline constexpr std::size_t kMostCans = 127;         // a record's bus is a signed byte, below zero for FlexRay
 inline constexpr std::size_t kMostTasks = 16;         // of a node
 inline constexpr int kLastStaticSlot = 1023;          // cStaticSlotIDMax
+inline constexpr int kLastSlot = 2047;                // cSlotIDMax
 inline constexpr int kMostFragments = 256;            // a fragment's number is a byte in records
 inline constexpr int kMostFragmentBytes = 254;        // cPayloadLengthMax, in two-byte words: 127
 

@@ -19,6 +19,8 @@ namespace {
 constexpr Duration kLongest = Duration::milliseconds(10'000);
 constexpr Range<Duration> kExecution{Duration::microseconds(1), kLongest};
 
+const Choices<Channels> kChannels{{"A", Channels::kA}, {"B", Channels::kB}, {"AB", Channels::kAB}};
+
 class Loader {
  public:
   Loader(const StrictYaml& file, Findings& findings) : root_(file.root(findings)) {
@@ -113,6 +115,11 @@ class Loader {
       local.*p.member = static_cast<int>(from(p.name).integer(p.name, {p.low, p.high}, p.unit));
     for (const auto& p : kNodeScaled)
       local.*p.member = from(p.name).scaled(p.name, p.scale, {p.low, p.high}, p.unit);
+    local.pChannels = from("pChannels").choice_or("pChannels", local.pChannels, kChannels);
+    // On its only channel, if it has but one.
+    local.pWakeupChannel = from("pWakeupChannel")
+                               .choice_or("pWakeupChannel", local.pChannels == Channels::kB ? Channel::kB : Channel::kA,
+                                          {{"A", Channel::kA}, {"B", Channel::kB}});
     for (const auto& p : kNodeFlags) local.*p.member = from(p.name).boolean(p.name);
     own.finish();
     return local;
@@ -317,9 +324,8 @@ class Loader {
   void load_frame(YamlMap& map) {
     FrameSlot frame;
     frame.line = map.line();
-    frame.slot = static_cast<int>(map.integer("slot", {1, kLastStaticSlot}));
-    frame.channels =
-        map.choice<Channels>("channels", {{"A", Channels::kA}, {"B", Channels::kB}, {"AB", Channels::kAB}});
+    frame.slot = static_cast<int>(map.integer("slot", {1, kLastSlot}));
+    frame.channels = map.choice("channels", kChannels);
     frame.sender = node(map, "sender");
     load_multiplexing(map, frame.base_cycle, frame.repetition);
     std::int64_t fragments = 1;
@@ -329,9 +335,10 @@ class Loader {
       frame.fragment = static_cast<int>(map.integer_or("first_fragment", 0, {0, kLastStaticSlot - 1}));
     }
     frame.network_management = map.boolean_or("network_management", false);
-    if (frame.slot + fragments - 1 > kLastStaticSlot) {
-      map.fail("fragments", fmt::format("must be at most {}: static slots end at {}", kLastStaticSlot - frame.slot + 1,
-                                        kLastStaticSlot));
+    const bool dynamic = is_dynamic(cluster_.flexray, frame);
+    if (const int last = dynamic ? kLastSlot : kLastStaticSlot; frame.slot + fragments - 1 > last) {
+      map.fail("fragments", fmt::format("must be at most {}: {} slots end at {}", last - frame.slot + 1,
+                                        dynamic ? "dynamic" : "static", last));
       fragments = 1;
     }
     map.finish();

@@ -6,6 +6,7 @@
 //   topology: bus|star                          how nodes are wired; bus if absent
 //   guardian: true                              the star has a guardian; false if absent
 //   flexray: {gColdStartAttempts: 8, ...}       global parameters; times in us, gdMaxMicrotick in ns
+//             pChannels (A, B or AB) and pWakeupChannel may be absent: AB, and A where the node is attached to it
 //   node_parameters: {pSamplesPerMicrotick: 2, ...}   what holds in every node that does not say otherwise
 //   pdus:   {NAME: {sensor, fragment_bytes, max_elements, elements_per_fragment, header: [...], element: [...]}}
 //             of signals {name, unit, bits, low, high, resolution}, all but name and bits optional
@@ -21,7 +22,8 @@
 // activation one of {kind: time, base_cycle, repetition, offset}, {kind: message, port}, {kind: sensor, sensor} and
 // {kind: completion, after}. Ports are bound as `port: PDU on flexray` or `port: PDU on NAME_OF_A_CAN`. Times carry their unit
 // (`2.5 ms`), offsets are macroticks. A frame entry with `fragments: n` stands for n consecutive slots with the fragments
-// first_fragment (0 if absent) and on; without `pdu` it is a status frame. With
+// first_fragment (0 if absent) and on; without `pdu` it is a status frame. Slots above
+// gNumberOfStaticSlots are dynamic. With
 // `network_management: true` each begins with the network management vector.
 //
 // At most 200 nodes, sensors and PDUs, 127 CANs, 16 tasks per node and 256 fragments per list: what records can number.
