@@ -24,6 +24,7 @@ class TimelineStrategy : public Strategy {
     report_.reserve(kMaxListedArrivals + kMaxPending);
     views_.reserve(static_cast<std::size_t>(config.max_objects));
     newest_.reserve(sensors_.size());
+    newest_stamps_.reserve(sensors_.size());
     newest_received_.resize(sensors_.size());
     any_received_.resize(sensors_.size());
     settled_.resize(sensors_.size());
@@ -34,8 +35,10 @@ class TimelineStrategy : public Strategy {
 
   void accept(const Scan& scan) final {
     const bool waiting = std::any_of(waiting_.begin(), waiting_.end(),
-                                     [&](std::size_t w) { return pending_[w].id == scan.id; });
-    if (waiting || timeline_.contains(scan.id)) {
+                                     [&](std::size_t w) {
+      return pending_[w].id == scan.id && pending_[w].measured == scan.measured;
+    });
+    if (waiting || timeline_.contains(scan.id, scan.measured)) {
       note_between({scan.id, scan.measured, Disposition::kDuplicate});
       return;
     }
@@ -79,7 +82,7 @@ class TimelineStrategy : public Strategy {
       free_.push_back(slot);
     }
     waiting_.resize(kept);
-    show();
+    show(now);
   }
 
   std::span<const FusedScan> last_fused() const final { return report_; }
@@ -88,15 +91,14 @@ class TimelineStrategy : public Strategy {
   std::span<const MeasurementId> newest() const final { return newest_; }
   GlobalTime newest_measured() const final { return timeline_.current().time; }
   int confirmed_count() const final { return static_cast<int>(views_.size()); }
-  int tentative_count() const final {
-    return static_cast<int>(timeline_.current().tracks.size()) - confirmed_count();
-  }
+  int tentative_count() const final { return tentative_; }
 
   void image(GlobalTime at, std::vector<TrackView>& out) const final {
     out.clear();
     const TrackSet& set = timeline_.current();
     for (const Track& track : set.tracks)
-      if (track.confirmed) out.push_back(view_of(track, set.time, at, config_));
+      if (track.confirmed && !given_up(track, set.time, at, config_))
+        out.push_back(view_of(track, set.time, at, config_));
   }
 
  protected:
@@ -145,18 +147,27 @@ class TimelineStrategy : public Strategy {
     if (disposition == Disposition::kDroppedTooOld) return result;
     const auto known = std::find_if(newest_.begin(), newest_.end(),
                                     [&](const MeasurementId& id) { return id.sensor == scan.id.sensor; });
-    if (known == newest_.end())
+    if (known == newest_.end()) {
       newest_.push_back(scan.id);
-    else if (scan.id.sequence > known->sequence)
+      newest_stamps_.push_back(scan.measured);
+    } else if (GlobalTime& stamp = newest_stamps_[static_cast<std::size_t>(known - newest_.begin())]; scan.measured > stamp) {
       *known = scan.id;
+      stamp = scan.measured;
+    }
     return result;
   }
 
-  void show() {
+  void show(GlobalTime now) {
     views_.clear();
+    tentative_ = 0;
     const TrackSet& set = timeline_.current();
-    for (const Track& track : set.tracks)
-      if (track.confirmed) views_.push_back(view_of(track, set.time, set.time, config_));
+    for (const Track& track : set.tracks) {
+      if (given_up(track, set.time, now, config_)) continue;
+      if (track.confirmed)
+        views_.push_back(view_of(track, set.time, set.time, config_));
+      else
+        ++tentative_;
+    }
   }
 
   TrackerConfig config_;
@@ -167,7 +178,9 @@ class TimelineStrategy : public Strategy {
   std::vector<FusedScan> report_, between_;  // between_: what happened since the last fusion instant
   std::uint64_t unlisted_ = 0;
   std::vector<TrackView> views_;
+  int tentative_ = 0;
   std::vector<MeasurementId> newest_;
+  std::vector<GlobalTime> newest_stamps_;  // of these
   std::vector<GlobalTime> newest_received_;
   std::vector<char> any_received_;
   std::vector<GlobalTime> settled_;  // by sensor, at the present fusion instant

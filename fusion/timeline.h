@@ -47,7 +47,8 @@ class Timeline {
   Insertion insert(const Scan& scan);
   // The newest tracks, confirmed ones with their ids.
   const TrackSet& current() const;
-  bool contains(const MeasurementId& id) const;
+  // Whether this measurement is in it: a sensor that restarts gives its numbers again, to other instants.
+  bool contains(const MeasurementId& id, GlobalTime measured) const;
 
  private:
   struct Entry {

@@ -41,6 +41,17 @@ Facing facing_of(const Estimate& estimate, const Scalar& axis) {
   return {course, std::sqrt(kUnknown)};
 }
 
+bool given_up(const Track& track, GlobalTime time, GlobalTime at, const TrackerConfig& config) {
+  at = std::max(at, time);
+  const Duration silent = at - track.newest.measured;
+  if (silent <= config.coast_after) return false;
+  if (silent > config.delete_after) return true;
+  Estimate estimate = track.estimate;
+  predict(estimate, config.motion, config.process_noise, (at - time).seconds());
+  const double largest = config.delete_position_sigma * config.delete_position_sigma;
+  return estimate.p(0, 0) > largest || estimate.p(1, 1) > largest;
+}
+
 TrackView view_of(const Track& track, GlobalTime time, GlobalTime at, const TrackerConfig& config) {
   Estimate estimate = track.estimate;
   const double dt = std::max(0.0, (at - time).seconds());
@@ -51,7 +62,7 @@ TrackView view_of(const Track& track, GlobalTime time, GlobalTime at, const Trac
   view.state = estimate.x;
   view.covariance = estimate.p;
   view.confirmed = track.confirmed;
-  view.coasting = track.misses >= config.coast_misses;
+  view.coasting = track.misses >= config.coast_misses || view.valid_at - track.newest.measured > config.coast_after;
 
   const double vx = estimate.x(2), vy = estimate.x(3);
   view.speed = std::hypot(vx, vy);

@@ -53,6 +53,7 @@ void Tracker::step(TrackSet& set, const Scan& scan) {
     set.time = scan.measured;
   }
   predict_all(set, scan.measured);
+  std::erase_if(set.tracks, [&](const Track& track) { return given_up(track, set.time, set.time, config_); });
   associate(set, scan);
   for (std::size_t t = 0; t < set.tracks.size(); ++t) {
     Track& track = set.tracks[t];
@@ -62,7 +63,7 @@ void Tracker::step(TrackSet& set, const Scan& scan) {
     track.misses = observation >= 0 ? 0 : track.misses + 1;
     if (observation >= 0) {
       const Observation& z = scan.observations[static_cast<std::size_t>(observation)];
-      track.newest = {scan.id, static_cast<std::uint16_t>(observation)};
+      track.newest = {scan.id, static_cast<std::uint16_t>(observation), scan.measured};
       correct(track, z, innovate(track.estimate, z));
     }
   }
@@ -150,7 +151,7 @@ void Tracker::give_birth(TrackSet& set, const Scan& scan) {
     if (columns[o] >= 0 || near_track_[o] || set.tracks.size() == max_tracks_) continue;
     const Observation& z = scan.observations[o];
     Track track;
-    track.birth = track.newest = {scan.id, static_cast<std::uint16_t>(o)};
+    track.birth = track.newest = {scan.id, static_cast<std::uint16_t>(o), scan.measured};
     track.estimate = initial_estimate(z, config_);
     if (z.has_heading) track.heading = {z.heading, z.sigma_heading * z.sigma_heading, true};
     correct_extent(track, z);

@@ -1,5 +1,5 @@
 // The multi-object tracker all strategies share: prediction, gating, global nearest neighbour, M-of-N
-// confirmation, deletion.
+// confirmation, deletion by scans that did not see a track, and by silence (given_up() in fusion/track.h).
 //
 // A step is a pure function of the tracks, the scan and the configuration; tracks are values, so that a
 // strategy can keep snapshots and go back. Heading and extent are random-walk filters beside the linear

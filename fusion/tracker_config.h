@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "core/strict_yaml.h"
+#include "core/time.h"
 
 namespace ttf::fusion {
 
@@ -25,6 +26,11 @@ struct TrackerConfig {
   int coast_misses = 3;
   int delete_misses = 8;               // scans in a row without an observation end a confirmed track
   double delete_position_sigma = 5.0;  // [m] so does this much uncertainty
+  // Where scans fail to come nothing counts them: a track is coasting, and ends, this long after its newest observation,
+  // too (given_up() in fusion/track.h). Above what a fault-free image shows of an object that only the slowest sensor sees,
+  // every other time; and as far ahead as a constant velocity is worth anything in traffic.
+  Duration coast_after = Duration::milliseconds(300);
+  Duration delete_after = Duration::milliseconds(1000);
   int max_objects = 25;                // confirmed tracks: what the image's list carries
   std::size_t history_scans = 64;      // how far back a late scan can be taken in
   double heading_noise = 0.05;         // spectral density of the heading's random walk [rad^2/s]

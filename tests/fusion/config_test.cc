@@ -33,7 +33,7 @@ TEST(TrackerConfig, ReadsEveryKey) {
       "motion: constant_acceleration\nprocess_noise: 2.5\ninitial_velocity_sigma: 11\n"
       "initial_acceleration_sigma: 3\ngate_probability: 0.99\nconfirm_hits: 2\nconfirm_window: 4\n"
       "delete_misses: 6\ndelete_position_sigma: 7\nmax_objects: 12\nhistory_scans: 16\nheading_noise: 0.5\n"
-      "extent_noise: 0.25\n");
+      "extent_noise: 0.25\ncoast_after: 120 ms\ndelete_after: 2 s\n");
   EXPECT_EQ(c.motion, MotionModel::kConstantAcceleration);
   EXPECT_EQ(c.process_noise, 2.5);
   EXPECT_EQ(c.initial_velocity_sigma, 11.0);
@@ -47,6 +47,8 @@ TEST(TrackerConfig, ReadsEveryKey) {
   EXPECT_EQ(c.history_scans, 16u);
   EXPECT_EQ(c.heading_noise, 0.5);
   EXPECT_EQ(c.extent_noise, 0.25);
+  EXPECT_EQ(c.coast_after, Duration::milliseconds(120));
+  EXPECT_EQ(c.delete_after, Duration::milliseconds(2'000));
 }
 
 TEST(TrackerConfig, AllMistakesAtOnce) {

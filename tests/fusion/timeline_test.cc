@@ -68,6 +68,7 @@ TEST(Timeline, ALateScanReopensAssociations) {
   config.initial_velocity_sigma = 2.0;
   config.process_noise = 4.0;
   config.delete_position_sigma = 50.0;
+  config.delete_after = Duration::milliseconds(2'000);
   Timeline timeline(config, 4);
   timeline.insert(scan(0, 0, at_ms(0), {position(0.0, 0.0, 0.1)}).view());
   timeline.insert(scan(0, 1, at_ms(2000), {position(18.5, 0.0, 0.1)}).view());
@@ -100,10 +101,10 @@ TEST(Timeline, HistoryHasAnEnd) {
   before_too_old.assign(timeline.current());
   EXPECT_EQ(timeline.insert(lanes_scan(1, 99, 199).view()), Timeline::Insertion::kTooOld);
   EXPECT_TRUE(same_bits(timeline.current(), before_too_old));
-  EXPECT_FALSE(timeline.contains({static_cast<SensorId>(1), 99}));
+  EXPECT_FALSE(timeline.contains({static_cast<SensorId>(1), 99}, at_ms(199)));
   EXPECT_EQ(timeline.insert(lanes_scan(1, 100, 201).view()), Timeline::Insertion::kLate);
   EXPECT_TRUE(same_bits(timeline.current(), in_order.current()));
-  EXPECT_TRUE(timeline.contains({static_cast<SensorId>(1), 100}));
+  EXPECT_TRUE(timeline.contains({static_cast<SensorId>(1), 100}, at_ms(201)));
 }
 
 TEST(Timeline, LongDrivesInDisorder) {

@@ -78,6 +78,7 @@ TEST(Tracker, EveryPatternOfHitsFollowsTheRule) {
 TEST(Tracker, TooUncertainAPositionEndsATrack) {
   TrackerConfig config;
   config.delete_misses = 1000;
+  config.delete_after = Duration::milliseconds(100'000);
   config.delete_position_sigma = 2.0;
   Bench bench(config);
   for (int k = 0; k < 6; ++k) bench.step(50 * k, {position(20.0, 0.0, 0.1)});
