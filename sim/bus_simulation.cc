@@ -1,12 +1,15 @@
 #include "sim/bus_simulation.h"
 
+#include <algorithm>
+
 #include "core/check.h"
 #include "sim/precision.h"
 
 namespace ttf::sim {
 
 BusSimulation::BusSimulation(const schedules::Cluster& cluster, std::vector<BusNode> nodes,
-                             std::vector<bus::ControllerEvents*> events)
+                             std::vector<bus::ControllerEvents*> events,
+                             const std::vector<timebase::Oscillator>& guardians)
     : Crank(cluster), events_(std::move(events)) {
   TTF_CHECK(nodes.size() == cluster.nodes.size() && events_.size() == nodes.size(), "{} nodes, {} events for {}",
             nodes.size(), events_.size(), cluster.nodes.size());
@@ -21,6 +24,7 @@ BusSimulation::BusSimulation(const schedules::Cluster& cluster, std::vector<BusN
     controllers_[n]->start_integrated(*node.clock);
     refresh(n);
   }
+  if (cluster.guardian) make_guardians(nodes, guardians);
 }
 
 BusSimulation::~BusSimulation() = default;
@@ -28,6 +32,23 @@ BusSimulation::~BusSimulation() = default;
 void BusSimulation::make_controller(std::size_t node) {
   controllers_[node] = std::make_unique<bus::FlexRayController>(*views_[node], static_cast<NodeId>(node), *ports_[node],
                                                                 *events_[node]);
+}
+
+void BusSimulation::make_guardians(const std::vector<BusNode>& nodes, const std::vector<timebase::Oscillator>& oscillators) {
+  const auto integrated = std::find_if(nodes.begin(), nodes.end(), [](const BusNode& node) { return node.clock.has_value(); });
+  for (const schedules::Channel channel : {schedules::Channel::kA, schedules::Channel::kB}) {
+    if (!StarCoupler::needed(cluster_, channel)) continue;
+    seat_guardian(channel, index_of(channel) < oscillators.size()
+                               ? oscillators[index_of(channel)]
+                               : timebase::Oscillator(StarCoupler::microtick_ps(cluster_, channel), 0, 0));
+    if (integrated == nodes.end()) continue;
+    // On that node's clock.
+    const auto& p = *cluster_.nodes[static_cast<std::size_t>(integrated - nodes.begin())].flexray;
+    const Microticks start = integrated->clock->cycle_start;
+    const Microticks cycle{p.pMicroPerCycle + integrated->clock->rate};
+    coupler(channel)->start_integrated(integrated->oscillator.time_of(start),
+                                       integrated->oscillator.time_of(start + cycle) - integrated->oscillator.time_of(start));
+  }
 }
 
 void BusSimulation::start(std::size_t node, Microticks now) { controllers_[node]->start_cold(now); }

@@ -28,9 +28,10 @@ struct BusNode {
 
 class BusSimulation final : public Crank {
  public:
-  // `events`: one per node, told what its controller tells a host.
+  // `events`: one per node, told what its controller tells a host. `guardians`: the oscillators of a star's two, else without
+  // drift. They begin integrated if some node does.
   BusSimulation(const schedules::Cluster& cluster, std::vector<BusNode> nodes,
-                std::vector<bus::ControllerEvents*> events);
+                std::vector<bus::ControllerEvents*> events, const std::vector<timebase::Oscillator>& guardians = {});
   ~BusSimulation() override;
 
   // Of a node without supply: in default config.
@@ -48,6 +49,7 @@ class BusSimulation final : public Crank {
   void obey(std::size_t node, bus::PocEventKind command, Microticks now) override;
   void happen(const MediumEvent& event) override;
   void make_controller(std::size_t node);
+  void make_guardians(const std::vector<BusNode>& nodes, const std::vector<timebase::Oscillator>& oscillators);
 
   std::vector<const schedules::Cluster*> views_;                           // these all by NodeId
   std::vector<bus::ControllerEvents*> events_;

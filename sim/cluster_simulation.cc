@@ -133,6 +133,18 @@ ClusterSimulation::ClusterSimulation(const SimulationConfig& config, records::Si
               crystal.ticks_at(kFirstCycle));
     refresh(n);
   }
+  for (const schedules::Channel channel : {schedules::Channel::kA, schedules::Channel::kB})
+    if (StarCoupler::needed(cluster_, channel)) make_guardian(channel);
+}
+
+// Its clock is drawn behind the nodes'.
+void ClusterSimulation::make_guardian(schedules::Channel channel) {
+  schedules::Node crystal;
+  crystal.microtick_ps = StarCoupler::microtick_ps(cluster_, channel);
+  seat_guardian(channel, make_oscillator(crystal, cluster_.nodes.size() + index_of(channel), config_));
+  bool integrated = false;
+  for (std::size_t n = 0; n < nodes_.size(); ++n) integrated |= cluster_.nodes[n].flexray && is_powered(n);
+  if (integrated) coupler(channel)->start_integrated(kFirstCycle, cluster_.cycle());
 }
 
 ClusterSimulation::~ClusterSimulation() = default;

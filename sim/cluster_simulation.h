@@ -74,6 +74,7 @@ class ClusterSimulation final : public Crank, private nodes::SensorLines {
 
   void trigger(SensorId sensor) override;
   void strobe(SensorId sensor, std::uint32_t sequence) override;
+  void make_guardian(schedules::Channel channel);
   void make_node(std::size_t node, std::optional<bus::InitialClock> clock, Microticks power_on);
   bool arrives(const MediumEvent& event) const;
   void observe();

@@ -17,6 +17,8 @@ class Coupler {
   virtual bool pass(Leaving& signal, const wire::DecodedFrame* frame) = 0;
   // What comes out of nothing reaches everybody, and the coupler too.
   virtual void disturbed(const Leaving& signal) = 0;
+  // The node has lost its supply: what it was sending ends at the coupler at `at`.
+  virtual void fell_silent(NodeId branch, TrueTime at) = 0;
 };
 
 }  // namespace ttf::sim

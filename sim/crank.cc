@@ -26,6 +26,13 @@ void Crank::seat(const timebase::Oscillator& oscillator, std::optional<TrueTime>
   next_.push_back(power_on.value_or(kNever));
 }
 
+void Crank::seat_guardian(schedules::Channel channel, const timebase::Oscillator& oscillator) {
+  TTF_CHECK(cluster_.guardian && cluster_.topology == schedules::Topology::kStar, "a guardian for {}", cluster_.name);
+  auto& coupler = couplers_[index_of(channel)];
+  coupler = std::make_unique<StarCoupler>(cluster_, channel, oscillator);
+  medium_.set_coupler(channel, coupler.get());
+}
+
 void Crank::set_disturbance(Disturbance* disturbance) {
   disturbance_ = disturbance;
   medium_.set_disturbance(disturbance);

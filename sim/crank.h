@@ -9,7 +9,9 @@
 // from the instant of its power-on.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -19,6 +21,7 @@
 #include "schedules/cluster.h"
 #include "sim/flexray_medium.h"
 #include "sim/plant.h"
+#include "sim/star_coupler.h"
 #include "timebase/oscillator.h"
 
 namespace ttf::sim {
@@ -38,6 +41,8 @@ class Crank : public Plant {
   bool powered(NodeId node) const { return seats_[index_of(node)].powered; }
   const timebase::Oscillator& oscillator(NodeId node) const { return seats_[index_of(node)].oscillator; }
   FlexRayMedium& medium() { return medium_; }
+  // The guardian of a star's channel; null where the cluster has none.
+  StarCoupler* coupler(schedules::Channel channel) { return couplers_[index_of(channel)].get(); }
   // Null: nothing goes wrong.
   void set_disturbance(Disturbance* disturbance);
 
@@ -47,6 +52,8 @@ class Crank : public Plant {
   // The next node's clock, to be called once per node in the order of their ids. Nothing: it has its supply already, and
   // start() has been or will be called by who derives; refresh() when it can say what is next.
   void seat(const timebase::Oscillator& oscillator, std::optional<TrueTime> power_on);
+  // Of a cluster with guardians, the one of a channel somebody is on: powered on at once, to integrate like the nodes.
+  void seat_guardian(schedules::Channel channel, const timebase::Oscillator& oscillator);
   // The node's next event may be another one now.
   void refresh(std::size_t node);
   bool is_powered(std::size_t node) const { return seats_[node].powered; }
@@ -79,6 +86,7 @@ class Crank : public Plant {
   void step(std::size_t node);
   void arrive(const MediumEvent& event);
 
+  std::array<std::unique_ptr<StarCoupler>, 2> couplers_;   // by channel
   std::vector<Seat> seats_;            // by NodeId
   std::vector<TrueTime> next_;         // by NodeId, its next own event; without supply its power-on
   Disturbance* disturbance_ = nullptr;

@@ -185,6 +185,15 @@ void FlexRayMedium::take_out(Lane& pending, std::size_t index) {
 
 void FlexRayMedium::power_off(NodeId node, TrueTime now) {
   if (position_[index_of(node)] < 0) return;
+  for (Pending& one : to_coupler_) {
+    const TrueTime cut = now + branch(node);
+    if (one.sender != node || one.arrival.end <= cut) continue;
+    release(one.arrival);
+    one.arrival.signal = Signal::kUndecodable;
+    one.arrival.end = std::max(cut, one.arrival.start + Duration{1});
+  }
+  for (Coupler* coupler : coupler_)
+    if (coupler != nullptr) coupler->fell_silent(node, now + branch(node));
   for (const Channel channel : {Channel::kA, Channel::kB}) {
     Lane& incoming = lane(node, channel);
     for (const Pending& one : incoming) release(one.arrival);

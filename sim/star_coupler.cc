@@ -40,6 +40,12 @@ struct StarCoupler::Watch final : bus::ControllerEvents, bus::FlexRayPort {
   }
 };
 
+bool StarCoupler::needed(const schedules::Cluster& cluster, schedules::Channel channel) {
+  return cluster.guardian && std::any_of(cluster.nodes.begin(), cluster.nodes.end(), [&](const schedules::Node& node) {
+           return node.flexray && includes(node.flexray->pChannels, channel);
+         });
+}
+
 std::int64_t StarCoupler::microtick_ps(const schedules::Cluster& cluster, schedules::Channel channel) {
   return bus::guardian_cluster(cluster, channel).nodes.back().microtick_ps;
 }
@@ -72,7 +78,16 @@ void StarCoupler::power_on(Microticks now) {
   controller_->start_cold(now);
 }
 
-void StarCoupler::start_integrated(const bus::InitialClock& clock) { controller_->start_integrated(clock); }
+void StarCoupler::start_integrated(TrueTime first, Duration cycle) {
+  constexpr int kCycles = 1000;   // so that rounding to one microtick per cycle is all that is lost
+  const Microticks begin = oscillator_.ticks_at(first);
+  const std::int64_t ticks = (oscillator_.ticks_at(first + cycle * kCycles) - begin).value;
+  const std::int64_t per_cycle = (ticks + kCycles / 2) / kCycles;
+  bus::InitialClock clock{begin + Microticks{1}, 0};
+  if (cluster_.synchronisation)
+    clock.rate = static_cast<int>(per_cycle - cluster_.nodes.back().flexray->pMicroPerCycle);
+  controller_->start_integrated(clock);
+}
 
 void StarCoupler::advance(Microticks to) {
   controller_->advance(to);
@@ -113,8 +128,8 @@ void StarCoupler::catch_up(TrueTime now) {
 }
 
 // Like any receiver, it cannot make out what overlaps.
-void StarCoupler::hear(const Leaving& signal, const wire::DecodedFrame* frame) {
-  Hearing heard{signal.start, signal.end, signal.signal, {}, {}};
+void StarCoupler::hear(NodeId branch, const Leaving& signal, const wire::DecodedFrame* frame) {
+  Hearing heard{branch, signal.start, signal.end, signal.signal, {}, {}};
   if (frame != nullptr && signal.signal == Signal::kFrame) {
     heard.frame = *frame;
     std::copy(signal.bytes.begin(), signal.bytes.end(), heard.bytes.begin());
@@ -126,6 +141,7 @@ void StarCoupler::hear(const Leaving& signal, const wire::DecodedFrame* frame) {
       continue;
     }
     heard.signal = Signal::kUndecodable;
+    heard.branch = kNoNode;
     heard.start = std::min(heard.start, other.start);
     heard.end = std::max(heard.end, other.end);
     hearing_[i] = hearing_.back();
@@ -174,7 +190,7 @@ bool StarCoupler::pass(Leaving& signal, const wire::DecodedFrame* frame) {
     signal.bytes = {};
   }
   taken_until_ = signal.end;
-  hear(signal, frame);
+  hear(signal.sender, signal, frame);
   return true;
 }
 
@@ -183,7 +199,16 @@ void StarCoupler::disturbed(const Leaving& signal) {
   catch_up(signal.start);
   Leaving noise = signal;
   noise.signal = signal.signal == Signal::kFrame ? Signal::kUndecodable : signal.signal;
-  hear(noise, nullptr);
+  hear(kNoNode, noise, nullptr);
+}
+
+void StarCoupler::fell_silent(NodeId branch, TrueTime at) {
+  for (Hearing& heard : hearing_) {
+    if (heard.branch != branch || heard.end <= at) continue;
+    heard.signal = Signal::kUndecodable;
+    heard.end = std::max(at, heard.start + Duration{1});
+    taken_until_ = heard.end;   // what is forwarded is the only one with a branch
+  }
 }
 
 }  // namespace ttf::sim

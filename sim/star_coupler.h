@@ -39,23 +39,26 @@ class StarCoupler final : public Coupler {
     TrueTime until{};
   };
 
-  // Powered on at `on`; the oscillator's nominal period is that of `controller_parameters(cluster, channel)`.
+  // Powered on at `on`; the oscillator's nominal period is microtick_ps().
   StarCoupler(const schedules::Cluster& cluster, schedules::Channel channel, const timebase::Oscillator& oscillator,
               TrueTime on = {});
   ~StarCoupler() override;
   StarCoupler(const StarCoupler&) = delete;
   StarCoupler& operator=(const StarCoupler&) = delete;
 
+  // Whether anybody is on the channel.
+  static bool needed(const schedules::Cluster& cluster, schedules::Channel channel);
   static std::int64_t microtick_ps(const schedules::Cluster& cluster, schedules::Channel channel);
 
-  // As if start-up were over (bus/controller.h start_integrated).
-  void start_integrated(const bus::InitialClock& clock);
+  // As if start-up were over, and cycle 0 of `cycle` each began at `first`.
+  void start_integrated(TrueTime first, Duration cycle);
   void fail(Failure failure) { failure_ = failure; }
   // Null: nobody is told. Counted is always.
   void on_intervention(std::function<void(const Intervention&)> told) { told_ = std::move(told); }
 
   bool pass(Leaving& signal, const wire::DecodedFrame* frame) override;
   void disturbed(const Leaving& signal) override;
+  void fell_silent(NodeId branch, TrueTime at) override;
 
   std::uint64_t forwarded() const { return count_[0]; }                       // also what was cut
   std::uint64_t blocked(bus::GuardianReason reason) const { return count_[static_cast<std::size_t>(reason)]; }
@@ -71,6 +74,7 @@ class StarCoupler final : public Coupler {
   struct Watch;
   // On its way into the guardian's own controller.
   struct Hearing {
+    NodeId branch = kNoNode;                             // kNoNode: of none, or of several
     TrueTime start{}, end{};
     bus::Signal signal{};
     wire::DecodedFrame frame;                            // its payload in `bytes`
@@ -81,7 +85,7 @@ class StarCoupler final : public Coupler {
   void power_on(Microticks now);
   void advance(Microticks to);
   void deliver(const Hearing& heard);
-  void hear(const Leaving& signal, const wire::DecodedFrame* frame);
+  void hear(NodeId branch, const Leaving& signal, const wire::DecodedFrame* frame);
   void lead_begins();
 
   const schedules::Cluster cluster_;     // with the guardian as a node

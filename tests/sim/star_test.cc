@@ -38,6 +38,7 @@ struct TestCoupler final : sim::Coupler {
     return open;
   }
   void disturbed(const Leaving& signal) override { out_of_nothing.push_back(signal); }
+  void fell_silent(NodeId, TrueTime) override {}
 };
 
 // All branches alike, so that the laws' nodes are as far from one another as they ask for.
