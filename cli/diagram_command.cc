@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -14,10 +15,13 @@
 #include "report/boxes_picture.h"
 #include "report/position_plot.h"
 #include "report/render.h"
+#include "report/startup_diagram.h"
 #include "report/timing_diagram.h"
 
 namespace ttf::cli {
 namespace {
+
+constexpr Duration kLongestCycle = Duration::milliseconds(16);   // cCycleMax
 
 struct Options {
   std::vector<std::string> logs;
@@ -76,6 +80,21 @@ std::string boxes(const Options& options) {
                            fmt::format("Scan {}: {} returns, {} boxes", scan.frame, points.size(), objects.size()));
 }
 
+// The whole start-up and two cycles after it, unless told.
+std::string startup(const Options& options) {
+  if (options.logs.size() != 1) throw InputError({"command line", 0, "--kind", "startup", "takes one log"});
+  const TimeWindow window = time_window(options.from_s, options.to_s);
+  report::StartupExtent extent;
+  const recording::LogInfo info = read(options.logs[0], extent);
+  const Duration cycle{std::clamp<std::int64_t>(info.manifest.cycle_ns, 0, kLongestCycle.ns)};
+  const Duration after = cycle * 2 + Duration::milliseconds(1);
+  const TrueTime begin = extent.first.value_or(TrueTime{}), done = extent.last_active.value_or(extent.last.value_or(begin));
+  const TrueTime from = options.from_s >= 0.0 ? window.from : std::max(TrueTime{}, begin - Duration::milliseconds(1));
+  report::StartupDiagram diagram(names_of(info.manifest), cycle, from, window.to ? *window.to : done + after);
+  recording::read_log(options.logs[0], diagram);
+  return diagram.svg();
+}
+
 int run(const Options& options) {
   report::check_picture_path(options.out);
   if (options.kind == "boxes") {
@@ -84,6 +103,10 @@ int run(const Options& options) {
   }
   if (options.frame)
     throw InputError({"command line", 0, "--frame", fmt::format("{}", *options.frame), "goes with --kind boxes only"});
+  if (options.kind == "startup") {
+    report::write_picture(startup(options), options.out);
+    return 0;
+  }
   const TimeWindow window = time_window(options.from_s, options.to_s);
   Extent extent;
   std::vector<recording::LogInfo> infos;
@@ -137,8 +160,8 @@ void add_diagram(CLI::App& app, Action& action) {
   command->add_option("logs", options->logs, "Logs; several are drawn side by side (with --kind boxes: a recording of laser scans)")->required();
   command->add_option("--from", options->from_s, "Start of the window, true time in seconds (default: 0)")->check(CLI::NonNegativeNumber);
   command->add_option("--to", options->to_s, "End of the window, true time in seconds (default: the end; of a timing diagram 160 ms after its start)")->check(CLI::NonNegativeNumber);
-  command->add_option("--kind", options->kind, "timing, position (x and y over time), plane (y over x), or boxes (of a recorded laser scan)")
-      ->check(CLI::IsMember({"timing", "position", "plane", "boxes"}))->capture_default_str();
+  command->add_option("--kind", options->kind, "timing, startup (states and what was sent), position (x and y over time), plane (y over x), or boxes (of a recorded laser scan)")
+      ->check(CLI::IsMember({"timing", "startup", "position", "plane", "boxes"}))->capture_default_str();
   command->add_option("--frame", options->frame, "Which scan of a recording, with --kind boxes")
       ->check(CLI::NonNegativeNumber);
   command->add_option("-o,--out", options->out, "Picture to write: .svg, .png or .pdf")->required();

@@ -113,6 +113,17 @@ void PlotFrame::draw(Svg& svg, std::string_view x_label, std::string_view y_labe
   svg.close_group();
 }
 
+void draw_time_axis(Svg& svg, const Area& plot, const Extent& window_ms) {
+  const Ticks ticks = nice_ticks(window_ms, static_cast<int>(plot.width / 90));
+  const double bottom = plot.y + plot.height;
+  for (const double t : ticks.at) {
+    const double px = plot.x + (t - window_ms.low) / window_ms.size() * plot.width;
+    svg.line({px, bottom}, {px, bottom + 4}, {.stroke = kBlack, .width = 0.8});
+    svg.text({px, bottom + 16}, tick_label(t, ticks.step), {.size = 10.5, .anchor = Anchor::kMiddle});
+  }
+  svg.text({plot.x + plot.width / 2, bottom + 33}, "true time [ms]", {.size = 11.5, .anchor = Anchor::kMiddle});
+}
+
 bool LabelSpace::claim(const Area& area) {
   for (const Area& t : taken_)
     if (t.overlaps(area)) return false;

@@ -71,6 +71,9 @@ class PlotFrame {
   Scale x_, y_;
 };
 
+// Ticks and numbers below `plot`, which shows the window of true time [ms] from left to right.
+void draw_time_axis(Svg& svg, const Area& plot, const Extent& window_ms);
+
 // Areas already taken. claim() takes an area if nothing is there.
 class LabelSpace {
  public:

@@ -157,16 +157,7 @@ class Painter {
       svg_->line({plot_.x, centre}, {plot_.x + plot_.width, centre}, {.stroke = "#e0e0e0", .width = 0.7});
       svg_->text({plot_.x - 10, centre + 4}, lane.label, {.size = 11, .anchor = Anchor::kEnd});
     }
-    const Extent window{ms(from_), ms(to_)};
-    const Ticks ticks = nice_ticks(window, static_cast<int>(plot_.width / 90));
-    const double bottom = plot_.y + plot_.height;
-    for (const double t : ticks.at) {
-      const double px = plot_.x + (t - window.low) / window.size() * plot_.width;
-      svg_->line({px, bottom}, {px, bottom + 4}, {.stroke = kBlack, .width = 0.8});
-      svg_->text({px, bottom + 16}, tick_label(t, ticks.step), {.size = 10.5, .anchor = Anchor::kMiddle});
-    }
-    svg_->text({plot_.x + plot_.width / 2, bottom + 33}, "true time [ms]",
-               {.size = 11.5, .anchor = Anchor::kMiddle});
+    draw_time_axis(*svg_, plot_, {ms(from_), ms(to_)});
     svg_->close_group();
   }
 

@@ -8,6 +8,7 @@
 #include "core/check.h"
 #include "recording/log_reader.h"
 #include "report/position_plot.h"
+#include "report/startup_diagram.h"
 #include "report/timing_diagram.h"
 #include "tests/fuzz/harness.h"
 #include "tests/fuzz/mcap_around.h"
@@ -26,7 +27,9 @@ struct Pictures {
     recording::read_log_bytes(log, "drive.mcap", timing);
     report::PositionPlots position(names, {.title = "drive", .from = from, .to = to});
     recording::read_log_bytes(log, "drive.mcap", position);
-    return {timing.svg(), position.over_time_svg(), position.plane_svg()};
+    report::StartupDiagram startup(names, cycle, from, to);
+    recording::read_log_bytes(log, "drive.mcap", startup);
+    return {timing.svg(), position.over_time_svg(), position.plane_svg(), startup.svg()};
   }
 };
 

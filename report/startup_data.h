@@ -1,0 +1,62 @@
+// What the start-up diagram keeps of the records: plain values without views, in the order they came.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/ids.h"
+#include "core/time.h"
+
+namespace ttf::report {
+
+struct StartupData {
+  struct Change {
+    TrueTime at;
+    NodeId node;
+    std::uint8_t from, to;   // E-Ray CCSV.POCS
+    std::string from_name, to_name, why, consequence;
+  };
+  struct Power {
+    TrueTime at;
+    NodeId node;
+    bool on;
+  };
+  struct Symbol {
+    TrueTime start, end;
+    NodeId node;
+    std::uint8_t channel, kind;
+  };
+  struct Frame {
+    TrueTime start, end;
+    NodeId node;
+    std::int64_t cycle;
+    std::uint16_t slot;
+    std::uint8_t channel;
+    bool null_frame, startup;
+  };
+  struct Fault {
+    TrueTime at;
+    std::uint32_t fault;
+    std::uint8_t what;
+    NodeId node;
+    std::string kind, text;
+  };
+
+  std::vector<Change> changes;   // of the whole log: a state lasts until it is left
+  std::vector<Power> power;      // likewise
+  std::vector<Fault> faults;     // likewise
+  std::vector<Symbol> symbols;   // up to the end of the window: the cycles count from one
+  std::vector<Frame> frames;     // likewise
+};
+
+// States that the picture and the leading node's cycles go by.
+inline constexpr std::uint8_t kStateDefaultConfig = 0x00, kStateReady = 0x01, kStateNormalActive = 0x02,
+                              kStateNormalPassive = 0x03, kStateHalt = 0x04, kStateConfig = 0x0F,
+                              kStateWakeupListen = 0x11, kStateWakeupSend = 0x12, kStateWakeupDetect = 0x13,
+                              kStateColdstartListen = 0x21, kStateCollisionResolution = 0x22,
+                              kStateConsistencyCheck = 0x23, kStateColdstartGap = 0x24, kStateColdstartJoin = 0x25,
+                              kStateIntegrationColdstartCheck = 0x26, kStateIntegrationListen = 0x27,
+                              kStateIntegrationConsistencyCheck = 0x28, kStateInitialiseSchedule = 0x29;
+
+}  // namespace ttf::report

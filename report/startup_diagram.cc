@@ -1,0 +1,71 @@
+#include "report/startup_diagram.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "report/axes.h"
+#include "report/startup_painter.h"
+
+namespace ttf::report {
+namespace {
+
+// A damaged or foreign log may say anything: see report/timing_diagram.cc.
+constexpr std::int64_t kFarthest_ns = std::int64_t{1} << 60, kMostCycles = std::int64_t{1} << 36;
+constexpr Duration kLongestCycle = Duration::milliseconds(16);  // cCycleMax
+
+// Startup frame indicator, in the first byte of a frame's header (FlexRay 2.1A, 4.2.5).
+constexpr std::byte kStartupIndicator{0x08};
+
+bool possible(TrueTime t) { return t.ns >= -kFarthest_ns && t.ns <= kFarthest_ns; }
+
+}  // namespace
+
+StartupDiagram::StartupDiagram(Names names, Duration cycle, TrueTime from, TrueTime to)
+    : names_(std::move(names)), cycle_(cycle <= kLongestCycle ? cycle : Duration{}), from_(from), to_(to) {}
+
+void StartupDiagram::on(const records::StateChanged& r) {
+  if (possible(r.stamp.true_time))
+    data_.changes.push_back({r.stamp.true_time, r.stamp.node, r.from, r.to, std::string(r.from_name),
+                             std::string(r.to_name), std::string(r.why), std::string(r.consequence)});
+}
+void StartupDiagram::on(const records::PowerChanged& r) {
+  if (possible(r.stamp.true_time)) data_.power.push_back({r.stamp.true_time, r.stamp.node, r.on});
+}
+void StartupDiagram::on(const records::SymbolSent& r) {
+  const TrueTime start = r.stamp.true_time, end = r.end.true_time;
+  if (possible(start) && possible(end) && start <= to_)
+    data_.symbols.push_back({start, end, r.stamp.node, r.channel, r.kind});
+}
+void StartupDiagram::on(const records::SlotFrameSent& r) {
+  const TrueTime start = r.stamp.true_time, end = r.end.true_time;
+  if (possible(start) && possible(end) && start <= to_ && r.cycle >= -kMostCycles && r.cycle <= kMostCycles)
+    data_.frames.push_back({start, end, r.stamp.node, r.cycle, r.slot, r.channel, r.null_frame,
+                            !r.bytes.empty() && (r.bytes[0] & kStartupIndicator) != std::byte{}});
+}
+void StartupDiagram::on(const records::FaultActivity& r) {
+  if (possible(r.at))
+    data_.faults.push_back({r.at, r.fault, r.what, r.node, std::string(r.kind), std::string(r.text)});
+}
+
+std::string StartupDiagram::svg() const {
+  if (data_.changes.empty())
+    return empty_picture("Start-up", "No node changed its state: the run began with all nodes integrated.");
+  if (from_ >= to_) return empty_picture("Start-up", "The window is empty.");
+  return paint_startup(names_, data_, cycle_, from_, to_);
+}
+
+void StartupExtent::see(TrueTime at) {
+  if (!possible(at)) return;
+  first = first ? std::min(*first, at) : at;
+  last = last ? std::max(*last, at) : at;
+}
+void StartupExtent::on(const records::StateChanged& r) {
+  see(r.stamp.true_time);
+  const std::size_t node = index_of(r.stamp.node);
+  if (r.to != kStateNormalActive || active_[node] || !possible(r.stamp.true_time)) return;
+  active_[node] = true;
+  last_active = last_active ? std::max(*last_active, r.stamp.true_time) : r.stamp.true_time;
+}
+void StartupExtent::on(const records::PowerChanged& r) { see(r.stamp.true_time); }
+
+}  // namespace ttf::report

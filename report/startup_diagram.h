@@ -1,0 +1,55 @@
+// The start-up diagram of a time window: what every node's protocol operation control was in and what it sent, so that one
+// can see who led, who followed and who integrated.
+//
+// One lane per node that changed its state, was powered on or off or sent something: its states as labelled bars (hovering
+// over one tells why it was entered), below them what it sent on channel A and on channel B: startup frames, null frames,
+// other frames, symbols. Faults of the run's plan have lanes of their own, above. The grid shows the communication cycles of
+// the leading coldstart node, counted from its collision avoidance symbol. Time is TrueTime.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "recording/records/records.h"
+#include "report/names.h"
+#include "report/startup_data.h"
+
+namespace ttf::report {
+
+class StartupDiagram : public records::Sink {
+ public:
+  // `cycle`: nominal length of the communication cycle, 0 for no grid. Frames and symbols after the window are passed over.
+  StartupDiagram(Names names, Duration cycle, TrueTime from, TrueTime to);
+
+  using Sink::on;  // the kinds of record that are not shown
+  void on(const records::StateChanged& r) override;
+  void on(const records::PowerChanged& r) override;
+  void on(const records::SymbolSent& r) override;
+  void on(const records::SlotFrameSent& r) override;
+  void on(const records::FaultActivity& r) override;
+
+  // The picture; one that says so if no node changed its state.
+  std::string svg() const;
+
+ private:
+  Names names_;
+  Duration cycle_;
+  TrueTime from_, to_;
+  StartupData data_;
+};
+
+// When the start-up in a log happened: from the first record of it to the last of the nodes' first entries into normal active.
+struct StartupExtent final : records::Sink {
+  using records::Sink::on;
+  void on(const records::StateChanged& r) override;
+  void on(const records::PowerChanged& r) override;
+
+  std::optional<TrueTime> first, last_active, last;
+
+ private:
+  void see(TrueTime at);
+  std::vector<bool> active_ = std::vector<bool>(256);
+};
+
+}  // namespace ttf::report

@@ -1,0 +1,35 @@
+// From changes of state to how long each state lasted, and how a state looks.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/time.h"
+#include "report/startup_data.h"
+
+namespace ttf::report {
+
+struct StateSpan {
+  NodeId node{};
+  std::uint8_t state = 0;
+  TrueTime start{}, end{};
+  std::string name;   // as the log has it
+  std::string why;    // it was entered; empty where the log does not say
+};
+
+// The states of all nodes in the order they were entered, each until it was left, its node lost its supply, or `end`. What a
+// node was in before its first change is a state since `begin`, but for a node whose first change is out of default config:
+// that was powered on with it. States that lasted no time are left out.
+std::vector<StateSpan> state_spans(const StartupData& data, TrueTime begin, TrueTime end);
+
+// What a node is about in a state: states of one phase have one colour.
+struct StatePhase {
+  std::string_view words;    // for the legend
+  std::string colour;
+};
+StatePhase phase_of(std::uint8_t state);
+// A name for narrow bars; empty where there is none.
+std::string_view short_name(std::uint8_t state);
+
+}  // namespace ttf::report
