@@ -28,6 +28,7 @@ FlexRayController::State::State(const schedules::Cluster& c, NodeId n, FlexRayPo
       geometry{g.gMacroPerCycle, g.gdMacrotick_ps, p.pMicroPerCycle, g.gOffsetCorrectionStart},
       poc(poc_power_on(poc_parameters)),
       cni(c, n),
+      network_management(c.flexray.gNetworkManagementVectorLength),
       sync(c.flexray.gSyncNodeMax),
       initialisation(c.flexray, parameters(c, n)),
       seen(static_cast<std::size_t>(g.gNumberOfStaticSlots)),
@@ -65,6 +66,7 @@ void FlexRayController::State::drop_schedule() {
   clock.reset();
   initialisation.reset();
   partner_overdue = kNever;
+  symbol_request.reset();
 }
 
 // A clock for `cycle`, which starts at `start`: in the future, or in the past for who joins in the middle of it.
@@ -74,6 +76,8 @@ void FlexRayController::State::begin_schedule(Microticks start, int rate, std::i
   sync.reset();
   sync_status = {};
   std::fill(seen_last.begin(), seen_last.end(), Seen{});
+  window_last = {};
+  network_management.reset();
 }
 
 // ---- the cycle
@@ -88,7 +92,8 @@ Microticks FlexRayController::State::next_event() const {
                                                 ? action_point(slots.own_static()[next_static]->slot)
                                                 : static_end()));
     case Segment::kDynamic:
-      return std::min({next, dynamic[0].due, dynamic[1].due, clock->cycle_end()});
+      return std::min({next, dynamic[0].due, dynamic[1].due, symbol_point,
+                       g.gdSymbolWindow > 0 ? window_to : clock->cycle_end()});
     case Segment::kRest:
       return std::min(next, clock->cycle_end());
   }
@@ -124,9 +129,12 @@ void FlexRayController::State::handle(Microticks at) {
     case Segment::kDynamic:
       for (const schedules::Channel channel : kChannels)
         if (dynamic[index_of(channel)].due == at) return send_dynamic(channel, at);
+      if (symbol_point == at) return send_media_test_symbol(at);
+      if (g.gdSymbolWindow > 0) return close_symbol_window();
       [[fallthrough]];
     case Segment::kRest: {
       const StartupFramesSeen ended = sync.startup_frames(poc.reference);
+      network_management.end_cycle(!in_startup(poc.kind));
       clock->next_cycle(next_rate);
       return enter_cycle(ended, at);
     }
@@ -170,7 +178,8 @@ void FlexRayController::State::close_static_segment(Microticks at) {
   (cycle % 2 == 0 ? sync_status.VSAE : sync_status.VSAO) = valid_a;
   (cycle % 2 == 0 ? sync_status.VSBE : sync_status.VSBO) = valid_b;
   events.static_segment_ended(cycle, at);
-  segment = minislots.count() > 0 ? Segment::kDynamic : Segment::kRest;
+  segment = minislots.count() > 0 || g.gdSymbolWindow > 0 ? Segment::kDynamic : Segment::kRest;
+  if (g.gdSymbolWindow > 0) plan_symbol_window();
   for (const schedules::Channel channel : kChannels) {
     dynamic[index_of(channel)].counter.start();
     dynamic[index_of(channel)].next = 0;
@@ -182,8 +191,9 @@ void FlexRayController::State::close_static_segment(Microticks at) {
   const timebase::Correction rate = timebase::rate_correction(sync.measurements(), clock->rate_correction(),
                                                               p.pClusterDriftDamping, p.pRateCorrectionOut);
   if (cluster.synchronisation && corrects_clock(poc.kind)) {
-    clock->set_offset_correction(offset.value);
-    next_rate = rate.value;
+    const bool external = !in_startup(poc.kind);
+    clock->set_offset_correction(offset.value + (external ? extern_offset : 0));
+    next_rate = rate.value + (external ? extern_rate : 0);
   }
   sync_status.MOCS = offset.missing;
   sync_status.MRCS = rate.missing;
@@ -252,6 +262,28 @@ SyncStatus FlexRayController::sync_status() const {
   SyncStatus status = state_->sync_status;
   status.vClockCorrectionFailed = state_->poc.vClockCorrectionFailed;
   return status;
+}
+
+bool FlexRayController::send_media_test_symbol(schedules::Channels channels) {
+  return state_->request_media_test_symbol(channels);
+}
+
+SymbolWindowSeen FlexRayController::symbol_window_status(schedules::Channel channel) const {
+  return state_->window_last[index_of(channel)];
+}
+
+void FlexRayController::set_network_management_vector(std::span<const std::byte> vector) {
+  state_->network_management.set_own(vector);
+}
+
+std::span<const std::byte> FlexRayController::network_management_vector() const {
+  return state_->network_management.combined();
+}
+
+void FlexRayController::set_external_correction(int offset, int rate) {
+  const schedules::NodeParameters& p = state_->p;
+  state_->extern_offset = std::clamp(offset, -p.pExternOffsetCorrection, p.pExternOffsetCorrection);
+  state_->extern_rate = std::clamp(rate, -p.pExternRateCorrection, p.pExternRateCorrection);
 }
 
 OutgoingList& FlexRayController::outgoing(PduId pdu) { return state_->cni.outgoing(pdu); }

@@ -56,6 +56,17 @@ struct SlotSeen {
   bool operator==(const SlotSeen&) const = default;
 };
 
+// The same of the symbol window (E-Ray SWNIT). A media access test symbol that is one of several is valid, and a syntax error
+// besides.
+struct SymbolWindowSeen {
+  bool valid_mts = false;
+  bool syntax_error = false;             // anything else, and a second symbol
+  bool boundary_violation = false;       // something was on the channel where the window begins or ends
+  bool transmission_conflict = false;    // with this node's own symbol
+
+  bool operator==(const SymbolWindowSeen&) const = default;
+};
+
 // What clock synchronisation has had to go by since the schedule began, under E-Ray's names (SPNU563A: registers SFS and CCEV).
 struct SyncStatus {
   // Valid sync frames on channel A or B in the last even or odd cycle whose static segment is over, the node's own included;
@@ -135,6 +146,26 @@ class FlexRayController {
   // ends. A frame that outlasts the segment is added when it is over.
   SlotSeen slot_status(int slot, schedules::Channel channel) const;
   SyncStatus sync_status() const;
+  // Of the last symbol window that is over; nothing during start-up. Nothing is heard of the own symbol.
+  SymbolWindowSeen symbol_window_status(schedules::Channel channel) const;
+
+  // A media access test symbol in the next symbol window whose action point is ahead, on those of the channels that this node
+  // is attached to. False, and nothing is sent: not in normal active with all slots (E-Ray SEND_MTS), one is pending, or
+  // the cycle has no symbol window.
+  bool send_media_test_symbol(schedules::Channels channels = schedules::Channels::kAB);
+
+  // bus/network_management.h. Exactly gNetworkManagementVectorLength bytes.
+  void set_network_management_vector(std::span<const std::byte> vector);
+  std::span<const std::byte> network_management_vector() const;
+
+  // External clock correction [uT], by which hosts make a cluster follow another one's time or that of a standard: added to
+  // the offset correction of every odd cycle whose static segment has not ended yet, and to the rate correction that
+  // is computed then, until set anew; only in normal operation. Positive lengthens the cycle. The magnitudes end at
+  // pExternOffsetCorrection and pExternRateCorrection; the sum is not checked against pOffsetCorrectionOut and
+  // pRateCorrectionOut (SPNU563A 26.2.4.5). All nodes have to be given the same in the same double cycle.
+  // Reading taken: the rate in force, which the next correction goes on from, is the one with the external term in it, so that
+  // a term given once stays and one given again adds up, less damping.
+  void set_external_correction(int offset, int rate);
   OutgoingList& outgoing(PduId pdu);            // must be a PDU this node sends
   IncomingList& incoming(PduId pdu);            // any other PDU on FlexRay
 

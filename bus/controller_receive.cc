@@ -109,6 +109,8 @@ int FlexRayController::State::static_slot_at(Microticks at) const {
 }
 
 void FlexRayController::State::judge(const Reception& reception, bool conflict) {
+  if (g.gdSymbolWindow > 0 && (segment == Segment::kDynamic || segment == Segment::kRest))
+    judge_symbol_window(reception, conflict);
   std::uint8_t errors = conflict ? kTransmissionConflict | kSyntaxError : 0;
   if (reception.signal != Signal::kFrame || reception.frame.error != wire::FrameError::kNone) errors |= kSyntaxError;
   const int slot = static_slot_at(reception.start);
@@ -117,7 +119,7 @@ void FlexRayController::State::judge(const Reception& reception, bool conflict) 
   if (minislot >= 1 && minislot <= minislots.count()) return judge_dynamic(reception, errors);
 
   // Between the segments, in the symbol window, in the NIT, or from the cycle before.
-  const Macroticks window = minislots.count() > 0 ? minislots.start_of(minislots.count() + 1) : static_end();
+  const Macroticks window = window_start();
   const bool in_window = g.gdSymbolWindow > 0 && slot != 0 && reception.start >= clock->start_of(window) &&
                          reception.end <= clock->start_of(window + Macroticks{g.gdSymbolWindow});
   if (in_startup(poc.kind) || (in_window && reception.signal == Signal::kCas && !conflict)) return;
@@ -159,6 +161,7 @@ void FlexRayController::State::judge_static(const Reception& reception, int slot
         (reception.start - clock->start_of(action_point(slot)) - Microticks{compensation}).value);
     sync.heard(slot, reception.channel, deviation, header.startup && std::abs(deviation) <= p.pdAcceptedStartupRange);
   }
+  if (header.payload_preamble) network_management.combine(reception.frame.payload);
   if (!store(*expected, reception)) status.errors[c] |= kContentError;   // a frame, but not of this slot's list
 }
 
@@ -174,10 +177,12 @@ void FlexRayController::State::judge_dynamic(const Reception& reception, std::ui
   d.counter.occupied(first, last < first ? first : last);
   plan_dynamic(reception.channel, reception.end);
 
-  const FrameSlot* expected = slots.expected(slot, counter(), reception.channel);
+  const FrameSlot* expected = slots.expected(slot, counter(), reception.channel, wire::message_id(reception.frame));
   if (errors == 0 && (header.frame_id != slot || header.cycle != counter() || header.sync || header.startup ||
                       expected == nullptr || expected->pdu == kNoPdu || header.null_frame ||
-                      static_cast<int>(reception.frame.payload.size()) < cluster.pdu(expected->pdu).fragment_bytes))
+                      header.payload_preamble != expected->message_id.has_value() ||
+                      reception.frame.payload.size() <
+                          preamble_bytes(*expected) + static_cast<std::size_t>(cluster.pdu(expected->pdu).fragment_bytes)))
     errors |= kContentError;
   if (errors == 0 && !store(*expected, reception)) errors |= kContentError;
   if (errors != 0 && !in_startup(poc.kind))
@@ -189,7 +194,7 @@ bool FlexRayController::State::store(const FrameSlot& slot, const Reception& rec
   if (slot.pdu == kNoPdu || reception.frame.header.null_frame || in_startup(poc.kind)) return true;
   IncomingList& list = cni.incoming(slot.pdu);
   const auto bytes = static_cast<std::size_t>(cluster.pdu(slot.pdu).fragment_bytes);
-  const ArrivalEffect effect = list.arrive(reception.frame.payload.first(bytes), slot.fragment);
+  const ArrivalEffect effect = list.arrive(reception.frame.payload.subspan(preamble_bytes(slot), bytes), slot.fragment);
   events.list_arrived(slot.pdu, effect, list.arrived(), list.torn(), reception.end);
   return effect != ArrivalEffect::kMalformed;
 }

@@ -41,9 +41,15 @@ void FlexRayController::State::send_static(Microticks at) {
   const Microticks end = at + bits(schedules::frame_bits(g, g.gPayloadLengthStatic));
   const Channel last_channel = includes(slot.channels, Channel::kB) ? Channel::kB : Channel::kA;
   if (p.pKeySlotUsedForSync && slot.slot == p.pKeySlotId) sync.own(slot.slot, slot.channels);
+  if (slot.network_management && !null_frame) network_management.combine(network_management.own());
   for (const Channel channel : kChannels)
     if (includes(slot.channels, channel))
       send_frame(slot, channel, at, end, content, null_frame, content.last && channel == last_channel);
+}
+
+std::size_t FlexRayController::State::preamble_bytes(const FrameSlot& slot) const {
+  if (slot.message_id) return wire::kMessageIdBytes;
+  return slot.network_management ? network_management.own().size() : 0;
 }
 
 void FlexRayController::State::send_frame(const FrameSlot& slot, Channel channel, Microticks at, Microticks end,
@@ -55,10 +61,18 @@ void FlexRayController::State::send_frame(const FrameSlot& slot, Channel channel
   header.sync = is_static && p.pKeySlotUsedForSync && slot.slot == p.pKeySlotId;
   header.startup = header.sync && p.pKeySlotUsedForStartup;
   header.null_frame = null_frame;
+  header.payload_preamble = !null_frame && (slot.network_management || slot.message_id);
+  const std::size_t preamble = preamble_bytes(slot);
   const std::size_t length = is_static ? 2 * static_cast<std::size_t>(g.gPayloadLengthStatic)
-                                       : (content.payload.size() + 1) / 2 * 2;
+                                       : (preamble + content.payload.size() + 1) / 2 * 2;
   std::fill_n(payload.begin(), length, std::byte{0});
-  std::copy(content.payload.begin(), content.payload.end(), payload.begin());
+  std::copy(content.payload.begin(), content.payload.end(), payload.begin() + static_cast<std::ptrdiff_t>(preamble));
+  if (header.payload_preamble && slot.message_id) {
+    payload[0] = static_cast<std::byte>(*slot.message_id >> 8);
+    payload[1] = static_cast<std::byte>(*slot.message_id & 0xFF);
+  } else if (header.payload_preamble) {
+    std::copy_n(network_management.own().begin(), preamble, payload.begin());
+  }
   const std::size_t size = wire::encode_frame(header, channel, std::span<const std::byte>(payload).first(length), frame);
   const Transmission transmission{channel, Signal::kFrame, at, end, slot.slot,
                                   std::span<const std::byte>(frame).first(size)};
@@ -98,7 +112,7 @@ void FlexRayController::State::send_dynamic(Channel channel, Microticks at) {
   if (may_send(slot) && mac_mode(poc) == MacMode::kAll && cni.pending(slot, channel, clock->cycle())) {
     const Cni::Fragment content = cni.fetch(slot, clock->cycle());
     cni.carried(slot, channel);
-    const int words = static_cast<int>((content.payload.size() + 1) / 2);
+    const int words = static_cast<int>((preamble_bytes(slot) + content.payload.size() + 1) / 2);
     const int last = minislots.dts_end(*clock, at + bits(schedules::frame_bits(g, words)), bits(1));
     TTF_CHECK(last <= minislots.count(), "slot {} ends in minislot {}: pLatestTx {} is too late for its frame", slot.slot,
               last, p.pLatestTx);
@@ -116,8 +130,10 @@ void FlexRayController::State::send_symbol(Signal signal, Channel channel, Micro
   events.symbol_sent(signal, channel, at, end);
 }
 
+Microticks FlexRayController::State::cas_length() const { return bits(g.gdTSSTransmitter + kCasBits); }
+
 void FlexRayController::State::send_cas(Microticks at) {
-  const Microticks end = at + bits(g.gdTSSTransmitter + kCasBits);
+  const Microticks end = at + cas_length();
   for (const Channel channel : kChannels)
     if (includes(p.pChannels, channel)) send_symbol(Signal::kCas, channel, at, end);
   const Microticks macrotick{(p.pMicroPerCycle + g.gMacroPerCycle - 1) / g.gMacroPerCycle};

@@ -8,6 +8,7 @@
 
 #include "bus/controller.h"
 #include "bus/dynamic_segment.h"
+#include "bus/network_management.h"
 #include "bus/schedule_initialisation.h"
 #include "bus/slot_table.h"
 #include "bus/sync_collector.h"
@@ -35,8 +36,10 @@ struct FlexRayController::State {
   // --- where it stands
   PocState poc;
   Cni cni;
+  NetworkManagement network_management;
   std::optional<timebase::CycleClock> clock;
   int next_rate = 0;
+  int extern_offset = 0, extern_rate = 0;  // [uT], the host's
   SyncCollector sync;
   ScheduleInitialisation initialisation;
   Microticks listen_timer = kNever, noise_timer = kNever, wakeup_sent = kNever;
@@ -53,7 +56,8 @@ struct FlexRayController::State {
   SyncStatus sync_status;                  // without its counter, which is protocol operation control's
 
   // How far the cycle is.
-  enum class Segment : std::uint8_t { kBefore, kStatic, kDynamic, kRest };   // kBefore: the first cycle is to start
+  // kBefore: the first cycle is to start; kDynamic: with the symbol window.
+  enum class Segment : std::uint8_t { kBefore, kStatic, kDynamic, kRest };
   Segment segment = Segment::kStatic;
   std::size_t next_static = 0;             // in slots.own_static()
   struct Dynamic {
@@ -63,6 +67,12 @@ struct FlexRayController::State {
     int minislot = 0;                      // it begins in
   };
   std::array<Dynamic, 2> dynamic;          // by channel
+
+  // The symbol window, planned when the static segment ends; kNever where there is none.
+  Microticks window_from = kNever, window_to = kNever, symbol_point = kNever;
+  std::optional<schedules::Channels> symbol_request;    // a media access test symbol is to be sent there
+  std::array<SymbolWindowSeen, 2> window_seen, window_last;   // by channel: under way, and the last that is over
+  std::array<bool, 2> window_element{};    // something has begun in it
 
   std::array<std::byte, wire::kMaxPayloadBytes> payload{};
   std::array<std::byte, wire::kMaxFrameBytes> frame{};
@@ -86,15 +96,25 @@ struct FlexRayController::State {
   Macroticks static_end() const { return slot_start(g.gNumberOfStaticSlots + 1); }
   Microticks bits(int count) const;        // gdBit, rounded up to whole microticks
 
+  // --- the symbol window (controller_window.cc)
+  bool request_media_test_symbol(schedules::Channels channels);
+  Macroticks window_start() const;
+  void plan_symbol_window();
+  void send_media_test_symbol(Microticks at);
+  void judge_symbol_window(const Reception& reception, bool conflict);
+  void close_symbol_window();
+
   // --- sending (controller_send.cc)
   bool may_send(const schedules::FrameSlot& slot) const;
   void skip_to_own_static();
   void send_static(Microticks at);
   void plan_dynamic(schedules::Channel channel, Microticks now);
   void send_dynamic(schedules::Channel channel, Microticks at);
+  std::size_t preamble_bytes(const schedules::FrameSlot& slot) const;   // in front of the fragment
   void send_frame(const schedules::FrameSlot& slot, schedules::Channel channel, Microticks at, Microticks end,
                   const Cni::Fragment& content, bool null_frame, bool last);
   void send_symbol(Signal signal, schedules::Channel channel, Microticks at, Microticks end);
+  Microticks cas_length() const;
   void send_cas(Microticks at);
   void send_wakeup_pattern(Microticks at);
 

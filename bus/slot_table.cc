@@ -32,4 +32,12 @@ const FrameSlot* SlotTable::expected(int slot, int counter, Channel channel) con
   return nullptr;
 }
 
+const FrameSlot* SlotTable::expected(int slot, int counter, Channel channel,
+                                     std::optional<std::uint16_t> message_id) const {
+  if (slot < 1 || static_cast<std::size_t>(slot) > expected_.size()) return nullptr;
+  for (const FrameSlot* frame : expected_[static_cast<std::size_t>(slot - 1)])
+    if (in_cycle(*frame, counter) && includes(frame->channels, channel) && frame->message_id == message_id) return frame;
+  return nullptr;
+}
+
 }  // namespace ttf::bus

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,6 +23,10 @@ class SlotTable {
   }
   // The frame that another node sends there; null where nobody does. `counter`: cycle counter, 0..63.
   const schedules::FrameSlot* expected(int slot, int counter, schedules::Channel channel) const;
+  // The same in the dynamic segment, where several may share a slot, told apart by message id: the one with that id (or
+  // without one); null where that is not expected.
+  const schedules::FrameSlot* expected(int slot, int counter, schedules::Channel channel,
+                                       std::optional<std::uint16_t> message_id) const;
 
  private:
   std::vector<const schedules::FrameSlot*> own_static_;

@@ -5,6 +5,7 @@
 // event happens in every cycle c with c mod repetition == base_cycle.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -42,6 +43,9 @@ struct FrameSlot {
   // Static frames only: the payload begins with the network management vector, gNetworkManagementVectorLength bytes,
   // and says so (payload preamble indicator); the fragment follows it.
   bool network_management = false;
+  // Dynamic frames only: the payload begins with this message id, two bytes, and says so (payload preamble indicator). Frames
+  // of one sender may share a slot if their ids differ.
+  std::optional<std::uint16_t> message_id = std::nullopt;
 };
 
 constexpr bool is_dynamic(const GlobalParameters& flexray, const FrameSlot& frame) {

@@ -90,6 +90,8 @@ struct NodeParameters {
   int pAllowPassiveToActive = 0;        // even/odd cycle pairs, 0: never
   bool pAllowHaltDueToClock = false;
   int pWakeupPattern = 2;
+  int pExternOffsetCorrection = 0;      // [uT] that a host's external correction may shift a double cycle by
+  int pExternRateCorrection = 0;        // [uT] ... may change the rate by
 };
 
 }  // namespace ttf::schedules

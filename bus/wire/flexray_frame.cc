@@ -65,6 +65,12 @@ DecodedFrame decode_frame(schedules::Channel channel, std::span<const std::byte>
   return decoded;
 }
 
+std::optional<std::uint16_t> message_id(const DecodedFrame& frame) {
+  if (!frame.header.payload_preamble || frame.payload.size() < kMessageIdBytes) return std::nullopt;
+  return static_cast<std::uint16_t>(static_cast<unsigned>(frame.payload[0]) << 8 |
+                                    static_cast<unsigned>(frame.payload[1]));
+}
+
 std::int64_t frame_duration_ps(const schedules::GlobalParameters& flexray, int payload_words) {
   return schedules::frame_bits(flexray, payload_words) * flexray.gdBit_ps;
 }

@@ -24,7 +24,9 @@ inline constexpr std::size_t kMaxPayloadBytes = 254;
 inline constexpr std::size_t kMaxFrameBytes = kHeaderBytes + kMaxPayloadBytes + kTrailerBytes;
 
 struct FrameHeader {
-  bool payload_preamble = false;  // the payload begins with a network management vector (static segment); never in a null frame
+  // The payload begins with a network management vector (static segment) or with a message id (dynamic segment); never in a
+  // null frame.
+  bool payload_preamble = false;
   bool null_frame = false;      // on the wire the indicator is inverted
   bool sync = false;
   bool startup = false;
@@ -57,6 +59,11 @@ struct DecodedFrame {
 // `frame`: one whole frame as received on `channel`, without the bits of the physical layer. Sync and startup indicators and
 // the cycle are the receiver's to judge: they depend on the slot.
 DecodedFrame decode_frame(schedules::Channel channel, std::span<const std::byte> frame);
+
+// In the dynamic segment, a frame with payload preamble begins with these two bytes, the more significant first.
+inline constexpr std::size_t kMessageIdBytes = 2;
+// Of a dynamic frame; nothing where the indicator is not set or the payload is too short for it.
+std::optional<std::uint16_t> message_id(const DecodedFrame& frame);
 
 // Of a static frame on the wire (schedules::frame_bits), in picoseconds; and in whole nanoseconds, rounded up: a frame is
 // there when its last bit is.

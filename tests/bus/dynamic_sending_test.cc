@@ -5,49 +5,12 @@
 #include <vector>
 
 #include "core/random.h"
-#include "tests/bus/bus_rig.h"
+#include "tests/bus/dynamic_cluster.h"
 
 namespace ttf::bus {
 namespace {
 
-using schedules::Channel;
 using schedules::Channels;
-
-constexpr std::int64_t kSegment = 840 + 4;   // macrotick of the first minislot: 10 static slots, difference of action points
-
-// small_cluster with 24 minislots of 5 MT; dynamic slot 11 + n is node n's, one fragment of 8 bytes.
-schedules::Cluster dynamic_cluster(int nodes, Channels channels = Channels::kAB) {
-  schedules::Cluster cluster = small_cluster(nodes);
-  cluster.flexray.gNumberOfMinislots = 24;
-  cluster.flexray.gdNIT = 1000 - kSegment - 24 * 5;
-  cluster.flexray.gOffsetCorrectionStart = 980;
-  for (int n = 0; n < nodes; ++n) {
-    cluster.nodes[static_cast<std::size_t>(n)].flexray->pLatestTx = 15;
-    cluster.pdus.push_back(list_layout(4, 3, 3));
-    cluster.frames.push_back({11 + n, channels, 0, 1, static_cast<NodeId>(n), static_cast<PduId>(2 + n), 0, 0});
-  }
-  return cluster;
-}
-
-void write(Rig& rig, std::size_t node, std::uint32_t sequence) {
-  const MadeList list(rig.cluster().pdus[2 + node], sequence, 3, 0);
-  rig.controller(node).outgoing(static_cast<PduId>(2 + node)).write(list.view());
-}
-
-std::vector<Heard::Sent> dynamic_frames(Rig& rig, std::size_t node, Channel channel = Channel::kA) {
-  std::vector<Heard::Sent> frames;
-  for (const auto& sent : rig.heard(node).sent)
-    if (sent.slot > 10 && sent.channel == channel) frames.push_back(sent);
-  return frames;
-}
-
-// Of an arrived list, at receiver `node`.
-std::vector<std::uint32_t> arrived(Rig& rig, std::size_t node, PduId pdu) {
-  std::vector<std::uint32_t> sequences;
-  for (const auto& one : rig.heard(node).arrived)
-    if (one.pdu == pdu && one.effect == ArrivalEffect::kCompleted) sequences.push_back(one.sequence);
-  return sequences;
-}
 
 TEST(DynamicSegment, AListIsSentOnceAndArrives) {
   Rig rig(dynamic_cluster(3), {0, 0, 0}, Duration{500});

@@ -8,27 +8,10 @@
 #include <vector>
 
 #include "core/random.h"
-#include "tests/bus/bus_rig.h"
+#include "tests/bus/startup_cluster.h"
 
 namespace ttf::bus {
 namespace {
-
-// small_cluster with `coldstart` coldstart nodes and `others` that only integrate, parameters as a designer would choose.
-schedules::Cluster startup_cluster(int coldstart, int others = 0) {
-  schedules::Cluster cluster = small_cluster(coldstart + others);
-  for (std::size_t n = 0; n < cluster.nodes.size(); ++n) {
-    schedules::NodeParameters& p = *cluster.nodes[n].flexray;
-    p.pdAcceptedStartupRange = 400;
-    p.pdListenTimeout = 2 * (kMicroPerCycle + 121);
-    p.pAllowPassiveToActive = 2;
-    p.pAllowHaltDueToClock = true;
-    if (n >= static_cast<std::size_t>(coldstart)) p.pKeySlotUsedForStartup = p.pKeySlotUsedForSync = false;
-  }
-  cluster.flexray.gColdStartAttempts = 8;
-  return cluster;
-}
-
-constexpr TrueTime at_ms(double ms) { return {static_cast<std::int64_t>(ms * 1e6)}; }
 
 // The running cycle in which a node became normal active, or -1.
 std::int64_t active_in(Rig& rig, std::size_t node) {

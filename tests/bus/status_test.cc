@@ -7,6 +7,7 @@
 
 #include "bus/sync_collector.h"
 #include "tests/bus/alone.h"
+#include "tests/bus/startup_cluster.h"
 
 namespace ttf::bus {
 namespace {
@@ -98,10 +99,7 @@ TEST(SlotSeen, AFrameThatOutlastsTheSegmentIsAddedWhenItIsOver) {
 
 // Four nodes from power-on: the segments are told from the first cycle of whoever leads, without a gap.
 TEST(SlotSeen, IsToldInEveryCycleAlsoDuringStartup) {
-  schedules::Cluster cluster = small_cluster(4);
-  for (auto& node : cluster.nodes) node.flexray->pdListenTimeout = 2 * kMicroPerCycle + 242;
-  for (auto& node : cluster.nodes) node.flexray->pdAcceptedStartupRange = 200;
-  Rig rig(cluster, {0, 0, 0, 0}, {}, std::vector<TrueTime>(4, Rig::kStart));
+  Rig rig(startup_cluster(4), {0, 0, 0, 0}, {}, std::vector<TrueTime>(4, Rig::kStart));
   rig.run_cycles(60);
   for (std::size_t n = 0; n < 4; ++n) {
     ASSERT_EQ(rig.controller(n).state().kind, PocKind::kNormalActive) << n;
