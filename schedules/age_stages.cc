@@ -17,23 +17,26 @@ namespace {
 // The intermission belongs to a frame's duration, but the list is there before it.
 constexpr std::int64_t kIntermissionBits = 3;
 
-// When the controller takes the list for a cycle: at its first slot's action point, at the earliest the slot's start.
-CycleInstant latch(const GlobalParameters& g, const SlotGroup& group, bool latest) {
-  const Macroticks action_point = latest ? Macroticks{0} : Macroticks{g.gdActionPointOffset};
-  return {group.base_cycle, group.repetition, slot_start(g, group.first) + action_point};
+// Until when a list must have been written to be taken for a cycle, certainly or possibly.
+CycleInstant latch(const SlotGroup& group, bool latest) {
+  return {group.base_cycle, group.repetition, latest ? group.taken_from : group.taken_by};
 }
 
-std::int64_t transmitted(const Cluster& cluster, PduId pdu, std::int64_t from, bool latest) {
+// Of a frame's bits, from its action point at one node to its end at another; at the least.
+std::int64_t shortest_frame(const GlobalParameters& g, int words) {
+  return (frame_bits(g, words) * g.gdBit_ps + g.gdMinPropagationDelay_ps) / 1000;
+}
+
+std::int64_t transmitted(const Cluster& cluster, const std::vector<SlotGroup>& groups, std::int64_t from, bool latest) {
   const GlobalParameters& g = cluster.flexray;
   std::int64_t end = INT64_MAX;
-  for (const SlotGroup& group : slot_groups(cluster, pdu)) {
-    const Occurrence sent = next_occurrence(g, latch(g, group, latest), GlobalTime{from});
+  for (const SlotGroup& group : groups) {
+    const Occurrence sent = next_occurrence(g, latch(group, latest), GlobalTime{from});
     // A full list to the end of its last slot; or a list of one fragment to the end of its frame.
-    const std::int64_t bits = frame_bits(g, g.gPayloadLengthStatic);
     const std::int64_t done =
-        latest ? time_of(g, sent.cycle, slot_start(g, group.last + 1)).ns
+        latest ? time_of(g, sent.cycle, group.complete_by).ns
                : time_of(g, sent.cycle, slot_start(g, group.first_fragment) + Macroticks{g.gdActionPointOffset}).ns +
-                     (bits * g.gdBit_ps + g.gdMinPropagationDelay_ps) / 1000;
+                     shortest_frame(g, g.gPayloadLengthStatic);
     end = std::min(end, done);
   }
   return end;
@@ -98,7 +101,10 @@ class Builder {
       Stage stage;
       stage.name = fmt::format("{} waits for its slots and is sent", layout.name);
       stage.kind = Stage::Kind::kSlots;
-      stage.pdu = binding.pdu;
+      stage.slots = slot_groups(cluster_, binding.pdu);
+      TTF_CHECK(!stage.slots.empty(), "{} has no slots", layout.name);
+      const std::int64_t shortest = shortest_frame(cluster_.flexray, (layout.fragment_bytes + 1) / 2);
+      stage.shortest = {std::max<std::int64_t>(0, shortest - clocks_.drift_ns(shortest) - kGranularity_ns)};
       path.stages.push_back(std::move(stage));
       return;
     }
@@ -281,7 +287,9 @@ std::vector<std::int64_t> walk(const Cluster& cluster, const Path& path, std::si
       case Stage::Kind::kActivation:
         t = next_occurrence(cluster.flexray, stage.at, GlobalTime{t + margin}).time.ns;
         break;
-      case Stage::Kind::kSlots: t = transmitted(cluster, stage.pdu, t + margin, latest); break;
+      case Stage::Kind::kSlots:
+        t = stage.on_grid(latest) ? transmitted(cluster, stage.slots, t + margin, latest) : t + stage.shortest.ns;
+        break;
     }
     instants.push_back(t);
   }
@@ -292,7 +300,7 @@ std::vector<std::int64_t> entries(const Cluster& cluster, const Stage& stage, st
   std::vector<CycleInstant> gates;
   if (stage.kind == Stage::Kind::kActivation) gates.push_back(stage.at);
   if (stage.kind == Stage::Kind::kSlots)
-    for (const SlotGroup& group : slot_groups(cluster, stage.pdu)) gates.push_back(latch(cluster.flexray, group, latest));
+    for (const SlotGroup& group : stage.slots) gates.push_back(latch(group, latest));
   std::vector<std::int64_t> instants;
   for (const CycleInstant& gate : gates)
     for (std::int64_t cycle = from_cycle; cycle < from_cycle + kCycles; ++cycle)

@@ -7,6 +7,7 @@
 
 #include "schedules/clock_bounds.h"
 #include "schedules/cluster.h"
+#include "schedules/slot_groups.h"
 
 namespace ttf::schedules {
 
@@ -16,7 +17,14 @@ struct Stage {
   Kind kind = Kind::kSpan;
   Duration best{}, worst{};        // kSpan, drift included
   CycleInstant at{};               // kActivation
-  PduId pdu = kNoPdu;              // kSlots
+  std::vector<SlotGroup> slots;    // kSlots
+  Duration shortest{};             // kSlots in the dynamic segment: from a write to the arrival, drift included
+
+  // At its earliest a list in the dynamic segment goes out as soon as it is written, at any phase: the stage is on the cycle's
+  // grid for the latest instants only.
+  bool on_grid(bool latest) const {
+    return kind == Kind::kActivation || (kind == Kind::kSlots && (latest || !slots.front().dynamic));
+  }
 };
 
 struct Path {

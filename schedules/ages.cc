@@ -99,8 +99,12 @@ class Ages {
     // Up to the first stage on the grid, a free-running sensor's stages are spans.
     std::size_t gate = 0;
     if (!sensor.scheduled)
-      for (; gate < last && path.stages[gate].kind == Stage::Kind::kSpan; ++gate)
-        before.push_back(latest ? path.stages[gate].worst.ns : path.stages[gate].best.ns);
+      for (; gate < last && !path.stages[gate].on_grid(latest); ++gate) {
+        const Stage& stage = path.stages[gate];
+        before.push_back(latest                                ? stage.worst.ns
+                         : stage.kind == Stage::Kind::kSlots ? stage.shortest.ns
+                                                               : stage.best.ns);
+      }
     std::vector<std::int64_t> starts;
     if (sensor.scheduled) {
       for (std::int64_t cycle = kFromCycle; cycle < kFromCycle + kCycles; ++cycle)

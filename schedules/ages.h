@@ -9,7 +9,11 @@
 //   activation   waiting for the next instant of a task that time activates (a reader that another list or another task sets
 //                off is a span: up to two periods of the slowest sensor, or one of its chain's beginning and all responses)
 //   slots        waiting for the first of the list's slots, then its transmission. A list written after that slot has
-//                begun waits for the next cycle of its frames, which is what the controller does (whole lists only).
+//                begun waits for the next cycle of its frames, which is what the controller does (whole lists only). In
+//                the dynamic segment a list is there at the earliest when one frame has been sent at once, at any phase;
+//                at the latest it misses the instant at which its first slot's turn may come with all before it silent, and
+//                in the next cycle of its frames all slots before each of them are used by their longest frames
+//                (schedules/minislots.h). The checker demands that all of this fits the cycle.
 // Assumptions:
 //   A1  nothing fails: no lost frame, no deadline missed, no list replaced before it is read
 //   A2  the cluster's clocks agree to gAssumedPrecision plus one macrotick; unsynchronised spans run on oscillators that

@@ -72,6 +72,34 @@ void check_sender(const Cluster& cluster, NodeId id, ClusterFindings& findings) 
                        fmt::format("must be at most {}: {}, which must not end behind them", last_start(g, words), frame));
 }
 
+// Who counts on when the list arrives; empty: nobody does.
+std::string counted_on(const Cluster& cluster, const FrameSlot& frame) {
+  if (const SensorId sensor = cluster.pdu(frame.pdu).sensor; sensor != kNoSensor)
+    return fmt::format("the age of measurements of {} would have no bound", cluster.sensor(sensor).name);
+  bool fuses = false;
+  for (const Node& node : cluster.nodes)
+    for (const Task& task : node.tasks)
+      for (const PortBinding& in : task.reads) {
+        if (&node == &cluster.node(frame.sender)) fuses |= cluster.pdu(in.pdu).sensor != kNoSensor;
+        if (in.pdu == frame.pdu && !in.can_bus && task.activation.kind == ActivationKind::kMessage &&
+            task.activation.port == in.port)
+          return fmt::format("{} is activated by it", task_path(node, task));
+      }
+  return fuses ? fmt::format("{} makes it of measurements, and their age would have no bound", cluster.node(frame.sender).name)
+               : "";
+}
+
+void check_bounds(const Cluster& cluster, const FrameSlot& frame, ClusterFindings& findings) {
+  if (always_in_time(cluster, frame)) return;
+  const std::string why = counted_on(cluster, frame);
+  if (why.empty()) return;
+  findings.at(frame.line, fmt::format("frames.slot {}", frame.slot), cluster.pdu(frame.pdu).name,
+              fmt::format("must have its turn by minislot {} (pLatestTx of {}) in every cycle, but may have it in minislot {} "
+                          "where all slots before it are used: {}",
+                          cluster.node(frame.sender).flexray->pLatestTx, cluster.node(frame.sender).name,
+                          latest_turn(cluster, frame), why));
+}
+
 }  // namespace
 
 void check_dynamic(const Cluster& cluster, ClusterFindings& findings) {
@@ -82,6 +110,13 @@ void check_dynamic(const Cluster& cluster, ClusterFindings& findings) {
   if (senders.empty()) return;
   check_grid(cluster, findings);
   for (const NodeId sender : senders) check_sender(cluster, sender, findings);
+  std::set<PduId> unbounded;   // said once of a list
+  for (const FrameSlot& frame : cluster.frames) {
+    if (!is_dynamic(g, frame) || !senders.contains(frame.sender) || frame.pdu == kNoPdu) continue;
+    const std::size_t before = findings.size();
+    if (!unbounded.contains(frame.pdu)) check_bounds(cluster, frame, findings);
+    if (findings.size() > before) unbounded.insert(frame.pdu);
+  }
 }
 
 }  // namespace ttf::schedules

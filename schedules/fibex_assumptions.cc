@@ -117,6 +117,7 @@ NodeParameters assume_local(const FibexEcu& ecu, const GlobalParameters& global,
   for (const auto& one : kNodeIntegers) mark(one.name);
   for (const auto& one : kNodeScaled) mark(one.name);
   for (const auto& one : kNodeFlags) mark(one.name);
+  for (const char* one : {"pChannels", "pWakeupChannel"}) mark(one);
   return p;
 }
 

@@ -9,6 +9,7 @@
 #include "core/decimal.h"
 #include "schedules/fibex_export_pdus.h"
 #include "schedules/fibex_parameters.h"
+#include "schedules/minislots.h"
 #include "schedules/xml_file.h"
 
 namespace ttf::schedules {
@@ -74,6 +75,8 @@ class Exporter {
     put(cluster, "fx:MEDIUM", "ELECTRICAL");
     pugi::xml_node extension = cluster.append_child("fx:MANUFACTURER-EXTENSION");
     for (const FibexParameter& one : kFibexExtension) put_parameter(extension, one, g);
+    if (cluster_.topology == Topology::kStar) put(extension, "ttf:TOPOLOGY", "star");
+    if (cluster_.guardian) put(extension, "ttf:GUARDIAN", "true");
     for (const FibexParameter& one : kFibexCluster) {
       put_parameter(cluster, one, g);
       // An eighth of a bit (cSamplesPerBit), in microseconds.
@@ -118,7 +121,8 @@ class Exporter {
       pugi::xml_node ecu = put_named(ecus, "fx:ECU", fmt::format("ecu_{}", i), node.name);
       put_controller(ecu.append_child("fx:CONTROLLERS"), i);
       pugi::xml_node connectors = ecu.append_child("fx:CONNECTORS");
-      for (const Channel channel : kChannels) put_connector(connectors, i, channel);
+      for (const Channel channel : kChannels)
+        if (includes(node.flexray->pChannels, channel)) put_connector(connectors, i, channel);
     }
   }
 
@@ -135,7 +139,8 @@ class Exporter {
       put(usage, p.pKeySlotUsedForStartup ? "flexray:STARTUP-SYNC" : "flexray:SYNC", key_slot);
     else
       usage.append_child("flexray:NONE");
-    put(one, "flexray:MAX-DYNAMIC-PAYLOAD-LENGTH", "0");  // nothing is sent in the dynamic segment
+    put(one, "flexray:MAX-DYNAMIC-PAYLOAD-LENGTH",
+        std::to_string(longest_dynamic_words(cluster_, static_cast<NodeId>(index))));
     for (const FibexParameter& parameter : kFibexController) {
       put_parameter(one, parameter, p);
       if (parameter.name != "pdListenTimeout") continue;
@@ -177,6 +182,7 @@ class Exporter {
           [&](const FrameSlot& frame) { return receives(cluster_.nodes[index], frame); });
     ports("fx:OUTPUTS", "fx:OUTPUT-PORT", "output",
           [&](const FrameSlot& frame) { return index_of(frame.sender) == index; });
+    put(one, "flexray:WAKE-UP-CHANNEL", channel == cluster_.nodes[index].flexray->pWakeupChannel ? "true" : "false");
   }
 
   void put_frames(pugi::xml_node frames) {
@@ -187,15 +193,25 @@ class Exporter {
                                       : fmt::format("{}_{}", cluster_.pdu(frame.pdu).name, frame.fragment);
       pugi::xml_node one = put_named(frames, "fx:FRAME", frame_id(i),
                                      fmt::format("{}_slot_{}_cycle_{}", what, frame.slot, frame.base_cycle));
-      put(one, "fx:BYTE-LENGTH", std::to_string(2 * cluster_.flexray.gPayloadLengthStatic));
+      const int words = is_dynamic(cluster_.flexray, frame) ? dynamic_words(cluster_, frame)
+                                                            : cluster_.flexray.gPayloadLengthStatic;
+      put(one, "fx:BYTE-LENGTH", std::to_string(2 * words));
       put(one, "fx:FRAME-TYPE", status ? "OTHER" : "APPLICATION");
-      if (status) continue;
+      if (status && !frame.network_management) continue;
+      if (status) {
+        put(one.append_child("fx:MANUFACTURER-EXTENSION"), "ttf:NETWORK-MANAGEMENT", "true");
+        continue;
+      }
       pugi::xml_node instance = one.append_child("fx:PDU-INSTANCES").append_child("fx:PDU-INSTANCE");
       instance.append_attribute("ID") = fmt::format("pdu_instance_{}", i).c_str();
       put_reference(instance, "fx:PDU-REF", fibex_pdu_id(frame.pdu));
-      put(instance, "fx:BIT-POSITION", "0");
+      // Behind the vector.
+      const int vector = frame.network_management ? cluster_.flexray.gNetworkManagementVectorLength : 0;
+      put(instance, "fx:BIT-POSITION", std::to_string(8 * vector));
       put(instance, "fx:IS-HIGH-LOW-BYTE-ORDER", "false");
-      put(one.append_child("fx:MANUFACTURER-EXTENSION"), "ttf:FRAGMENT", std::to_string(frame.fragment));
+      pugi::xml_node extension = one.append_child("fx:MANUFACTURER-EXTENSION");
+      put(extension, "ttf:FRAGMENT", std::to_string(frame.fragment));
+      if (frame.network_management) put(extension, "ttf:NETWORK-MANAGEMENT", "true");
     }
   }
 

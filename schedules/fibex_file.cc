@@ -122,6 +122,11 @@ void read_cluster(XmlElement& cluster, FibexFile& out, FibexReader& reader) {
   }
   if (auto extension = cluster.child("fx:MANUFACTURER-EXTENSION")) {
     read_parameters(*extension, kFibexExtension, out.global, out.given, reader);
+    if (const auto topology = extension->text_of("ttf:TOPOLOGY")) {
+      if (*topology != "star" && *topology != "bus") reader.fail(*extension, *topology, "must have a TOPOLOGY bus or star");
+      out.topology = *topology == "star" ? Topology::kStar : Topology::kBus;
+    }
+    out.guardian = reader.boolean(*extension, "ttf:GUARDIAN", false);
     extension->finish();
   }
   // An eighth of gdBit, which is read, or else derived from the bit rate.
@@ -151,7 +156,8 @@ void read_timing(XmlElement& timing, FibexTriggering& out, FibexReader& reader) 
   timing.finish();
 }
 
-void read_channel(XmlElement& channel, FibexFile& out, FibexReader& reader) {
+// Which of the two it is.
+Channel read_channel(XmlElement& channel, FibexFile& out, FibexReader& reader) {
   const std::string name = channel.text_of("flexray:FLEXRAY-CHANNEL-NAME").value_or("");
   channel.ignore("ho:SHORT-NAME");
   if (name != "A" && name != "B") reader.fail(channel, name, "must have a FLEXRAY-CHANNEL-NAME, A or B");
@@ -171,6 +177,7 @@ void read_channel(XmlElement& channel, FibexFile& out, FibexReader& reader) {
     }
   }
   channel.finish();
+  return name == "B" ? Channel::kB : Channel::kA;
 }
 
 // STARTUP-SYNC and SYNC hold the slot; NONE none, which our own extension adds.
@@ -194,22 +201,43 @@ void read_key_slot(XmlElement& controller, FibexEcu& out, FibexReader& reader) {
 
 void read_controller(XmlElement& controller, FibexEcu& out, FibexReader& reader) {
   out.has_controller = true;
+  out.controller_line = controller.line();
   controller.ignore("ho:SHORT-NAME");
   read_key_slot(controller, out, reader);
   read_parameters(controller, kFibexController, out.parameters, out.given, reader);
   // These follow from others: pMicroPerCycle, and how far apart any two clocks drift.
   for (const char* known : {"flexray:MAX-DRIFT", "flexray:MICRO-PER-MACRO-NOM"}) controller.ignore(known);
-  // Of these no cluster file has more than none: a host's external correction, and frames in the dynamic
-  // segment.
-  for (const char* known : {"flexray:EXTERN-OFFSET-CORRECTION", "flexray:EXTERN-RATE-CORRECTION",
-                            "flexray:MAX-DYNAMIC-PAYLOAD-LENGTH"})
+  if (controller.has("flexray:MAX-DYNAMIC-PAYLOAD-LENGTH"))
+    out.max_dynamic_words = reader.integer(controller, "flexray:MAX-DYNAMIC-PAYLOAD-LENGTH", 0, 127);
+  // Of these no cluster file has more than none: a host's external correction.
+  for (const char* known : {"flexray:EXTERN-OFFSET-CORRECTION", "flexray:EXTERN-RATE-CORRECTION"})
     if (const auto value = controller.text_of(known); value && *value != "0")
       reader.leave_out(controller, fmt::format("{} {}", known, *value),
                        "is left out: a cluster file has none but 0");
   controller.finish();
 }
 
-void read_ecu(XmlElement& ecu, FibexFile& out, FibexReader& reader) {
+// Channels by the ids of their elements.
+using ChannelIds = std::map<std::string, Channel>;
+
+// A connector is a node's plug on one channel. One of a channel that is none of this cluster's says nothing of pChannels.
+void read_attachment(XmlElement& connector, const ChannelIds& channels, unsigned& attached, FibexEcu& out,
+                     FibexReader& reader) {
+  const bool wakes = connector.has("flexray:WAKE-UP-CHANNEL");
+  const bool wakeup = reader.boolean(connector, "flexray:WAKE-UP-CHANNEL", false);
+  const auto channel = channels.find(connector.reference("fx:CHANNEL-REF"));
+  if (channel == channels.end()) return;
+  attached |= 1u << static_cast<unsigned>(channel->second);
+  if (!wakes) return;
+  if (wakeup && out.given.contains("pWakeupChannel") && out.parameters.pWakeupChannel != channel->second)
+    return reader.leave_out(connector, "flexray:WAKE-UP-CHANNEL true",
+                            "is left out: a node sends its wake-up pattern on one channel");
+  if (!wakeup) return;
+  out.parameters.pWakeupChannel = channel->second;
+  out.given.insert("pWakeupChannel");
+}
+
+void read_ecu(XmlElement& ecu, const ChannelIds& channels, FibexFile& out, FibexReader& reader) {
   FibexEcu one;
   one.name = reader.name_of(ecu);
   one.line = ecu.line();
@@ -220,7 +248,9 @@ void read_ecu(XmlElement& ecu, FibexFile& out, FibexReader& reader) {
     else
       read_controller(controller, one, reader);
   }
+  unsigned attached = 0;
   for (XmlElement& connector : ecu.children_of("fx:CONNECTORS", "fx:CONNECTOR")) {
+    read_attachment(connector, channels, attached, one, reader);
     const auto ports = [&](const char* list, const char* port, std::vector<std::string>& to) {
       for (XmlElement& item : connector.children_of(list, port)) {
         to.push_back(item.reference("fx:FRAME-TRIGGERING-REF"));
@@ -230,9 +260,14 @@ void read_ecu(XmlElement& ecu, FibexFile& out, FibexReader& reader) {
     };
     ports("fx:INPUTS", "fx:INPUT-PORT", one.receives);
     ports("fx:OUTPUTS", "fx:OUTPUT-PORT", one.sends);
-    for (const char* known : {"fx:CHANNEL-REF", "fx:CONTROLLER-REF"}) connector.ignore(known);
+    connector.ignore("fx:CONTROLLER-REF");
     connector.finish();
   }
+  if (attached != 0) {
+    one.parameters.pChannels = static_cast<Channels>(attached);
+    one.given.insert("pChannels");
+  }
+  if (!one.given.contains("pWakeupChannel")) one.parameters.pWakeupChannel = default_wakeup(one.parameters.pChannels);
   ecu.finish();
   out.ecus.push_back(std::move(one));
 }
@@ -263,13 +298,14 @@ FibexFile read_fibex(const XmlFile& file, Findings& wrong, Findings& left_out) {
     read_cluster(cluster, out, reader);
   }
   if (!found) reader.fail(*elements, "", "must have a cluster of xsi:type flexray:CLUSTER-TYPE");
+  ChannelIds channels;
   for (XmlElement& channel : elements->children_of("fx:CHANNELS", "fx:CHANNEL")) {
     if (is_flexray(channel, "CHANNEL-TYPE", "flexray:FLEXRAY-CHANNEL-NAME"))
-      read_channel(channel, out, reader);
+      channels[channel.attribute("ID")] = read_channel(channel, out, reader);
     else
       reader.leave_out(channel, channel.attribute("ID"), "is no FlexRay channel, and left out");
   }
-  for (XmlElement& ecu : elements->children_of("fx:ECUS", "fx:ECU")) read_ecu(ecu, out, reader);
+  for (XmlElement& ecu : elements->children_of("fx:ECUS", "fx:ECU")) read_ecu(ecu, channels, out, reader);
   const auto codings = read_codings(root, *elements, reader);
   out.pdus = read_pdus(*elements, codings, reader);
   out.frames = read_frames(*elements, reader);

@@ -65,7 +65,8 @@ struct FibexFrame {
   std::string id, name;
   int bytes = 0;
   std::vector<Place> places;
-  std::optional<int> fragment;  // of our own extension
+  std::optional<int> fragment;     // these two of our own extension
+  bool network_management = false;
   int line = 0;
 };
 
@@ -82,11 +83,14 @@ struct FibexEcu {
   std::set<std::string, std::less<>> given;  // names of parameters that the file states
   bool has_controller = false;
   std::vector<std::string> sends, receives;  // ids of frame triggerings
-  int line = 0;
+  std::optional<int> max_dynamic_words;      // MAX-DYNAMIC-PAYLOAD-LENGTH
+  int line = 0, controller_line = 0;
 };
 
 struct FibexFile {
   std::string cluster_name;
+  Topology topology = Topology::kBus;        // these two of our own extension
+  bool guardian = false;
   GlobalParameters global;
   std::set<std::string, std::less<>> given;  // names of parameters that the file states
   int cluster_line = 0;

@@ -9,6 +9,7 @@
 #include "schedules/fibex_assumptions.h"
 #include "schedules/fibex_lists.h"
 #include "schedules/limits.h"
+#include "schedules/minislots.h"
 
 namespace ttf::schedules {
 namespace {
@@ -29,6 +30,8 @@ class Importer {
     assume_global(file_, name_, out_.assumed, wrong_);
     wrong_.throw_if_any();
     cluster.flexray = file_.global;
+    cluster.topology = file_.topology;
+    cluster.guardian = file_.guardian;
     pdus_ = by_id("fx:PDU", file_.pdus);
     frames_ = by_id("fx:FRAME", file_.frames);
     take_lists();
@@ -112,14 +115,15 @@ class Importer {
     }
   }
 
-  // Whether a cluster file can have it in its static segment.
-  bool is_static(const FibexTriggering& one) {
+  // Whether a cluster file can have it in one of its segments.
+  bool has_a_slot(const FibexTriggering& one) {
     const auto out = [&](const std::string& value, const char* why) {
       leave_out(one.line, "fx:FRAME-TRIGGERING", value, why);
       return false;
     };
-    if (one.slot > out_.cluster.flexray.gNumberOfStaticSlots || one.slot > kLastStaticSlot)
-      return out(fmt::format("slot {}", one.slot), "is left out: it is not one of the static slots");
+    const GlobalParameters& g = out_.cluster.flexray;
+    if (one.slot > g.gNumberOfStaticSlots + g.gNumberOfMinislots)
+      return out(fmt::format("slot {}", one.slot), "is left out: it is neither a static slot nor has it a minislot");
     if ((one.repetition & (one.repetition - 1)) != 0)
       return out(fmt::format("repetition {}", one.repetition),
                  "is left out: cycles repeat by a power of two");
@@ -137,7 +141,7 @@ class Importer {
         fail(one.line, "fx:FRAME-TRIGGERING", one.frame, "must have a FRAME-REF to a frame of this file");
         continue;
       }
-      if (!is_static(one)) continue;
+      if (!has_a_slot(one)) continue;
       auto& [channels, line] = slots[{one.slot, one.base_cycle, one.repetition,
                                       frame->second - file_.frames.data(), senders_.at(one.id)}];
       const unsigned channel = 1u << static_cast<unsigned>(one.channel);
@@ -155,8 +159,11 @@ class Importer {
       out.repetition = repetition;
       out.sender = sender;
       out.line = found.second;
-      take_contents(file_.frames[static_cast<std::size_t>(frame)], out);
+      const FibexFrame& contents = file_.frames[static_cast<std::size_t>(frame)];
+      std::string words = take_contents(contents, out);
+      if (is_dynamic(out_.cluster.flexray, out) && !fits_dynamic(contents, out)) continue;
       out_.cluster.frames.push_back(out);
+      out_.contents.push_back(std::move(words));
     }
     order_frames();
     take_receivers();
@@ -181,9 +188,29 @@ class Importer {
     out_.contents = std::move(contents);
   }
 
-  void take_contents(const FibexFrame& frame, FrameSlot& out) {
+  // In the dynamic segment of a cluster file a frame is a fragment of a list, and as long.
+  bool fits_dynamic(const FibexFrame& frame, const FrameSlot& out) {
+    if (out.pdu == kNoPdu) {
+      leave_out(out.line, "fx:FRAME-TRIGGERING", fmt::format("slot {}", out.slot),
+                fmt::format("is left out: a frame of the dynamic segment carries a list, and {} does not", frame.name));
+      return false;
+    }
+    const int bytes = 2 * dynamic_words(out_.cluster, out);
+    if (frame.bytes != bytes)
+      leave_out(frame.line, "fx:FRAME", fmt::format("{} bytes", frame.bytes),
+                fmt::format("is left out: in the dynamic segment {} is as long as its fragment, {} bytes", frame.name, bytes));
+    if (frame.network_management)
+      leave_out(frame.line, "ttf:NETWORK-MANAGEMENT", "true", "is left out: the vector is sent in the static segment");
+    return true;
+  }
+
+  // Sets what the frame carries of a list; the words say what else it does.
+  std::string take_contents(const FibexFrame& frame, FrameSlot& out) {
     std::string contents;
-    if (frame.bytes > 2 * out_.cluster.flexray.gPayloadLengthStatic)
+    const bool dynamic = is_dynamic(out_.cluster.flexray, out);
+    out.network_management = frame.network_management && !dynamic;
+    const int vector = out.network_management ? out_.cluster.flexray.gNetworkManagementVectorLength : 0;
+    if (!dynamic && frame.bytes > 2 * out_.cluster.flexray.gPayloadLengthStatic)
       fail(frame.line, "fx:FRAME", std::to_string(frame.bytes),
            fmt::format("must have a BYTE-LENGTH of at most {}, the static payload",
                        2 * out_.cluster.flexray.gPayloadLengthStatic));
@@ -194,14 +221,14 @@ class Importer {
         continue;
       }
       const auto list = lists_.find(place.pdu);
-      if (list != lists_.end() && place.byte == 0 && frame.places.size() == 1)
+      if (list != lists_.end() && place.byte == vector && frame.places.size() == 1)
         take_fragment(frame, list->second, out);
       else
         contents +=
             fmt::format("{}{} at byte {}", contents.empty() ? "" : ", ", pdu->second->name, place.byte);
     }
     if (out.pdu == kNoPdu && !contents.empty()) contents = fmt::format("{} carries {}", frame.name, contents);
-    out_.contents.push_back(std::move(contents));
+    return contents;
   }
 
   // As our own extension says; else counted in the order of the slots.
@@ -249,6 +276,11 @@ class Importer {
       Node& node = out_.cluster.nodes[i];
       node.flexray = assume_local(*ecus_[i], out_.cluster.flexray, first, out_.assumed);
       node.microtick_ps = node.flexray->pdMicrotick_ps;
+      const int words = longest_dynamic_words(out_.cluster, static_cast<NodeId>(i));
+      if (const auto most = ecus_[i]->max_dynamic_words; most && *most != words)
+        leave_out(ecus_[i]->controller_line, "flexray:MAX-DYNAMIC-PAYLOAD-LENGTH", std::to_string(*most),
+                  fmt::format("is left out: it is that of the longest frame {} sends in the dynamic segment, {}", node.name,
+                              words));
     }
   }
 

@@ -302,6 +302,7 @@ std::vector<FibexFrame> read_frames(XmlElement& elements, FibexReader& reader) {
     }
     if (auto extension = element.child("fx:MANUFACTURER-EXTENSION")) {
       if (extension->has("ttf:FRAGMENT")) frame.fragment = reader.integer(*extension, "ttf:FRAGMENT", 0, 255);
+      frame.network_management = reader.boolean(*extension, "ttf:NETWORK-MANAGEMENT", false);
       extension->finish();
     }
     element.finish();

@@ -62,6 +62,8 @@ class Writer {
     write_head();
     line(fmt::format("name: {}", scalar(cluster_.name)));
     line("synchronisation: true");
+    if (cluster_.topology == Topology::kStar) line("topology: star");
+    if (cluster_.guardian) line("guardian: true");
     line("");
     line("flexray:");
     const auto global = [&](std::string_view name, std::string_view unit) {
@@ -106,10 +108,15 @@ class Writer {
   }
   std::vector<Value> values_of(const Node& node) const {
     std::vector<Value> values;
-    const auto add = [&](std::string_view name, std::string_view unit = {}) {
-      const bool assumed = in_.assumed.count(fmt::format("nodes.{}.flexray.{}", node.name, name)) != 0;
-      values.push_back({name, yaml_value(*node.flexray, name), assumed, unit});
+    const auto assumed = [&](std::string_view name) {
+      return in_.assumed.count(fmt::format("nodes.{}.flexray.{}", node.name, name)) != 0;
     };
+    const auto add = [&](std::string_view name, std::string_view unit = {}) {
+      values.push_back({name, yaml_value(*node.flexray, name), assumed(name), unit});
+    };
+    values.push_back({"pChannels", std::string(channels_text(node.flexray->pChannels)), assumed("pChannels"), {}});
+    values.push_back({"pWakeupChannel", node.flexray->pWakeupChannel == Channel::kA ? "A" : "B",
+                      assumed("pWakeupChannel"), {}});
     for (const auto& p : kNodeScaled) add(p.name, p.unit);
     for (const auto& p : kNodeIntegers) add(p.name);
     for (const auto& p : kNodeFlags) add(p.name);
@@ -199,6 +206,7 @@ class Writer {
         text += fmt::format(", pdu: {}, fragments: {}", scalar(cluster_.pdu(first.pdu).name), end - i);
         if (first.fragment != 0) text += fmt::format(", first_fragment: {}", first.fragment);
       }
+      if (first.network_management) text += ", network_management: true";
       text += "}";
       if (!in_.contents[i].empty()) text += comment("   # " + in_.contents[i]);
       line(text);

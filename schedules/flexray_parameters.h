@@ -15,6 +15,9 @@ constexpr bool includes(Channels set, Channel one) {
   return (static_cast<unsigned>(set) >> static_cast<unsigned>(one)) & 1u;
 }
 
+// The channel a node sends its wake-up pattern on where nothing is said: A if it is attached to it.
+constexpr Channel default_wakeup(Channels attached) { return includes(attached, Channel::kA) ? Channel::kA : Channel::kB; }
+
 // Global parameters: the same in every node of the cluster.
 struct GlobalParameters {
   int gColdStartAttempts = 8;

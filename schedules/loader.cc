@@ -116,9 +116,8 @@ class Loader {
     for (const auto& p : kNodeScaled)
       local.*p.member = from(p.name).scaled(p.name, p.scale, {p.low, p.high}, p.unit);
     local.pChannels = from("pChannels").choice_or("pChannels", local.pChannels, kChannels);
-    // On its only channel, if it has but one.
     local.pWakeupChannel = from("pWakeupChannel")
-                               .choice_or("pWakeupChannel", local.pChannels == Channels::kB ? Channel::kB : Channel::kA,
+                               .choice_or("pWakeupChannel", default_wakeup(local.pChannels),
                                           {{"A", Channel::kA}, {"B", Channel::kB}});
     for (const auto& p : kNodeFlags) local.*p.member = from(p.name).boolean(p.name);
     own.finish();

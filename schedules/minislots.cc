@@ -30,13 +30,21 @@ std::int64_t before(const Cluster& cluster, const FrameSlot& frame, Channel chan
 
 }  // namespace
 
-Macroticks minislot_start(const GlobalParameters& g, int minislot) {
+Macroticks minislot_start(const GlobalParameters& g, std::int64_t minislot) {
   return {static_cast<std::int64_t>(g.gNumberOfStaticSlots) * g.gdStaticSlot + action_point_difference(g) +
-          static_cast<std::int64_t>(minislot - 1) * g.gdMinislot};
+          (minislot - 1) * g.gdMinislot};
 }
 
 int dynamic_words(const Cluster& cluster, const FrameSlot& frame) {
   return frame.pdu == kNoPdu ? 0 : (cluster.pdu(frame.pdu).fragment_bytes + 1) / 2;
+}
+
+int longest_dynamic_words(const Cluster& cluster, NodeId sender) {
+  int longest = 0;
+  for (const FrameSlot& frame : cluster.frames)
+    if (frame.sender == sender && is_dynamic(cluster.flexray, frame))
+      longest = std::max(longest, dynamic_words(cluster, frame));
+  return longest;
 }
 
 std::int64_t minislots_of(const GlobalParameters& g, int words) {
@@ -57,7 +65,8 @@ std::int64_t latest_turn(const Cluster& cluster, const FrameSlot& frame) {
 }
 
 bool always_in_time(const Cluster& cluster, const FrameSlot& frame) {
-  return latest_turn(cluster, frame) <= cluster.node(frame.sender).flexray->pLatestTx;
+  const auto& sender = cluster.node(frame.sender).flexray;
+  return sender && latest_turn(cluster, frame) <= sender->pLatestTx;
 }
 
 }  // namespace ttf::schedules

@@ -25,10 +25,13 @@
 namespace ttf::schedules {
 
 // Begins at 1; gNumberOfMinislots + 1 is the segment's end.
-Macroticks minislot_start(const GlobalParameters& flexray, int minislot);
+Macroticks minislot_start(const GlobalParameters& flexray, std::int64_t minislot);
 
 // Of a dynamic frame, which is as long as what it carries.
 int dynamic_words(const Cluster& cluster, const FrameSlot& frame);
+
+// pPayloadLengthDynMax: of the longest one a node sends, 0 if it sends none.
+int longest_dynamic_words(const Cluster& cluster, NodeId sender);
 
 // The minislots of a slot in which a frame of so many words is sent, idle phase included.
 std::int64_t minislots_of(const GlobalParameters& flexray, int words);
@@ -40,7 +43,7 @@ std::int64_t last_start(const GlobalParameters& flexray, int words);
 int earliest_turn(const GlobalParameters& flexray, const FrameSlot& frame);
 std::int64_t latest_turn(const Cluster& cluster, const FrameSlot& frame);
 
-// Whether the frame's turn never comes too late for its sender, which must have a controller.
+// Whether the frame's turn never comes too late for its sender.
 bool always_in_time(const Cluster& cluster, const FrameSlot& frame);
 
 }  // namespace ttf::schedules

@@ -22,7 +22,7 @@ std::optional<SettledRound> settled_round(const Cluster& cluster, SensorId senso
   std::int64_t before =
       clock_bounds(cluster).apart_ns + (cluster.flexray.gdMacrotick_ps + 999) / 1000 + kStampRounding_ns;
   std::size_t gate = 0;
-  for (; path.stages[gate].kind == Stage::Kind::kSpan; ++gate) before += path.stages[gate].worst.ns;
+  for (; !path.stages[gate].on_grid(true); ++gate) before += path.stages[gate].worst.ns;
 
   const std::int64_t round_ps = kCycles * cluster.flexray.cycle_ps();
   const std::int64_t rounds = 1000 / std::gcd<std::int64_t>(1000, round_ps);

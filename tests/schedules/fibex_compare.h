@@ -19,6 +19,8 @@ class FibexDifference {
   static std::string of(const Cluster& a, const Cluster& b) {
     FibexDifference d;
     d.value("name", a.name, b.name);
+    d.value("topology", static_cast<int>(a.topology), static_cast<int>(b.topology));
+    d.value("guardian", a.guardian, b.guardian);
     d.parameters("flexray", a.flexray, b.flexray, kGlobalIntegers, kGlobalScaled);
     d.nodes(nodes_of(a), nodes_of(b));
     d.pdus(a.pdus, b.pdus);
@@ -53,6 +55,9 @@ class FibexDifference {
       value("node", a[i]->name, b[i]->name);
       value(a[i]->name + " microtick", a[i]->microtick_ps, b[i]->microtick_ps);
       parameters(a[i]->name, *a[i]->flexray, *b[i]->flexray, kNodeIntegers, kNodeScaled);
+      value(a[i]->name + " channels", channels_text(a[i]->flexray->pChannels), channels_text(b[i]->flexray->pChannels));
+      value(a[i]->name + " wake-up", static_cast<int>(a[i]->flexray->pWakeupChannel),
+            static_cast<int>(b[i]->flexray->pWakeupChannel));
       for (const auto& p : kNodeFlags)
         value(fmt::format("{}.{}", a[i]->name, p.name), (*a[i]->flexray).*p.member,
               (*b[i]->flexray).*p.member);
@@ -88,9 +93,9 @@ class FibexDifference {
   }
 
   static std::string frame_text(const Cluster& cluster, const FrameSlot& frame) {
-    return fmt::format("slot {} channels {} cycle {} of {} by {}: {} {}", frame.slot,
+    return fmt::format("slot {} channels {} cycle {} of {} by {}{}: {} {}", frame.slot,
                        static_cast<int>(frame.channels), frame.base_cycle, frame.repetition,
-                       cluster.node(frame.sender).name,
+                       cluster.node(frame.sender).name, frame.network_management ? " with vector" : "",
                        frame.pdu == kNoPdu ? "status" : cluster.pdu(frame.pdu).name, frame.fragment);
   }
 

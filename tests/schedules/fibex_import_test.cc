@@ -107,6 +107,17 @@ TEST_F(Powertrain, SlotsHaveTheirCyclesChannelsAndSenders) {
               ElementsAre("", "TorqueInfo carries CrankTorque at byte 0, Reserve at byte 4"));
 }
 
+TEST_F(Powertrain, ConnectorsSayWhatANodeIsAttachedTo) {
+  const NodeParameters& engine = *cluster_.node(*cluster_.find_node("Engine")).flexray;
+  EXPECT_EQ(engine.pChannels, Channels::kA);
+  EXPECT_EQ(engine.pWakeupChannel, Channel::kA);
+  EXPECT_FALSE(import_.assumed.contains("nodes.Engine.flexray.pChannels"));
+  EXPECT_FALSE(import_.assumed.contains("nodes.Engine.flexray.pWakeupChannel"));
+  // Its connector names no channel.
+  EXPECT_EQ(cluster_.node(*cluster_.find_node("ESP")).flexray->pChannels, Channels::kAB);
+  EXPECT_TRUE(import_.assumed.contains("nodes.ESP.flexray.pChannels"));
+}
+
 TEST_F(Powertrain, OrdinaryPdusKeepTheirSignalsBesideTheCluster) {
   EXPECT_TRUE(cluster_.pdus.empty());
   ASSERT_EQ(import_.foreign.size(), 2u);
@@ -140,12 +151,10 @@ TEST_F(Powertrain, WhatIsNotUnderstoodIsNamedWithItsLine) {
       {elements + "fx:CLUSTERS/fx:CLUSTER/flexray:MAX-INITIALIZATION-ERROR", "<flexray:MAX-INIT",
        "not understood"},
       {elements + "fx:CLUSTERS/fx:CLUSTER", "<fx:CLUSTER ID=\"C2\">", "FlexRay cluster"},
-      {"fx:FRAME-TRIGGERING", "<fx:FRAME-TRIGGERING ID=\"ft4\">", "slot 61"},
+      {"fx:FRAME-TRIGGERING = slot 61", "<fx:FRAME-TRIGGERING ID=\"ft4\">", "carries a list, and Startup does not"},
       {elements + "fx:GATEWAYS", "<fx:GATEWAYS>", "not understood"},
-      {elements + "fx:ECUS/fx:ECU/fx:CONTROLLERS/fx:CONTROLLER", "<fx:CONTROLLER ID=\"E1C\"",
-       "MAX-DYNAMIC-PAYLOAD-LENGTH 127"},
-      {elements + "fx:ECUS/fx:ECU/fx:CONNECTORS/fx:CONNECTOR/flexray:WAKE-UP-CHANNEL",
-       "<flexray:WAKE-UP-CHANNEL>", "not understood"},
+      {"flexray:MAX-DYNAMIC-PAYLOAD-LENGTH = 127", "<fx:CONTROLLER ID=\"E1C\"",
+       "that of the longest frame Engine sends in the dynamic segment, 0"},
       {"fx:PDU", "<fx:PDU ID=\"pdu1\">", "CrankTorque"},
       {"fx:PDU", "<fx:PDU ID=\"pdu2\">", "Reserve"},
       {elements + "fx:CODINGS/fx:CODING/ho:COMPU-METHODS/ho:COMPU-METHOD/ho:PHYS-CONSTRS/ho:SCALE-CONSTR",
@@ -216,6 +225,33 @@ TEST(FibexObjects, AForeignMultiplexerIsDescribed) {
        {"#   always: head\n", "#   from bit 8, where the 1 bits at bit 3 are 1: part\n",
         "#   bit 37, high byte first: {name: v_1, bits: 10}\n", "# Objects1 carries objects at byte 0"})
     EXPECT_THAT(yaml, HasSubstr(said));
+}
+
+TEST(FibexObjects, SlotsBehindTheStaticOnesAreDynamic) {
+  const std::string text = replaced(replaced(kObjects, "<f:SLOT-ID>8<", "<f:SLOT-ID>46<"), "<f:SLOT-ID>9<", "<f:SLOT-ID>47<");
+  const auto with_minislots = [&](const char* count) {
+    return parse_fibex(replaced(text, "<flexray:MACROTICK>", fmt::format("<flexray:NUMBER-OF-MINISLOTS>{}</flexray:NUMBER-OF-"
+                                                                         "MINISLOTS><flexray:MACROTICK>", count).c_str()),
+                       "objects.xml");
+  };
+  const FibexImport import = with_minislots("60");
+  ASSERT_EQ(import.cluster.frames.size(), 2u) << sentences(import.left_out);
+  EXPECT_EQ(import.cluster.frames[1].slot, 47);
+  EXPECT_EQ(import.cluster.frames[1].pdu, PduId{0});
+  EXPECT_TRUE(is_dynamic(import.cluster.flexray, import.cluster.frames[1]));
+  EXPECT_EQ(parse_cluster(skeleton_yaml(import), "cluster.yaml").frames.size(), 2u);
+  const FibexImport short_segment = with_minislots("1");
+  EXPECT_EQ(short_segment.cluster.frames.size(), 1u);
+  EXPECT_THAT(sentences(short_segment.left_out),
+              HasSubstr("slot 47: is left out: it is neither a static slot nor has it a minislot"));
+  // A frame that is not as long as what it carries.
+  const FibexImport longer = parse_fibex(
+      replaced(replaced(text, "<flexray:MACROTICK>",
+                        "<flexray:NUMBER-OF-MINISLOTS>60</flexray:NUMBER-OF-MINISLOTS><flexray:MACROTICK>"),
+               "<SHORT-NAME>Objects2</SHORT-NAME><f:BYTE-LENGTH>8<", "<SHORT-NAME>Objects2</SHORT-NAME><f:BYTE-LENGTH>20<"),
+      "objects.xml");
+  EXPECT_THAT(sentences(longer.left_out), HasSubstr("20 bytes: is left out: in the dynamic segment Objects2 is as long as its "
+                                                    "fragment, 8 bytes"));
 }
 
 // Each is no list any more, for the reason given; and the rest of the file is imported all the same.

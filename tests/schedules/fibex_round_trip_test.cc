@@ -86,7 +86,8 @@ TEST(FibexRoundTrip, KeepsEveryParameterOverItsWholeRange) {
     }
 }
 
-// Random schedules: one frame of a random list, sender, channel and multiplexing in each of 40 slots.
+// Random schedules: one frame of a random list, sender, channel and multiplexing in each of 40 static and 20 dynamic slots;
+// random channels of every node.
 TEST(FibexRoundTrip, KeepsRandomSchedules) {
   const Cluster shipped = load_checked_cluster(shipped_path("paper_unsynchronised"));
   std::vector<NodeId> senders;
@@ -99,7 +100,17 @@ TEST(FibexRoundTrip, KeepsRandomSchedules) {
     };
     Cluster cluster = shipped;
     cluster.frames.clear();
-    for (int slot = 1; slot <= 40; ++slot) {
+    cluster.topology = below(2) == 0 ? Topology::kBus : Topology::kStar;
+    cluster.guardian = cluster.topology == Topology::kStar && below(2) == 0;
+    cluster.flexray.gNetworkManagementVectorLength = below(13);
+    for (Node& node : cluster.nodes) {
+      if (!node.flexray || &node == &cluster.node(senders[0])) continue;   // the first stays on both
+      node.flexray->pChannels = static_cast<Channels>(1 + below(3));
+      node.flexray->pWakeupChannel =
+          node.flexray->pChannels == Channels::kAB && below(2) == 0 ? Channel::kB : default_wakeup(node.flexray->pChannels);
+    }
+    for (int slot = 1; slot <= 60; ++slot) {
+      const bool dynamic = slot > cluster.flexray.gNumberOfStaticSlots;
       const int repetition = 1 << below(7);
       const int first = below(repetition);
       for (int base = first; base < repetition; base += 1 + below(repetition)) {
@@ -109,17 +120,23 @@ TEST(FibexRoundTrip, KeepsRandomSchedules) {
         frame.base_cycle = base;
         frame.repetition = repetition;
         frame.sender = senders[static_cast<std::size_t>(below(static_cast<int>(senders.size())))];
-        if (below(4) != 0) {
+        const Channels attached = cluster.node(frame.sender).flexray->pChannels;
+        frame.channels = share_a_channel(frame.channels, attached)
+                             ? static_cast<Channels>(static_cast<int>(frame.channels) & static_cast<int>(attached))
+                             : attached;
+        frame.network_management = !dynamic && below(4) == 0;
+        if (below(4) != 0 || dynamic) {
           frame.pdu = static_cast<PduId>(below(static_cast<int>(cluster.pdus.size())));
           frame.fragment = below(cluster.pdu(frame.pdu).max_fragments());
         }
         cluster.frames.push_back(frame);
-        if (frame.channels != Channels::kA) continue;
+        if (frame.channels != Channels::kA || dynamic) continue;
         // The other channel of the same slot is someone else's.
         frame.channels = Channels::kB;
         frame.sender = senders[0];
         frame.pdu = kNoPdu;
         frame.fragment = 0;
+        frame.network_management = false;
         cluster.frames.push_back(frame);
       }
     }

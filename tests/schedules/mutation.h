@@ -22,7 +22,7 @@ struct Wanted {
 
 struct Mutation {
   std::string name;
-  std::string pattern;        // its first match in paper_unsynchronised.yaml ...
+  std::string pattern;        // its first match in the shipped file ...
   std::string replacement;    // ... becomes this
   Wanted wanted;              // of some finding
 };
@@ -40,8 +40,8 @@ inline std::string line_of(const std::string& text, int number) {
   return line;
 }
 
-inline void expect_named(const std::vector<Mutation>& mutations) {
-  const std::string original = shipped_text("paper_unsynchronised");
+inline void expect_named(const std::vector<Mutation>& mutations, const std::string& shipped = "paper_unsynchronised") {
+  const std::string original = shipped_text(shipped);
   ASSERT_TRUE(findings_of(original).empty()) << sentences(findings_of(original));
   for (const Mutation& mutation : mutations) {
     SCOPED_TRACE(mutation.name);

@@ -128,6 +128,7 @@ TEST(Responses, CorrectionsBringInstantsCloser) {
 // The shortest distance over the cycles, not the shortest repetition: cycles 1, 9, 17 .. and 2, 10, 18 ..
 TEST(SlotGaps, AreBetweenTheCyclesThatHaveTheList) {
   Cluster cluster = cluster_of({});
+  cluster.flexray.gNumberOfStaticSlots = 24;
   const FrameSlot one{22, Channels::kAB, 1, 8, NodeId{0}, PduId{0}, 0, 0};
   FrameSlot other = one;
   other.base_cycle = 2;

@@ -25,6 +25,7 @@ inline Task timed(std::string name, CycleInstant at, Duration execution) {
 
 inline Cluster small(bool scheduled) {
   Cluster cluster;
+  cluster.flexray.gNumberOfStaticSlots = 20;
   cluster.pdus.resize(2);
   for (PduLayout& layout : cluster.pdus) {
     layout.fragment_bytes = 56;
