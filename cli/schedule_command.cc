@@ -13,6 +13,7 @@
 #include "report/schedule_picture.h"
 #include "schedules/ages.h"
 #include "schedules/checker.h"
+#include "schedules/dynamic_load.h"
 #include "schedules/fibex_export.h"
 #include "schedules/fibex_import.h"
 #include "schedules/loader.h"
@@ -32,17 +33,36 @@ struct Options {
 
 double ms(Duration d) { return static_cast<double>(d.ns) * 1e-6; }
 
+// Null where nothing is sent in the dynamic segment.
+nlohmann::ordered_json dynamic_json(const schedules::Cluster& cluster) {
+  nlohmann::ordered_json json;
+  for (const schedules::DynamicList& list : schedules::dynamic_lists(cluster))
+    json["lists"].push_back({{"pdu", cluster.pdu(list.pdu).name},
+                             {"sender", cluster.node(list.sender).name},
+                             {"slots", {list.first_slot, list.last_slot}},
+                             {"channels", schedules::channels_text(list.channels)},
+                             {"minislots_each", list.minislots_each},
+                             {"turn", {list.earliest_turn, list.latest_turn}},
+                             {"always_in_time", list.always_in_time}});
+  if (json.is_null()) return json;
+  json["minislots"] = cluster.flexray.gNumberOfMinislots;
+  for (const schedules::DynamicLoad& load : schedules::dynamic_load(cluster))
+    json["worst_minislots"][load.channel == schedules::Channel::kA ? "A" : "B"] = load.minislots;
+  return json;
+}
+
 int check(const Options& options) {
   const schedules::Cluster cluster = schedules::load_checked_cluster(options.file);
   schedules::bind_ports(cluster, nodes::step_ports());
   if (!options.capture.file.empty()) return check_against_capture(cluster, options.capture, options.json);
   if (!options.json) {
-    fmt::print("{}: consistent\n{}", cluster.name, schedules::ages_text(cluster));
+    fmt::print("{}: consistent\n{}{}", cluster.name, schedules::dynamic_text(cluster), schedules::ages_text(cluster));
     return 0;
   }
   nlohmann::ordered_json json;
   json["cluster"] = cluster.name;
   json["consistent"] = true;
+  if (auto dynamic = dynamic_json(cluster); !dynamic.is_null()) json["dynamic_segment"] = std::move(dynamic);
   for (const schedules::AgePath& path : schedules::measurement_ages(cluster)) {
     nlohmann::ordered_json one{{"sensor", cluster.sensor(path.sensor).name},
                                {"available_ms", {ms(path.fusion_best), ms(path.fusion_worst)}},

@@ -9,6 +9,7 @@
 
 #include "report/axes.h"
 #include "report/names.h"
+#include "schedules/minislots.h"
 
 namespace ttf::report {
 namespace {
@@ -175,8 +176,34 @@ class Painter {
       at += length;
     };
     segment(static_cast<double>(g.gNumberOfMinislots) * g.gdMinislot, "dynamic segment", "#e6f0f7");
+    draw_dynamic(channel, top);
     segment(g.gdSymbolWindow, "symbol window", "#f5eeda");
     segment(g.gMacroPerCycle - at, "network idle time", "#eeeeee");
+  }
+
+  // One row per dynamic frame: from its turn at the earliest to its end at the latest.
+  void draw_dynamic(Channel channel, double top) {
+    const auto& g = c_.flexray;
+    std::vector<const FrameSlot*> here;
+    for (const FrameSlot& f : c_.frames)
+      if (is_dynamic(g, f) && includes(f.channels, channel)) here.push_back(&f);
+    const double part = kSlotLane / std::max<double>(1.0, static_cast<double>(here.size()));
+    for (std::size_t i = 0; i < here.size(); ++i) {
+      const FrameSlot& f = *here[i];
+      const std::int64_t over = schedules::latest_turn(c_, f) + schedules::minislots_of(g, schedules::dynamic_words(c_, f));
+      const double left = x(static_cast<double>(schedules::minislot_start(g, schedules::earliest_turn(g, f)).value));
+      const double right = x(static_cast<double>(
+          schedules::minislot_start(g, std::min<std::int64_t>(over, g.gNumberOfMinislots + 1)).value));
+      svg_->rect({left, top + part * static_cast<double>(i), right - left, part},
+                 {.fill = colour(f.pdu), .stroke = "#444444", .width = 0.5},
+                 fmt::format("slot {}; {} in cycles {} mod {}, when there is a list", f.slot, frame_text(f), f.base_cycle,
+                             f.repetition),
+                 "slot");
+      const std::string text = fmt::format("{}: {}", f.slot, frame_text(f));
+      if (part >= 9)
+        svg_->text({left + 3, top + part * (static_cast<double>(i) + 0.5) + 3}, fitted(text, 8.5, right - left - 6),
+                   {.size = 8.5});
+    }
   }
 
   std::vector<TaskLane> task_lanes() const {

@@ -3,8 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "schedules/can_load.h"
+#include "schedules/dynamic_load.h"
+#include "schedules/minislots.h"
+#include "schedules/slot_groups.h"
 
 namespace ttf::schedules {
 namespace {
@@ -16,22 +20,42 @@ std::string cycles_text(int base_cycle, int repetition) {
 
 double in_ms(Duration d) { return static_cast<double>(d.ns) * 1e-6; }
 
-// The cycle to scale: S static slots in use, s free ones, d dynamic segment, w symbol window, n network idle time.
+// The cycle to scale: S static slots in use, s free ones, D what dynamic frames can take at most, d the rest of their segment,
+// w symbol window (a column at least), n network idle time.
 std::string bar(const Cluster& cluster) {
   constexpr int kWidth = 96;
   const GlobalParameters& g = cluster.flexray;
+  const int idle = g.gMacroPerCycle - g.gdNIT, window = idle - g.gdSymbolWindow;
+  std::int64_t taken = 0;
+  for (const DynamicLoad& load : dynamic_load(cluster)) taken = std::max(taken, load.minislots);
+  const std::int64_t free = taken == 0 ? 0 : minislot_start(g, taken + 1).value;
   std::string text;
   for (int column = 0; column < kWidth; ++column) {
-    const int at = static_cast<int>((2LL * column + 1) * g.gMacroPerCycle / (2 * kWidth));
+    const auto macrotick = [&](int half_columns) {
+      return static_cast<int>(static_cast<std::int64_t>(half_columns) * g.gMacroPerCycle / (2 * kWidth));
+    };
+    const int at = macrotick(2 * column + 1);
     const int slot = at / g.gdStaticSlot + 1;
     const bool used = std::any_of(cluster.frames.begin(), cluster.frames.end(),
                                   [&](const FrameSlot& frame) { return frame.slot == slot; });
-    const int idle = g.gMacroPerCycle - g.gdNIT;
-    text += slot <= g.gNumberOfStaticSlots ? (used ? 'S' : 's')
-            : at >= idle                   ? 'n'
-            : at >= idle - g.gdSymbolWindow ? 'w' : 'd';
+    if (slot <= g.gNumberOfStaticSlots)
+      text += used ? 'S' : 's';
+    else if (g.gdSymbolWindow > 0 && window >= macrotick(2 * column) && window < macrotick(2 * column + 2))
+      text += 'w';
+    else
+      text += at >= idle ? 'n' : at >= window ? 'w' : at < free ? 'D' : 'd';
   }
   return text;
+}
+
+// From the beginning of its slot to the end of the last of a row; of a dynamic one, at the earliest and at the latest, but
+// never beyond the segment.
+std::pair<std::int64_t, std::int64_t> macroticks(const Cluster& cluster, const FrameSlot& first, const FrameSlot& last) {
+  const GlobalParameters& g = cluster.flexray;
+  if (!is_dynamic(g, first)) return {slot_start(g, first.slot).value, slot_start(g, last.slot + 1).value};
+  const std::int64_t over = latest_turn(cluster, last) + minislots_of(g, dynamic_words(cluster, last));
+  return {minislot_start(g, earliest_turn(g, first)).value,
+          minislot_start(g, std::min<std::int64_t>(over, g.gNumberOfMinislots + 1)).value};
 }
 
 std::string activation_text(const Cluster& cluster, const Task& task) {
@@ -67,10 +91,17 @@ void show_slots(const Cluster& cluster, std::string& text) {
     const NodeParameters* sender = cluster.node(first.sender).flexray ? &*cluster.node(first.sender).flexray : nullptr;
     if (sender != nullptr && sender->pKeySlotId == first.slot)
       frame += sender->pKeySlotUsedForSync ? (sender->pKeySlotUsedForStartup ? " (sync, startup)" : " (sync)") : " (key)";
-    text += fmt::format("{:>9}  {:>7}-{:<7}  {:<2}  {:<12}{:<34}{}\n", slots, (first.slot - 1) * g.gdStaticSlot,
-                        last.slot * g.gdStaticSlot, channels_text(first.channels), cluster.node(first.sender).name,
-                        frame, cycles_text(first.base_cycle, first.repetition));
+    if (first.network_management) frame += " + vector";
+    if (is_dynamic(g, first)) frame += " (dynamic)";
+    const auto [begin, over] = macroticks(cluster, first, last);
+    text += fmt::format("{:>9}  {:>7}-{:<7}  {:<2}  {:<12}{:<34}{}\n", slots, begin, over, channels_text(first.channels),
+                        cluster.node(first.sender).name, frame, cycles_text(first.base_cycle, first.repetition));
     i = end;
+  }
+  if (g.gdSymbolWindow > 0) {
+    const int idle = g.gMacroPerCycle - g.gdNIT;
+    text += fmt::format("{:>9}  {:>7}-{:<7}  {:<2}  {:<12}{:<34}{}\n", "", idle - g.gdSymbolWindow, idle, "AB", "", "symbol window",
+                        cycles_text(0, 1));
   }
 }
 
@@ -79,12 +110,14 @@ void show_slots(const Cluster& cluster, std::string& text) {
 std::string show_text(const Cluster& cluster) {
   const GlobalParameters& g = cluster.flexray;
   const int dynamic = g.gMacroPerCycle - g.gdNIT - g.gdSymbolWindow - g.gNumberOfStaticSlots * g.gdStaticSlot;
+  const bool sent = !dynamic_lists(cluster).empty();
   std::string text = fmt::format(
       "{}: cycle of {:g} ms, {} macroticks: static {} x {}, dynamic {}, symbol window {}, idle {}\n\n{}\n"
-      "S static slot in use, s free, d dynamic segment, w symbol window, n network idle time\n\n",
+      "S static slot in use, s free, {}d dynamic segment, w symbol window, n network idle time\n\n",
       cluster.name, in_ms(cluster.cycle()), g.gMacroPerCycle, g.gNumberOfStaticSlots, g.gdStaticSlot, dynamic,
-      g.gdSymbolWindow, g.gdNIT, bar(cluster));
+      g.gdSymbolWindow, g.gdNIT, bar(cluster), sent ? "D dynamic frames at most, " : "");
   show_slots(cluster, text);
+  if (sent) text += "\n" + dynamic_text(cluster);
   text += "\nsensors\n";
   for (const Sensor& sensor : cluster.sensors) {
     std::string when = fmt::format("runs freely, every {:g} ms", in_ms(sensor.period));

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "schedules/ages.h"
+#include "schedules/dynamic_load.h"
+#include "schedules/show.h"
 #include "schedules/slot_groups.h"
 #include "tests/schedules/cluster_file.h"
 
@@ -114,6 +116,54 @@ TEST(Minislots, AgesCountTheWaitForATurn) {
     const Duration worst = laser ? Duration::microseconds(2000 + 24 * 7) : Duration::microseconds(2000 + 46 * 7);
     EXPECT_EQ(part->worst, worst - Duration{1});
   }
+}
+
+TEST(DynamicLoad, IsThatOfTheFullestCycle) {
+  Cluster cluster = dynamic();
+  cluster.frames = {frame(11, Channels::kA, NodeId{0}, PduId{2}), frame(11, Channels::kA, NodeId{1}, PduId{1}),
+                    frame(13, Channels::kAB, NodeId{1}, PduId{0})};
+  cluster.frames[0].repetition = 2;                       // 12 minislots in even cycles, 8 in odd ones
+  cluster.frames[1].base_cycle = 1;
+  cluster.frames[1].repetition = 2;
+  const auto loads = dynamic_load(cluster);
+  ASSERT_EQ(loads.size(), 2u);
+  EXPECT_EQ(loads[0].minislots, 12 + 1 + 5);
+  EXPECT_DOUBLE_EQ(loads[0].share, 18.0 / 40.0);
+  EXPECT_EQ(loads[1].minislots, 2 + 5);
+  const auto lists = dynamic_lists(cluster);
+  ASSERT_EQ(lists.size(), 3u);
+  EXPECT_EQ(lists[2].earliest_turn, 3);
+  EXPECT_EQ(lists[2].latest_turn, 14);
+  EXPECT_TRUE(lists[2].always_in_time);
+  cluster.nodes[1].flexray->pLatestTx = 13;
+  EXPECT_FALSE(dynamic_lists(cluster)[2].always_in_time);
+  cluster.frames.clear();
+  EXPECT_EQ(dynamic_load(cluster)[0].minislots, 0);
+  EXPECT_EQ(dynamic_text(cluster), "");
+}
+
+TEST(DynamicLoad, IsListedAndDrawn) {
+  const Cluster cluster = load_checked_cluster(shipped_path("flexray_demo"));
+  const std::string text = dynamic_text(cluster);
+  EXPECT_NE(text.find("80 minislots of 7 macroticks; with every slot in use A takes 48 (60.0 %), B takes 48 (60.0 %)"),
+            std::string::npos) << text;
+  EXPECT_NE(text.find("23-24  AB  camera_pre  camera_objects 0-1"), std::string::npos) << text;
+  EXPECT_NE(text.find("12  3-37\n"), std::string::npos) << text;
+  const std::string shown = show_text(cluster);
+  EXPECT_NE(shown.find(text), std::string::npos);
+  EXPECT_NE(shown.find("21-22     1000-1168     AB  laser_pre   laser_objects 0-1 (dynamic)"), std::string::npos) << shown;
+  EXPECT_NE(shown.find("1560-1573     AB              symbol window"), std::string::npos) << shown;
+  // 48 of the 80 minislots, then the rest, then a column of symbol window.
+  EXPECT_NE(shown.find("sDDDDDDDDDDDDDDDDd"), std::string::npos) << shown;
+  EXPECT_NE(shown.find("dwn"), std::string::npos) << shown;
+}
+
+// May wait for another cycle: allowed for a list that nobody counts on.
+TEST(DynamicLoad, SaysWhatMayHaveToWait) {
+  Cluster cluster = dynamic();
+  cluster.frames = {frame(11, Channels::kA, NodeId{0}, PduId{2}), frame(12, Channels::kA, NodeId{1}, PduId{2}),
+                    frame(13, Channels::kA, NodeId{1}, PduId{0})};
+  EXPECT_NE(dynamic_text(cluster).find("3-25, or in a later cycle"), std::string::npos) << dynamic_text(cluster);
 }
 
 }  // namespace
