@@ -40,13 +40,8 @@ void DriveMeasures::on(const records::ListFused& fused) {
   const Duration age = fused.stamp.global - fused.measured;
   summary_.age_fused.add(age);
   summary_.age_fused_by_sensor[fused.id.sensor].add(age);
-  measured_[fused.id] = fused.measured;
-  while (measured_.size() > 256) {
-    // Keep memory flat: what is far behind is in no image any more.
-    const auto oldest = std::min_element(measured_.begin(), measured_.end(),
-                                         [](const auto& a, const auto& b) { return a.second < b.second; });
-    measured_.erase(oldest);
-  }
+  const auto [newest, first] = newest_fused_.try_emplace(fused.id.sensor, Fused{fused.id, fused.measured});
+  if (!first && fused.measured > newest->second.measured) newest->second = {fused.id, fused.measured};
 }
 
 void DriveMeasures::on(const records::TrackState& track) {
@@ -59,9 +54,21 @@ void DriveMeasures::on(const records::TrackState& track) {
 // An image's predictions are reported before it, one an object. Where a torn log lost some, they are not to be told apart.
 void DriveMeasures::on(const records::ImageWritten& image) {
   if (predicted_.size() != image.objects.size()) predicted_.clear();
-  images_[image.sequence] = {{image.newest.begin(), image.newest.end()}, std::move(predicted_)};
+  Image& made = images_.emplace_back();
+  made.sequence = image.sequence;
+  made.predicted = std::move(predicted_);
+  for (const MeasurementId& id : image.newest)
+    if (const auto newest = newest_fused_.find(id.sensor); newest != newest_fused_.end() && newest->second.id == id)
+      made.newest.push_back(newest->second);
   predicted_.clear();
-  while (images_.size() > 8) images_.erase(images_.begin());
+  while (images_.size() > 8) images_.pop_front();
+}
+
+// The last of this number: a fusion node that restarts counts its images anew.
+const DriveMeasures::Image* DriveMeasures::image_of(std::uint32_t sequence) const {
+  const auto last = std::find_if(images_.rbegin(), images_.rend(),
+                                 [&](const Image& image) { return image.sequence == sequence; });
+  return last == images_.rend() ? nullptr : &*last;
 }
 
 void DriveMeasures::on(const records::FeatureUsed& used) {
@@ -71,13 +78,13 @@ void DriveMeasures::on(const records::FeatureUsed& used) {
   }
   if (used.stamp.true_time < from_) return;
   ++summary_.uses;
-  if (const auto image = images_.find(used.image_sequence); image != images_.end())
-    for (const MeasurementId& id : image->second.newest)
-      if (const auto measured = measured_.find(id); measured != measured_.end()) {
-        const Duration age = used.stamp.global - measured->second;
-        summary_.age_used.add(age);
-        summary_.age_used_by_sensor[id.sensor].add(age);
-      }
+  if (used.stale) ++summary_.stale_uses;
+  if (const Image* image = used.stale ? nullptr : image_of(used.image_sequence))
+    for (const Fused& newest : image->newest) {
+      const Duration age = used.stamp.global - newest.measured;
+      summary_.age_used.add(age);
+      summary_.age_used_by_sensor[newest.id.sensor].add(age);
+    }
   Use use{used.stamp.true_time, used.image_sequence, used.fresh, {}};
   bool warned = false;
   for (const records::FeatureObject& object : used.objects) {
@@ -114,9 +121,8 @@ void DriveMeasures::judge(const Use& use) {
   summary_.missed += truth.size() - pairs.size();
   summary_.spurious += objects.size() - pairs.size();
   // An image used again was predicted to its first use: its covariance says nothing about now.
-  const auto image = images_.find(use.image_sequence);
-  const bool consistency =
-      use.fresh && image != images_.end() && image->second.predicted.size() == use.objects.size();
+  const Image* image = image_of(use.image_sequence);
+  const bool consistency = use.fresh && image != nullptr && image->predicted.size() == use.objects.size();
   for (const TruthPair& pair : pairs) {
     const records::TruthState& state = truth_[pair.truth];
     const PlaneEstimate& estimate = use.objects[pair.estimate];
@@ -124,7 +130,7 @@ void DriveMeasures::judge(const Use& use) {
                              estimate.vx - state.speed * std::cos(state.heading),
                              estimate.vy - state.speed * std::sin(state.heading)};
     for (std::size_t k = 0; k < 4; ++k) squares_[k] += errors[k] * errors[k];
-    if (consistency) judge_consistency(image->second.predicted[pair.estimate], state);
+    if (consistency) judge_consistency(image->predicted[pair.estimate], state);
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <limits>
 #include <map>
 #include <optional>
@@ -42,7 +43,8 @@ struct DriveSummary {
   std::uint64_t missed = 0;                // true objects without an image within the gate
   std::uint64_t spurious = 0;              // image objects without a true object within the gate
   std::uint64_t reference_compared = 0;
-  std::uint64_t uses = 0;                  // times the feature service used an image
+  std::uint64_t uses = 0;                  // times the feature service used an image, or refused one
+  std::uint64_t stale_uses = 0;            // of them refused: the image was too old
   // Normalised estimation error squared of (x, y, vx, vy) predicted to the use, averaged over the same pairs at first uses of
   // an image, and the band in which the average lies with 95 % if the samples are independent and the model is right.
   double nees = kNotMeasured;
@@ -86,11 +88,18 @@ class DriveMeasures final : public records::Sink {
     std::array<double, 6> state;
     std::array<double, 36> covariance;
   };
+  // A measurement of a sensor, known by its number as long as the sensor does not count anew.
+  struct Fused {
+    MeasurementId id;
+    GlobalTime measured{};
+  };
   // What an image shows and was made from; its objects and predictions are in the same order.
   struct Image {
-    std::vector<MeasurementId> newest;
+    std::uint32_t sequence = 0;
+    std::vector<Fused> newest;
     std::vector<Predicted> predicted;
   };
+  const Image* image_of(std::uint32_t sequence) const;
   struct Use {
     TrueTime at;
     std::uint32_t image_sequence = 0;
@@ -107,9 +116,9 @@ class DriveMeasures final : public records::Sink {
   double nees_sum_ = 0.0;
   std::uint32_t receiving_step_ = 0;
   std::optional<GlobalTime> newest_received_, newest_before_;     // before: in earlier steps
-  std::map<MeasurementId, GlobalTime> measured_;                  // of fused lists
+  std::map<SensorId, Fused> newest_fused_;
   std::vector<Predicted> predicted_;                              // for the image that is being written
-  std::map<std::uint32_t, Image> images_;                         // by sequence, the newest few
+  std::deque<Image> images_;                                      // as they were written, the last few
   std::optional<Use> pending_;
   std::vector<records::TruthState> truth_;                        // of one instant
   ReferenceJudge reference_;

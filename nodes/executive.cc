@@ -194,8 +194,8 @@ void Executive::trigger(SensorId sensor, Microticks now) {
 }
 
 void Executive::strobe(SensorId sensor, std::uint32_t sequence, Microticks now) {
-  const records::Stamp at = stamp(now);
-  strobes_[index_of(sensor)].strobe(sequence, at.global);
+  // Without global time there is no time of measuring: as if the strobe had not been seen.
+  if (const timebase::CycleClock* global = clock()) strobes_[index_of(sensor)].strobe(sequence, global->global_time(now));
 }
 
 void Executive::activate(std::size_t task, Microticks now) {

@@ -26,6 +26,8 @@ FeatureConfig load_feature(YamlMap& yaml) {
   config.own_speed_mps = yaml.number_or("own_speed", config.own_speed_mps, {0.0, 100.0}, "m/s");
   config.corridor_half_width_m = yaml.number_or("corridor_half_width", config.corridor_half_width_m, {0.1, 20.0}, "m");
   config.warning_time_s = yaml.number_or("warning_time", config.warning_time_s, {0.1, 10.0}, "s");
+  config.max_image_age =
+      yaml.duration_or("max_image_age", config.max_image_age, {Duration::milliseconds(1), Duration::milliseconds(10'000)});
   return config;
 }
 
@@ -56,15 +58,19 @@ FeatureService::FeatureService(const schedules::Cluster& cluster, const schedule
 void FeatureService::run(StepContext& context) {
   const Input& image = context.inputs[0];
   if (!image.list) return;   // no image has arrived yet: nothing is made up
+  if (image.fresh) valid_at_ = time_stamp(*image.layout, *image.list, context.stamp.global);
+  const Duration age = context.stamp.global - valid_at_;
+  const bool stale = age > config_.max_image_age || -age > config_.max_image_age;
   objects_.clear();
-  const int count = element_count(*image.layout, *image.list);
+  const int count = stale ? 0 : element_count(*image.layout, *image.list);
   for (int i = 0; i < count; ++i)
     objects_.push_back(judge(decode_image_object(*image.layout, *image.list, i, signals_), config_));
   records::FeatureUsed used;
   used.stamp = context.stamp;
   used.image_sequence = image.list->sequence;
-  used.image_valid_at = time_stamp(*image.layout, *image.list, context.stamp.global);
+  used.image_valid_at = valid_at_;
   used.fresh = image.fresh;
+  used.stale = stale;
   used.objects = objects_;
   context.sink->on(used);
 }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/strict_yaml.h"
+#include "core/time.h"
 #include "nodes/image_codec.h"
 #include "nodes/step.h"
 #include "schedules/cluster.h"
@@ -14,6 +15,9 @@ struct FeatureConfig {
   double own_speed_mps = 0.0;          // of the sensor car along x, over ground; it stands in the paper's drives
   double corridor_half_width_m = 1.8;  // objects farther off the line of travel do not warn: half a 3.6 m lane
   double warning_time_s = 2.7;         // time to collision below which it warns (ISO 15623 class forward collision warning)
+  // How far the instant an image is predicted to may be from the instant of use. An image is predicted to its first use; one
+  // that did not come is replaced by the one before, which is older by its period: two of 40 ms may be missed in a row.
+  Duration max_image_age = Duration::milliseconds(100);
 };
 FeatureConfig load_feature(YamlMap& yaml);
 
@@ -26,7 +30,9 @@ FeatureConfig load_feature(YamlMap& yaml);
 // Infinite where the denominator is not positive (time to collision: not above what noise makes of zero).
 records::FeatureObject judge(const records::ImageObject& object, const FeatureConfig& config);
 
-// Port `image`.
+// Port `image`. Where the newest image is older than max_image_age (its fusion node is dead, or starting anew and not yet
+// believed, bus/list_buffer.h L3), or that far from the future, it is refused: recorded as stale, its objects are not judged, and
+// nothing is put in their place.
 class FeatureService final : public Step {
  public:
   FeatureService(const schedules::Cluster& cluster, const schedules::Task& task, const FeatureConfig& config);
@@ -35,6 +41,7 @@ class FeatureService final : public Step {
  private:
   FeatureConfig config_;
   ImageSignals signals_;
+  GlobalTime valid_at_{};   // of the newest image, told when it came: later, its wrapped stamp could mean another round
   std::vector<records::FeatureObject> objects_;
 };
 

@@ -41,8 +41,8 @@ LaserPreprocessing::LaserPreprocessing(const schedules::Cluster& cluster, const 
 }
 
 void LaserPreprocessing::run(StepContext& context) {
-  const auto measured = measured_at(context, sensor_);
-  if (!measured) return;
+  const auto measurement = measurement_of(context, sensor_);
+  if (!measurement) return;
   const Input& raw = context.inputs[0];
   points_.clear();
   const int count = element_count(*raw.layout, *raw.list);
@@ -53,7 +53,7 @@ void LaserPreprocessing::run(StepContext& context) {
   preprocessor_.process(points_, objects_);
   Output& out = context.outputs[0];
   keep_nearest(objects_, out.layout().max_elements);
-  out.begin(raw.list->sequence, static_cast<int>(objects_.size()), *measured);
+  out.begin(measurement->sequence, static_cast<int>(objects_.size()), measurement->at);
   for (int i = 0; i < static_cast<int>(objects_.size()); ++i) {
     const LaserObject& object = objects_[static_cast<std::size_t>(i)];
     const double valid = (object.has_heading ? 1 : 0) + (object.has_length ? 2 : 0) + (object.has_width ? 4 : 0);
@@ -75,8 +75,8 @@ CameraPreprocessing::CameraPreprocessing(const schedules::Cluster& cluster, cons
 }
 
 void CameraPreprocessing::run(StepContext& context) {
-  const auto measured = measured_at(context, sensor_);
-  if (!measured) return;
+  const auto measurement = measurement_of(context, sensor_);
+  if (!measurement) return;
   const Input& raw = context.inputs[0];
   objects_.clear();
   const int count = element_count(*raw.layout, *raw.list);
@@ -86,7 +86,7 @@ void CameraPreprocessing::run(StepContext& context) {
                                    element_value(*raw.layout, *raw.list, i, raw_[2])));
   Output& out = context.outputs[0];
   keep_nearest(objects_, out.layout().max_elements);
-  out.begin(raw.list->sequence, static_cast<int>(objects_.size()), *measured);
+  out.begin(measurement->sequence, static_cast<int>(objects_.size()), measurement->at);
   for (int i = 0; i < static_cast<int>(objects_.size()); ++i) {
     const CameraObject& object = objects_[static_cast<std::size_t>(i)];
     const double values[] = {object.x, object.y, std::sqrt(object.sxx), std::sqrt(object.syy),

@@ -127,12 +127,12 @@ RecordedPreprocessing::RecordedPreprocessing(const schedules::Cluster& cluster, 
 }
 
 void RecordedPreprocessing::run(StepContext& context) {
-  const auto measured = measured_at(context, sensor_);
-  if (!measured) return;
+  const auto measurement = measurement_of(context, sensor_);
+  if (!measurement) return;
   const Input& raw = context.inputs[0];
   Output& out = context.outputs[0];
   const int count = std::min(element_count(*raw.layout, *raw.list), out.layout().max_elements);
-  out.begin(raw.list->sequence, count, *measured);
+  out.begin(measurement->sequence, count, measurement->at);
   for (int i = 0; i < count; ++i) {
     const auto value = [&](std::size_t s) { return element_value(*raw.layout, *raw.list, i, raw_[s]); };
     const auto set = [&](std::size_t s, double physical) { out.set(i, signals_[s], physical); };

@@ -78,21 +78,24 @@ bus::ListView Output::view() const {
 }
 
 void StrobeLatch::strobe(std::uint32_t sequence, GlobalTime at) {
-  entries_[sequence % kDepth] = {sequence, at, true};
+  entries_[count_++ % kDepth] = {sequence, at};
 }
 
-std::optional<GlobalTime> StrobeLatch::time_of(std::uint32_t sequence) const {
-  const Entry& entry = entries_[sequence % kDepth];
-  if (!entry.valid || entry.sequence != sequence) return std::nullopt;
-  return entry.at;
+std::optional<Strobe> StrobeLatch::find(std::uint32_t sequence, int bits) const {
+  for (std::size_t back = 1; back <= std::min(count_, kDepth); ++back) {
+    const Strobe& strobe = entries_[(count_ - back) % kDepth];
+    if (low_bits(strobe.sequence ^ sequence, bits) == 0) return strobe;
+  }
+  return std::nullopt;
 }
 
-std::optional<GlobalTime> measured_at(StepContext& context, SensorId sensor) {
+std::optional<Strobe> measurement_of(StepContext& context, SensorId sensor) {
   Input& raw = context.inputs[0];
   if (!raw.fresh || !raw.list) return std::nullopt;
-  const auto measured = context.strobes[index_of(sensor)].time_of(raw.list->sequence);
-  raw.discarded = !measured;
-  return measured;
+  const int bits = raw.layout->header[wire::header_signal(*raw.layout, "sequence")].bits;
+  const auto measurement = context.strobes[index_of(sensor)].find(raw.list->sequence, bits);
+  raw.discarded = !measurement;
+  return measurement;
 }
 
 GlobalTime time_stamp(const schedules::PduLayout& layout, const bus::ListView& list, GlobalTime near) {

@@ -62,20 +62,24 @@ class Output {
   int saturated_ = 0;
 };
 
-// A host's latch for its sensor's strobe: the global time of the newest measurements.
+// A measurement as its host saw it: its number as the device counts, and the global time of its strobe.
+struct Strobe {
+  std::uint32_t sequence = 0;
+  GlobalTime at{};
+};
+
+// A host's latch for its sensor's strobe: the newest measurements.
 class StrobeLatch {
  public:
   void strobe(std::uint32_t sequence, GlobalTime at);
-  std::optional<GlobalTime> time_of(std::uint32_t sequence) const;
+  // The newest whose number has these low `bits`: all that a list on the bus carries of it. Where device or host started
+  // anew, how often that field has wrapped is known to the one alone.
+  std::optional<Strobe> find(std::uint32_t sequence, int bits) const;
 
  private:
   static constexpr std::size_t kDepth = 16;
-  struct Entry {
-    std::uint32_t sequence = 0;
-    GlobalTime at{};
-    bool valid = false;
-  };
-  Entry entries_[kDepth];
+  Strobe entries_[kDepth];
+  std::size_t count_ = 0;   // strobes seen; the newest is entry (count_ - 1) % kDepth
 };
 
 struct StepContext {
@@ -94,9 +98,8 @@ class Step {
   virtual void run(StepContext& context) = 0;
 };
 
-// The strobe time of the measurement whose raw list is new at the first input; a list whose strobe was not seen has no time and
-// is discarded.
-std::optional<GlobalTime> measured_at(StepContext& context, SensorId sensor);
+// The measurement whose raw list is new at the first input; a list whose strobe was not seen has no time and is discarded.
+std::optional<Strobe> measurement_of(StepContext& context, SensorId sensor);
 
 // Unwraps a list's microsecond time stamp of the "timestamp" header signal: the instant nearest to `near` that
 // has these low bits.

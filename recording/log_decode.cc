@@ -228,7 +228,8 @@ bool Decoder::decode(RecordKind kind, std::string_view bytes, records::Sink& sin
         feature_objects_.push_back(
             {object_of(in.objects(i), narrow), in.time_gap_s(i), in.time_to_collision_s(i), in.warning(i)});
       return hand_on(records::FeatureUsed{stamp_of(in.stamp(), narrow), in.image_sequence(),
-                                          GlobalTime{in.image_valid_at()}, in.fresh(), feature_objects_});
+                                          GlobalTime{in.image_valid_at()}, in.fresh(), feature_objects_,
+                                          in.stale()});
     }
     case RecordKind::kReference: {
       const auto& in = payloads_.reference;

@@ -222,6 +222,7 @@ Encoded encode(const records::FeatureUsed& in, Payloads& payloads) {
   out.set_image_sequence(in.image_sequence);
   out.set_image_valid_at(in.image_valid_at.ns);
   out.set_fresh(in.fresh);
+  out.set_stale(in.stale);
   out.clear_objects();
   out.clear_time_gap_s();
   out.clear_time_to_collision_s();

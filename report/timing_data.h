@@ -68,6 +68,7 @@ struct TimingData {
     NodeId node;
     std::uint32_t image;
     bool fresh;
+    bool stale = false;   // it came too late to be of use
   };
 
   std::vector<Measurement> measurements;

@@ -65,7 +65,7 @@ void TimingDiagram::on(const records::ImageWritten& r) {
 }
 void TimingDiagram::on(const records::FeatureUsed& r) {
   if (near(r.stamp.true_time, r.stamp.true_time))
-    data_.uses.push_back({r.stamp.true_time, r.stamp.node, r.image_sequence, r.fresh});
+    data_.uses.push_back({r.stamp.true_time, r.stamp.node, r.image_sequence, r.fresh, r.stale});
 }
 
 std::string TimingDiagram::svg() const {

@@ -229,7 +229,7 @@ std::vector<Way> image_ways(const TimingData& data, const Names& names,
     way.last = segments.empty() ? Stop{task_lane(image.node, writer), written}
                                 : Stop{segments.back().lane, segments.back().out};
     for (const auto& u : data.uses) {
-      if (!same_sequence(u.image, image.sequence) || u.at < image.at || u.at >= image.at + kLongestWay)
+      if (u.stale || !same_sequence(u.image, image.sequence) || u.at < image.at || u.at >= image.at + kLongestWay)
         continue;
       const TimingData::Run* run = run_at(data, u.node, u.at);
       const Stop use{task_lane(u.node, run), run != nullptr ? run->start : u.at};

@@ -247,9 +247,10 @@ struct FeatureObject {
 struct FeatureUsed {
   Stamp stamp;
   std::uint32_t image_sequence = 0;
-  GlobalTime image_valid_at{};
+  GlobalTime image_valid_at{};       // its age is stamp.global less this
   bool fresh = true;                 // first use of this image
   std::span<const FeatureObject> objects;
+  bool stale = false;                // too old to be used: nothing was judged, objects is empty
 };
 
 struct ReferenceFix {                // DGPS on the tracked car, transformed with the (erroneous) alignment

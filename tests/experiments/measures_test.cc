@@ -129,5 +129,71 @@ TEST(Measures, NothingBeforeTheStartIsJudged) {
   EXPECT_EQ(summary.matched, 1u);
 }
 
+void fuse(records::Sink& sink, std::uint8_t sensor, std::uint32_t sequence, std::int64_t measured_ms) {
+  records::ListFused fused;
+  fused.id = {SensorId{sensor}, sequence};
+  fused.measured = global(measured_ms);
+  fused.stamp.global = global(measured_ms + 30);
+  sink.on(fused);
+}
+
+// Sensor 1 falls silent at 100 ms; what is known of it is older at every use, however long that lasts.
+TEST(Measures, TheAgeOfADeadSensorGrowsOn) {
+  DriveMeasures measures(TrueTime{});
+  fuse(measures, 1, 5, 100);
+  for (std::uint32_t k = 0; k < 1'000; ++k) {
+    const std::int64_t now = 140 + 40 * k;
+    fuse(measures, 0, k, now - 40);
+    write_image(measures, k, global(now), {}, {{SensorId{1}, 5}, {SensorId{0}, k}});
+    use_image(measures, k, at(now), {});
+  }
+  const DriveSummary summary = measures.finish();
+  EXPECT_EQ(summary.age_used.count, 2'000u);
+  EXPECT_EQ(summary.age_used_by_sensor.at(SensorId{0}).worst, Duration::milliseconds(40));
+  EXPECT_EQ(summary.age_used_by_sensor.at(SensorId{1}).worst, Duration::milliseconds(40 + 999 * 40));
+}
+
+// Sensor and fusion node restart and count anew: what was made before is not what is meant.
+TEST(Measures, NumbersThatBeginAgainMeanTheLatest) {
+  DriveMeasures measures(TrueTime{});
+  for (std::uint32_t k = 0; k < 20; ++k) {
+    fuse(measures, 0, k, 40 * k);
+    write_image(measures, k, global(40 * k + 40), {{11, 0, 1.0}}, {{SensorId{0}, k}});
+  }
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    const std::int64_t now = 2'000 + 40 * k;
+    fuse(measures, 0, k, now - 40);
+    write_image(measures, k, global(now), {{11, 0, 1.0}}, {{SensorId{0}, k}});
+    use_image(measures, k, at(now), {{11, 0}});
+    truth_at(measures, at(now), 0, 10, 0);
+  }
+  const DriveSummary summary = measures.finish();
+  EXPECT_EQ(summary.age_used.count, 3u);
+  EXPECT_EQ(summary.age_used.worst, Duration::milliseconds(40));
+  EXPECT_EQ(summary.nees_samples, 3u);
+}
+
+TEST(Measures, AnImageThatWasRefusedWasNotUsed) {
+  DriveMeasures measures(TrueTime{});
+  fuse(measures, 0, 0, 0);
+  write_image(measures, 0, global(40), {{10, 0, 1.0}}, {{SensorId{0}, 0}});
+  use_image(measures, 0, at(40), {{10, 0}});
+  truth_at(measures, at(40), 0, 10, 0);
+  records::FeatureUsed refused;
+  refused.stamp.true_time = at(400);
+  refused.stamp.global = global(400);
+  refused.image_valid_at = global(40);
+  refused.fresh = false;
+  refused.stale = true;
+  measures.on(refused);
+  truth_at(measures, at(400), 0, 10, 0);
+  const DriveSummary summary = measures.finish();
+  EXPECT_EQ(summary.uses, 2u);
+  EXPECT_EQ(summary.stale_uses, 1u);
+  EXPECT_EQ(summary.age_used.count, 1u);
+  EXPECT_EQ(summary.matched, 1u);
+  EXPECT_EQ(summary.missed, 1u) << "who has no image sees nothing";
+}
+
 }  // namespace
 }  // namespace ttf::experiments

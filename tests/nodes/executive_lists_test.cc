@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "nodes/executive.h"
 #include "nodes/preprocessing.h"
@@ -31,10 +32,11 @@ struct CameraHost {
   std::unique_ptr<Executive> executive;
   Microticks now{1000};
 
-  CameraHost() {
+  // Integrated from the start, or (without a clock) starting up on a silent bus, which lasts.
+  explicit CameraHost(std::optional<bus::InitialClock> clock = bus::InitialClock{{1000}, 0}) {
     while (cluster.can_buses[camera_can].name != "camera_can") ++camera_can;
     const schedules::Task& task = cluster.node(id).tasks[0];
-    const ExecutiveConfig config{&cluster, id, timebase::Oscillator(25'000, 0, 0), bus::InitialClock{{1000}, 0}, 1, 0, {}};
+    const ExecutiveConfig config{&cluster, id, timebase::Oscillator(25'000, 0, 0), clock, 1, 0, {}};
     executive = std::make_unique<Executive>(
         config,
         std::vector<std::shared_ptr<Step>>{
@@ -90,6 +92,33 @@ TEST(ExecutiveLists, AListWithoutAStrobeIsDiscardedCountedAndRecorded) {
   host.wait(Duration::milliseconds(60));
   EXPECT_EQ(host.hops(records::Hop::kWritten), 1) << "the next one is used again";
   EXPECT_EQ(host.executive->counts().discarded_lists, 1u);
+}
+
+// The camera starts anew when its host is at 3000 of the field's 4096: the next list seems to be 1096 further on.
+TEST(ExecutiveLists, TheDevicesRestartIsNoReasonToDiscard) {
+  CameraHost host;
+  const auto measured = [&](std::uint32_t sequence) {
+    host.executive->strobe(host.camera, sequence, host.now);
+    host.frame(sequence);
+    host.wait(Duration::milliseconds(40));
+  };
+  measured(3000);
+  for (std::uint32_t k = 0; k < 3; ++k) measured(k);
+  EXPECT_EQ(host.hops(records::Hop::kDiscarded), 0);
+  EXPECT_EQ(host.hops(records::Hop::kWritten), 4);
+  EXPECT_EQ(host.heard.hops.back().what, records::Hop::kWritten);
+  EXPECT_EQ(host.heard.hops.back().sequence, 2u) << "under the device's own number";
+}
+
+// While it starts up a host has a clock of its own only, which says nothing to others.
+TEST(ExecutiveLists, WithoutGlobalTimeThereIsNoTimeOfMeasuring) {
+  CameraHost host(std::nullopt);
+  host.executive->strobe(host.camera, 0, host.now);
+  host.frame(0);
+  host.wait(Duration::milliseconds(60));
+  EXPECT_EQ(host.hops(records::Hop::kRead), 1);
+  EXPECT_EQ(host.hops(records::Hop::kDiscarded), 1);
+  EXPECT_EQ(host.hops(records::Hop::kWritten), 0);
 }
 
 TEST(ExecutiveLists, WhatANewerListReplacesUnreadIsCounted) {

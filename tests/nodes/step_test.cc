@@ -10,16 +10,19 @@
 namespace ttf::nodes {
 namespace {
 
+constexpr int kAllBits = 32;
+
 TEST(StrobeLatch, KnowsTheNewestSixteenMeasurements) {
   StrobeLatch latch;
-  EXPECT_FALSE(latch.time_of(0)) << "nothing yet, not even number 0";
+  EXPECT_FALSE(latch.find(0, kAllBits)) << "nothing yet, not even number 0";
   for (std::uint32_t k = 0; k < 40; ++k) {
     latch.strobe(k, GlobalTime{1000 + k});
     for (std::uint32_t asked = 0; asked < 60; ++asked) {
-      const auto time = latch.time_of(asked);
-      ASSERT_EQ(time.has_value(), asked <= k && asked + 16 > k) << "asked for " << asked << " after " << k;
-      if (time) {
-        EXPECT_EQ(time->ns, 1000 + asked);
+      const auto strobe = latch.find(asked, kAllBits);
+      ASSERT_EQ(strobe.has_value(), asked <= k && asked + 16 > k) << "asked for " << asked << " after " << k;
+      if (strobe) {
+        EXPECT_EQ(strobe->at.ns, 1000 + asked);
+        EXPECT_EQ(strobe->sequence, asked);
       }
     }
   }
@@ -29,9 +32,21 @@ TEST(StrobeLatch, ALostStrobeLeavesAGapNotANeighboursTime) {
   StrobeLatch latch;
   latch.strobe(3, GlobalTime{30});
   latch.strobe(5, GlobalTime{50});
-  EXPECT_FALSE(latch.time_of(4));
-  EXPECT_FALSE(latch.time_of(19)) << "the same place in the latch as 3";
-  EXPECT_EQ(latch.time_of(5)->ns, 50);
+  EXPECT_FALSE(latch.find(4, kAllBits));
+  EXPECT_FALSE(latch.find(19, kAllBits)) << "the same place in the latch as 3";
+  EXPECT_EQ(latch.find(5, kAllBits)->at.ns, 50);
+}
+
+// A host that started late has not seen the number wrap, a device that restarted has gone back: both mean the measurement
+// whose low bits the list carries, and its number is the device's.
+TEST(StrobeLatch, ListsAreRecognisedByTheBitsTheBusCarries) {
+  StrobeLatch latch;
+  for (std::uint32_t k = 4090; k < 4100; ++k) latch.strobe(k, GlobalTime{k});
+  EXPECT_EQ(latch.find(4097 % 4096, 12)->sequence, 4097u);
+  EXPECT_EQ(latch.find(2 * 4096 + 4090, 12)->sequence, 4090u);
+  EXPECT_FALSE(latch.find(4100 % 4096, 12));
+  for (std::uint32_t k = 0; k < 3; ++k) latch.strobe(k, GlobalTime{10'000 + k});
+  EXPECT_EQ(latch.find(4098, 12)->at.ns, 10'002) << "the newest of those it may be";
 }
 
 schedules::PduLayout stamped(int bits) {

@@ -209,7 +209,7 @@ void TextSink::on(const records::ImageWritten& r) {
   lines.push_back(line("image", r.stamp, r.sequence, r.valid_at, r.newest_measurement, r.objects, r.newest));
 }
 void TextSink::on(const records::FeatureUsed& r) {
-  lines.push_back(line("feature", r.stamp, r.image_sequence, r.image_valid_at, r.fresh, r.objects));
+  lines.push_back(line("feature", r.stamp, r.image_sequence, r.image_valid_at, r.fresh, r.objects, r.stale));
 }
 void TextSink::on(const records::ReferenceFix& r) {
   lines.push_back(line("reference", r.measured_true, r.measured, r.available, r.object, r.x, r.y, r.sigma, r.vx, r.vy,
@@ -298,7 +298,8 @@ void emit(records::Sink& sink, int kind, Values values, std::uint32_t index, std
     }
     case 15: {
       const auto objects = d.list<records::FeatureObject>(25);
-      return sink.on(records::FeatureUsed{stamp, d.get<U32>(), d.get<GlobalTime>(), d.get<bool>(), objects});
+      return sink.on(records::FeatureUsed{stamp, d.get<U32>(), d.get<GlobalTime>(), d.get<bool>(), objects,
+                                          d.get<bool>()});
     }
     case 16:
       return sink.on(records::ReferenceFix{d.get<TrueTime>(), d.get<GlobalTime>(), d.get<GlobalTime>(),
