@@ -5,30 +5,6 @@
 namespace ttf::bus {
 namespace {
 
-PocStep step_in_state(const poc::Now& now) {
-  switch (now.state.kind) {
-    case PocKind::kDefaultConfig: return poc::in_default_config(now);
-    case PocKind::kConfig: return poc::in_config(now);
-    case PocKind::kReady: return poc::in_ready(now);
-    case PocKind::kHalt: return poc::in_halt(now);
-    case PocKind::kWakeupListen: return poc::in_wakeup_listen(now);
-    case PocKind::kWakeupSend: return poc::in_wakeup_send(now);
-    case PocKind::kWakeupDetect: return poc::in_wakeup_detect(now);
-    case PocKind::kColdstartListen: return poc::in_coldstart_listen(now);
-    case PocKind::kColdstartCollisionResolution: return poc::in_collision_resolution(now);
-    case PocKind::kColdstartConsistencyCheck: return poc::in_consistency_check(now);
-    case PocKind::kColdstartGap: return poc::in_gap(now);
-    case PocKind::kIntegrationListen: return poc::in_integration_listen(now);
-    case PocKind::kInitialiseSchedule: return poc::in_initialise_schedule(now);
-    case PocKind::kIntegrationColdstartCheck: return poc::in_integration_coldstart_check(now);
-    case PocKind::kColdstartJoin: return poc::in_join(now);
-    case PocKind::kIntegrationConsistencyCheck: return poc::in_integration_consistency_check(now);
-    case PocKind::kNormalActive: return poc::in_normal_active(now);
-    case PocKind::kNormalPassive: return poc::in_normal_passive(now);
-  }
-  poc::unlisted(now);
-}
-
 bool runs_timers(PocKind kind) {
   return kind == PocKind::kWakeupListen || kind == PocKind::kWakeupDetect || kind == PocKind::kColdstartListen;
 }
@@ -55,7 +31,7 @@ PocState poc_power_on(const PocParameters& parameters) {
 }
 
 PocStep poc_step(const PocParameters& parameters, const PocState& state, const PocEvent& event) {
-  PocStep step = step_in_state({parameters, state, event});
+  PocStep step = poc::answer(state.kind, event.kind)({parameters, state, event});
   // What is left behind with a state is put away here, once for all transitions.
   if (runs_timers(state.kind) && !runs_timers(step.next.kind)) step.actions |= PocAction::kStopTimers;
   if (has_schedule(state.kind) && !has_schedule(step.next.kind)) step.actions |= PocAction::kDropSchedule;

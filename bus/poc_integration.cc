@@ -5,98 +5,12 @@
 namespace ttf::bus::poc {
 namespace {
 
-// Listening with leave to coldstart is coldstart listen's.
-PocStep allow_coldstart_listening(const Now& now) {
-  const PocStep step = allow_coldstart(now);
-  const PocStep listening = listen_with(now.parameters, step);
-  return listening.consequence == PocReason::kMayColdstart ? listening : step;
-}
-
-}  // namespace
-
-PocStep in_integration_listen(const Now& now) {
-  switch (now.event.kind) {
-    case PocEventKind::kPowerOn: return power_on(now);
-    case PocEventKind::kFreeze: return freeze(now, PocReason::kFreezeCommand);
-    case PocEventKind::kFatalError: return freeze(now, PocReason::kFatalError);
-    case PocEventKind::kReady: return ready(now, PocReason::kReadyCommand);
-    case PocEventKind::kAllowColdstart: return allow_coldstart_listening(now);
-    case PocEventKind::kStartupFrame: return derive_schedule(now);
-    case PocEventKind::kConfig:
-    case PocEventKind::kConfigComplete:
-    case PocEventKind::kRun:
-    case PocEventKind::kWakeup:
-    case PocEventKind::kAllSlots:
-    case PocEventKind::kHalt: return ignore(now, PocReason::kCommandNotAccepted);
-    case PocEventKind::kChannelActive:
-    case PocEventKind::kChannelsIdle: return ignore(now, PocReason::kNoTimerOnChannel);
-    case PocEventKind::kCasReceived: return ignore(now, PocReason::kSymbolWithoutMeaning);
-    case PocEventKind::kWakeupPatternReceived: return ignore(now, PocReason::kNoWakeupWanted);
-    case PocEventKind::kHeaderReceived: return ignore(now, PocReason::kHeaderWithoutMeaning);
-    case PocEventKind::kListenTimeout:
-    case PocEventKind::kNoiseTimeout: return ignore(now, PocReason::kNoTimerRunning);
-    case PocEventKind::kWakeupSent:
-    case PocEventKind::kWakeupCollision: return ignore(now, PocReason::kNotSendingWakeup);
-    case PocEventKind::kScheduleNotDerived: return ignore(now, PocReason::kNotDerivingSchedule);
-    case PocEventKind::kClockCorrected:
-    case PocEventKind::kCycleStarted: return ignore(now, PocReason::kNoSchedule);
-  }
-  return unlisted(now);
-}
-
-namespace {
-
-PocStep second_frame(const Now& now) {
-  if (now.event.frame_id != now.state.reference || now.event.cycle % 2 == 0)
-    return ignore(now, PocReason::kOddFrameAwaited);
-  return enter(now, now.parameters.pKeySlotUsedForStartup ? PocKind::kIntegrationColdstartCheck
-                                                          : PocKind::kIntegrationConsistencyCheck,
-               PocReason::kScheduleDerived);
-}
-
-}  // namespace
-
-PocStep in_initialise_schedule(const Now& now) {
-  switch (now.event.kind) {
-    case PocEventKind::kPowerOn: return power_on(now);
-    case PocEventKind::kFreeze: return freeze(now, PocReason::kFreezeCommand);
-    case PocEventKind::kFatalError: return freeze(now, PocReason::kFatalError);
-    case PocEventKind::kReady: return ready(now, PocReason::kReadyCommand);
-    case PocEventKind::kAllowColdstart: return allow_coldstart(now);
-    case PocEventKind::kStartupFrame: return second_frame(now);
-    case PocEventKind::kScheduleNotDerived: return listen(now, PocReason::kScheduleNotDerived);
-    case PocEventKind::kConfig:
-    case PocEventKind::kConfigComplete:
-    case PocEventKind::kRun:
-    case PocEventKind::kWakeup:
-    case PocEventKind::kAllSlots:
-    case PocEventKind::kHalt: return ignore(now, PocReason::kCommandNotAccepted);
-    case PocEventKind::kChannelActive:
-    case PocEventKind::kChannelsIdle: return ignore(now, PocReason::kNoTimerOnChannel);
-    case PocEventKind::kCasReceived: return ignore(now, PocReason::kSymbolWithoutMeaning);
-    case PocEventKind::kWakeupPatternReceived: return ignore(now, PocReason::kNoWakeupWanted);
-    case PocEventKind::kHeaderReceived: return ignore(now, PocReason::kHeaderWithoutMeaning);
-    case PocEventKind::kListenTimeout:
-    case PocEventKind::kNoiseTimeout: return ignore(now, PocReason::kNoTimerRunning);
-    case PocEventKind::kWakeupSent:
-    case PocEventKind::kWakeupCollision: return ignore(now, PocReason::kNotSendingWakeup);
-    case PocEventKind::kClockCorrected:
-    case PocEventKind::kCycleStarted: return ignore(now, PocReason::kNotYetWholeCycle);
-  }
-  return unlisted(now);
-}
-
-namespace {
+constexpr int kGoodDoubleCycles = 2;
 
 PocStep next_cycle(const Now& now, PocReason why) {
   PocStep step = stay(now, why);
   ++step.next.cycles;
   return step;
-}
-
-// The rest of the cycle in which the schedule was derived is not judged: checks begin with the next even cycle.
-PocStep note_clock_of_whole_cycles(const Now& now) {
-  return now.state.cycles == 0 ? ignore(now, PocReason::kNotYetWholeCycle) : note_clock(now);
 }
 
 PocStep begin_check(const Now& now) {
@@ -106,6 +20,28 @@ PocStep begin_check(const Now& now) {
 
 bool enough_frames(const StartupFramesSeen& seen) { return seen.reference_frame || seen.frames >= 2; }
 bool enough_pairs(const StartupFramesSeen& seen) { return seen.reference_pair || seen.pairs >= 2; }
+
+}  // namespace
+
+// Listening with leave to coldstart is coldstart listen's.
+PocStep allow_coldstart_listening(const Now& now) {
+  const PocStep step = allow_coldstart(now);
+  const PocStep listening = listen_with(now.parameters, step);
+  return listening.consequence == PocReason::kMayColdstart ? listening : step;
+}
+
+PocStep second_frame(const Now& now) {
+  if (now.event.frame_id != now.state.reference || now.event.cycle % 2 == 0)
+    return ignore(now, PocReason::kOddFrameAwaited);
+  return enter(now, now.parameters.pKeySlotUsedForStartup ? PocKind::kIntegrationColdstartCheck
+                                                          : PocKind::kIntegrationConsistencyCheck,
+               PocReason::kScheduleDerived);
+}
+
+// The rest of the cycle in which the schedule was derived is not judged: checks begin with the next even cycle.
+PocStep note_clock_of_whole_cycles(const Now& now) {
+  return now.state.cycles == 0 ? ignore(now, PocReason::kNotYetWholeCycle) : note_clock(now);
+}
 
 PocStep coldstart_check_cycle(const Now& now) {
   const StartupFramesSeen& ended = now.event.ended;
@@ -121,40 +57,6 @@ PocStep coldstart_check_cycle(const Now& now) {
   return step;
 }
 
-}  // namespace
-
-PocStep in_integration_coldstart_check(const Now& now) {
-  switch (now.event.kind) {
-    case PocEventKind::kPowerOn: return power_on(now);
-    case PocEventKind::kFreeze: return freeze(now, PocReason::kFreezeCommand);
-    case PocEventKind::kFatalError: return freeze(now, PocReason::kFatalError);
-    case PocEventKind::kReady: return ready(now, PocReason::kReadyCommand);
-    case PocEventKind::kAllowColdstart: return allow_coldstart(now);
-    case PocEventKind::kCycleStarted: return coldstart_check_cycle(now);
-    case PocEventKind::kClockCorrected: return note_clock_of_whole_cycles(now);
-    case PocEventKind::kConfig:
-    case PocEventKind::kConfigComplete:
-    case PocEventKind::kRun:
-    case PocEventKind::kWakeup:
-    case PocEventKind::kAllSlots:
-    case PocEventKind::kHalt: return ignore(now, PocReason::kCommandNotAccepted);
-    case PocEventKind::kChannelActive:
-    case PocEventKind::kChannelsIdle: return ignore(now, PocReason::kNoTimerOnChannel);
-    case PocEventKind::kCasReceived: return ignore(now, PocReason::kSymbolWithoutMeaning);
-    case PocEventKind::kWakeupPatternReceived: return ignore(now, PocReason::kNoWakeupWanted);
-    case PocEventKind::kHeaderReceived:
-    case PocEventKind::kStartupFrame: return ignore(now, PocReason::kJudgedAtCycleEnd);
-    case PocEventKind::kListenTimeout:
-    case PocEventKind::kNoiseTimeout: return ignore(now, PocReason::kNoTimerRunning);
-    case PocEventKind::kWakeupSent:
-    case PocEventKind::kWakeupCollision: return ignore(now, PocReason::kNotSendingWakeup);
-    case PocEventKind::kScheduleNotDerived: return ignore(now, PocReason::kNotDerivingSchedule);
-  }
-  return unlisted(now);
-}
-
-namespace {
-
 // Its own frame does not count: the leading node's at least is there. Cycles 4, 5, 6 are 1, 2, 3 here.
 PocStep join_cycle(const Now& now) {
   const StartupFramesSeen& ended = now.event.ended;
@@ -168,42 +70,6 @@ PocStep join_cycle(const Now& now) {
   if (now.state.cycles == 1) return next_cycle(now, PocReason::kJoinGoesOn);
   return enter(now, PocKind::kNormalActive, PocReason::kJoined);
 }
-
-}  // namespace
-
-PocStep in_join(const Now& now) {
-  switch (now.event.kind) {
-    case PocEventKind::kPowerOn: return power_on(now);
-    case PocEventKind::kFreeze: return freeze(now, PocReason::kFreezeCommand);
-    case PocEventKind::kFatalError: return freeze(now, PocReason::kFatalError);
-    case PocEventKind::kReady: return ready(now, PocReason::kReadyCommand);
-    case PocEventKind::kAllowColdstart: return allow_coldstart(now);
-    case PocEventKind::kCycleStarted: return join_cycle(now);
-    case PocEventKind::kClockCorrected: return note_clock(now);
-    case PocEventKind::kConfig:
-    case PocEventKind::kConfigComplete:
-    case PocEventKind::kRun:
-    case PocEventKind::kWakeup:
-    case PocEventKind::kAllSlots:
-    case PocEventKind::kHalt: return ignore(now, PocReason::kCommandNotAccepted);
-    case PocEventKind::kChannelActive:
-    case PocEventKind::kChannelsIdle: return ignore(now, PocReason::kNoTimerOnChannel);
-    case PocEventKind::kCasReceived: return ignore(now, PocReason::kSymbolWithoutMeaning);
-    case PocEventKind::kWakeupPatternReceived: return ignore(now, PocReason::kNoWakeupWanted);
-    case PocEventKind::kHeaderReceived:
-    case PocEventKind::kStartupFrame: return ignore(now, PocReason::kJudgedAtCycleEnd);
-    case PocEventKind::kListenTimeout:
-    case PocEventKind::kNoiseTimeout: return ignore(now, PocReason::kNoTimerRunning);
-    case PocEventKind::kWakeupSent:
-    case PocEventKind::kWakeupCollision: return ignore(now, PocReason::kNotSendingWakeup);
-    case PocEventKind::kScheduleNotDerived: return ignore(now, PocReason::kNotDerivingSchedule);
-  }
-  return unlisted(now);
-}
-
-namespace {
-
-constexpr int kGoodDoubleCycles = 2;
 
 // In the first double cycle there may be the leading node alone; it just does not count as a good one then.
 PocStep integration_cycle(const Now& now) {
@@ -225,38 +91,6 @@ PocStep integration_cycle(const Now& now) {
   step.next.good_double_cycles = ended.pairs >= 2 ? now.state.good_double_cycles + 1 : 0;
   if (step.next.good_double_cycles < kGoodDoubleCycles) return step;
   return enter(now, PocKind::kNormalActive, PocReason::kIntegrated);
-}
-
-}  // namespace
-
-PocStep in_integration_consistency_check(const Now& now) {
-  switch (now.event.kind) {
-    case PocEventKind::kPowerOn: return power_on(now);
-    case PocEventKind::kFreeze: return freeze(now, PocReason::kFreezeCommand);
-    case PocEventKind::kFatalError: return freeze(now, PocReason::kFatalError);
-    case PocEventKind::kReady: return ready(now, PocReason::kReadyCommand);
-    case PocEventKind::kAllowColdstart: return allow_coldstart(now);
-    case PocEventKind::kCycleStarted: return integration_cycle(now);
-    case PocEventKind::kClockCorrected: return note_clock_of_whole_cycles(now);
-    case PocEventKind::kConfig:
-    case PocEventKind::kConfigComplete:
-    case PocEventKind::kRun:
-    case PocEventKind::kWakeup:
-    case PocEventKind::kAllSlots:
-    case PocEventKind::kHalt: return ignore(now, PocReason::kCommandNotAccepted);
-    case PocEventKind::kChannelActive:
-    case PocEventKind::kChannelsIdle: return ignore(now, PocReason::kNoTimerOnChannel);
-    case PocEventKind::kCasReceived: return ignore(now, PocReason::kSymbolWithoutMeaning);
-    case PocEventKind::kWakeupPatternReceived: return ignore(now, PocReason::kNoWakeupWanted);
-    case PocEventKind::kHeaderReceived:
-    case PocEventKind::kStartupFrame: return ignore(now, PocReason::kJudgedAtCycleEnd);
-    case PocEventKind::kListenTimeout:
-    case PocEventKind::kNoiseTimeout: return ignore(now, PocReason::kNoTimerRunning);
-    case PocEventKind::kWakeupSent:
-    case PocEventKind::kWakeupCollision: return ignore(now, PocReason::kNotSendingWakeup);
-    case PocEventKind::kScheduleNotDerived: return ignore(now, PocReason::kNotDerivingSchedule);
-  }
-  return unlisted(now);
 }
 
 }  // namespace ttf::bus::poc

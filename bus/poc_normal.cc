@@ -6,6 +6,23 @@
 namespace ttf::bus::poc {
 namespace {
 
+// What both states do at the start of a cycle, before each judges the clock.
+PocStep next_cycle(const Now& now, PocReason why) {
+  PocStep step = stay(now, why);
+  step.next.clock = ClockVerdict::kNone;
+  if (step.next.slot_mode == SlotMode::kAllPending) step.next.slot_mode = SlotMode::kAll;
+  return step;
+}
+
+PocStep become(PocStep step, PocKind kind, PocReason why) {
+  step.next.kind = kind;
+  step.next.vAllowPassiveToActive = 0;
+  step.reason = why;
+  return step;
+}
+
+}  // namespace
+
 PocStep request_halt(const Now& now) {
   PocStep step = stay(now, PocReason::kHaltRequested);
   step.next.halt_requested = true;
@@ -30,21 +47,6 @@ PocStep count_clock(const Now& now) {
   PocStep step = note_clock(now);
   step.next.vClockCorrectionFailed =
       now.event.missing ? std::min(now.state.vClockCorrectionFailed + 1, kMaxClockCorrectionFailed) : 0;
-  return step;
-}
-
-// What both states do at the start of a cycle, before each judges the clock.
-PocStep next_cycle(const Now& now, PocReason why) {
-  PocStep step = stay(now, why);
-  step.next.clock = ClockVerdict::kNone;
-  if (step.next.slot_mode == SlotMode::kAllPending) step.next.slot_mode = SlotMode::kAll;
-  return step;
-}
-
-PocStep become(PocStep step, PocKind kind, PocReason why) {
-  step.next.kind = kind;
-  step.next.vAllowPassiveToActive = 0;
-  step.reason = why;
   return step;
 }
 
@@ -91,68 +93,6 @@ PocStep passive_cycle(const Now& now) {
       return step;
   }
   return step;
-}
-
-}  // namespace
-
-PocStep in_normal_active(const Now& now) {
-  switch (now.event.kind) {
-    case PocEventKind::kPowerOn: return power_on(now);
-    case PocEventKind::kFreeze: return freeze(now, PocReason::kFreezeCommand);
-    case PocEventKind::kFatalError: return freeze(now, PocReason::kFatalError);
-    case PocEventKind::kHalt: return request_halt(now);
-    case PocEventKind::kReady: return request_ready(now);
-    case PocEventKind::kAllSlots: return request_all_slots(now);
-    case PocEventKind::kAllowColdstart: return allow_coldstart(now);
-    case PocEventKind::kClockCorrected: return count_clock(now);
-    case PocEventKind::kCycleStarted: return active_cycle(now);
-    case PocEventKind::kConfig:
-    case PocEventKind::kConfigComplete:
-    case PocEventKind::kRun:
-    case PocEventKind::kWakeup: return ignore(now, PocReason::kCommandNotAccepted);
-    case PocEventKind::kChannelActive:
-    case PocEventKind::kChannelsIdle: return ignore(now, PocReason::kNoTimerOnChannel);
-    case PocEventKind::kCasReceived: return ignore(now, PocReason::kSymbolWithoutMeaning);
-    case PocEventKind::kWakeupPatternReceived: return ignore(now, PocReason::kNoWakeupWanted);
-    case PocEventKind::kHeaderReceived:
-    case PocEventKind::kStartupFrame: return ignore(now, PocReason::kHeaderWithoutMeaning);
-    case PocEventKind::kListenTimeout:
-    case PocEventKind::kNoiseTimeout: return ignore(now, PocReason::kNoTimerRunning);
-    case PocEventKind::kWakeupSent:
-    case PocEventKind::kWakeupCollision: return ignore(now, PocReason::kNotSendingWakeup);
-    case PocEventKind::kScheduleNotDerived: return ignore(now, PocReason::kNotDerivingSchedule);
-  }
-  return unlisted(now);
-}
-
-PocStep in_normal_passive(const Now& now) {
-  switch (now.event.kind) {
-    case PocEventKind::kPowerOn: return power_on(now);
-    case PocEventKind::kFreeze: return freeze(now, PocReason::kFreezeCommand);
-    case PocEventKind::kFatalError: return freeze(now, PocReason::kFatalError);
-    case PocEventKind::kHalt: return request_halt(now);
-    case PocEventKind::kReady: return request_ready(now);
-    case PocEventKind::kAllSlots: return request_all_slots(now);
-    case PocEventKind::kAllowColdstart: return allow_coldstart(now);
-    case PocEventKind::kClockCorrected: return count_clock(now);
-    case PocEventKind::kCycleStarted: return passive_cycle(now);
-    case PocEventKind::kConfig:
-    case PocEventKind::kConfigComplete:
-    case PocEventKind::kRun:
-    case PocEventKind::kWakeup: return ignore(now, PocReason::kCommandNotAccepted);
-    case PocEventKind::kChannelActive:
-    case PocEventKind::kChannelsIdle: return ignore(now, PocReason::kNoTimerOnChannel);
-    case PocEventKind::kCasReceived: return ignore(now, PocReason::kSymbolWithoutMeaning);
-    case PocEventKind::kWakeupPatternReceived: return ignore(now, PocReason::kNoWakeupWanted);
-    case PocEventKind::kHeaderReceived:
-    case PocEventKind::kStartupFrame: return ignore(now, PocReason::kHeaderWithoutMeaning);
-    case PocEventKind::kListenTimeout:
-    case PocEventKind::kNoiseTimeout: return ignore(now, PocReason::kNoTimerRunning);
-    case PocEventKind::kWakeupSent:
-    case PocEventKind::kWakeupCollision: return ignore(now, PocReason::kNotSendingWakeup);
-    case PocEventKind::kScheduleNotDerived: return ignore(now, PocReason::kNotDerivingSchedule);
-  }
-  return unlisted(now);
 }
 
 }  // namespace ttf::bus::poc

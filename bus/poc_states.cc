@@ -1,7 +1,5 @@
 #include "bus/poc_states.h"
 
-#include "core/check.h"
-
 namespace ttf::bus::poc {
 namespace {
 
@@ -13,10 +11,6 @@ PocReason objection_to_coldstart(const PocParameters& parameters, const PocState
 }
 
 }  // namespace
-
-PocStep unlisted(const Now& now) {
-  TTF_CHECK(false, "state {}, event {}", static_cast<int>(now.state.kind), static_cast<int>(now.event.kind));
-}
 
 PocStep ignore(const Now& now, PocReason why) { return {now.state, {}, why, PocReason::kNone}; }
 

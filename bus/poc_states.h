@@ -1,4 +1,5 @@
-// Inside protocol operation control: one function per state, each listing every event, and what several of them share.
+// Inside protocol operation control: the table of answers (poc_table.cc), and the steps that are more than a change of
+// state, by the part of the state machine they belong to.
 #pragma once
 
 #include "bus/poc.h"
@@ -10,28 +11,12 @@ struct Now {
   const PocState& state;
   const PocEvent& event;
 };
+using Answer = PocStep (*)(const Now&);
 
-PocStep in_default_config(const Now& now);
-PocStep in_config(const Now& now);
-PocStep in_ready(const Now& now);
-PocStep in_halt(const Now& now);
-PocStep in_wakeup_listen(const Now& now);
-PocStep in_wakeup_send(const Now& now);
-PocStep in_wakeup_detect(const Now& now);
-PocStep in_coldstart_listen(const Now& now);
-PocStep in_collision_resolution(const Now& now);
-PocStep in_consistency_check(const Now& now);
-PocStep in_gap(const Now& now);
-PocStep in_integration_listen(const Now& now);
-PocStep in_initialise_schedule(const Now& now);
-PocStep in_integration_coldstart_check(const Now& now);
-PocStep in_join(const Now& now);
-PocStep in_integration_consistency_check(const Now& now);
-PocStep in_normal_active(const Now& now);
-PocStep in_normal_passive(const Now& now);
+// The one answer to an event in a state.
+Answer answer(PocKind state, PocEventKind event);
 
-// The end of every function above: reached only with an event that is none.
-[[noreturn]] PocStep unlisted(const Now& now);
+// --- poc_states.cc: what several states share
 
 // Same state, same data: nothing happens.
 PocStep ignore(const Now& now, PocReason why);
@@ -58,5 +43,36 @@ PocStep derive_schedule(const Now& now);
 PocStep note_clock(const Now& now);
 // Why start-up is aborted on the verdict, kNone if it is in order. No verdict at all counts as a missing term.
 PocReason clock_objection(const PocState& state);
+
+// --- poc_host.cc: the states in which the controller is deaf
+PocStep configure_again(const Now& now);
+PocStep run(const Now& now);
+PocStep leave_halt(const Now& now);
+PocStep freeze_halted(const Now& now, PocReason why);
+
+// --- poc_wakeup.cc
+PocStep wake(const Now& now);
+PocStep end_wakeup(const Now& now, WakeupStatus status, PocReason why);
+
+// --- poc_coldstart.cc: the path of the leading coldstart node
+PocStep attempt_coldstart(const Now& now, PocReason why);
+PocStep resolution_cycle(const Now& now);
+PocStep consistency_cycle(const Now& now);
+
+// --- poc_integration.cc: the paths of the following coldstart node and of any other node
+PocStep allow_coldstart_listening(const Now& now);
+PocStep second_frame(const Now& now);
+PocStep note_clock_of_whole_cycles(const Now& now);
+PocStep coldstart_check_cycle(const Now& now);
+PocStep join_cycle(const Now& now);
+PocStep integration_cycle(const Now& now);
+
+// --- poc_normal.cc
+PocStep request_halt(const Now& now);
+PocStep request_ready(const Now& now);
+PocStep request_all_slots(const Now& now);
+PocStep count_clock(const Now& now);
+PocStep active_cycle(const Now& now);
+PocStep passive_cycle(const Now& now);
 
 }  // namespace ttf::bus::poc
