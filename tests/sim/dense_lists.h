@@ -91,7 +91,7 @@ class FilledStep final : public nodes::Step {
       out.begin(first_ + context.measurement, count, GlobalTime{});
     } else {
       const std::uint32_t sequence = context.inputs[0].list.value().sequence;
-      out.begin(sequence, count, context.strobes[index_of(sensor_)].time_of(sequence - first_).value());
+      out.begin(sequence, count, context.strobes[index_of(sensor_)].find(sequence - first_, 32).value().at);
     }
     fill(out, identifier_, filling_);
   }
