@@ -25,6 +25,7 @@ enum class Purpose : std::uint16_t {
   kSensorPhase = 8,
   kExecutionTime = 9,
   kTest = 10,
+  kFault = 11,
 };
 
 struct StreamKey {

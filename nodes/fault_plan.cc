@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "core/check.h"
+#include "nodes/believed_schedule.h"
 
 namespace ttf::nodes {
 namespace {
@@ -26,6 +28,7 @@ class Resolver {
     check_slot();
     check_bits();
     check_coldstart();
+    check_belief();
   }
 
  private:
@@ -41,6 +44,9 @@ class Resolver {
     const int slots = cluster_.flexray.gNumberOfStaticSlots;
     const bool shifts = fault_->kind == FaultKind::kWrongSchedule && fault_->wrong == WrongSchedule::kShiftedSlots;
     if (fault_->slot > slots) fail_number("slot", fault_->slot, fmt::format("must be 1..{}", slots));
+    for (const schedules::FrameSlot& frame : cluster_.frames)
+      if (fault_->kind == FaultKind::kMasquerading && frame.slot == fault_->slot && frame.sender == fault_->node)
+        return fail_number("slot", fault_->slot, "must be another's slot");
     if (shifts && fault_->by >= slots) fail_number("by", fault_->by, fmt::format("must be 1..{}", slots - 1));
   }
   void check_bits() {
@@ -55,6 +61,14 @@ class Resolver {
     if (!cluster_.node(fault_->node).flexray->pKeySlotUsedForStartup)
       fail("node", cluster_.node(fault_->node).name, "must be a coldstart node");
   }
+  void check_belief() {
+    if (!changes_schedule(*fault_) || !findings_.empty()) return;
+    const std::string objection = believe(*fault_, believed_.try_emplace(fault_->node, cluster_).first->second);
+    if (objection.empty()) return;
+    const bool by = fault_->by != 0;
+    findings_.add({file_, fault_->line, fmt::format("faults[{}].{}", index_, by ? "by" : "slot"),
+                   by ? fmt::to_string(fault_->by) : "", objection});
+  }
   void fail(std::string_view key, std::string value, std::string_view expected) {
     findings_.add({file_, fault_->line, fmt::format("faults[{}].{}", index_, key), std::move(value),
                    fmt::format("{} of {}", expected, cluster_.name)});
@@ -66,6 +80,7 @@ class Resolver {
   const Cluster& cluster_;
   const std::string& file_;
   Findings& findings_;
+  std::map<NodeId, Cluster> believed_;   // by those who err
   const Fault* fault_ = nullptr;
   std::size_t index_ = 0;
 };
