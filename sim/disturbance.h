@@ -2,7 +2,9 @@
 // nodes know nothing of it. All instants are true times.
 #pragma once
 
+#include <cstddef>
 #include <limits>
+#include <span>
 
 #include "bus/flexray_port.h"
 #include "core/ids.h"
@@ -27,6 +29,7 @@ struct Arriving {
   bus::Signal signal{};
   TrueTime start{}, end{};
   bool regenerated = false;             // by the coupler: no fault of the sender can make receivers disagree about it
+  std::span<const std::byte> bytes;     // of a frame: may be pointed elsewhere, as above
 };
 
 class Disturbance {
@@ -36,7 +39,7 @@ class Disturbance {
   virtual ~Disturbance() = default;
   // False: it does not leave.
   virtual bool leaving(Leaving& signal) { return (void)signal, true; }
-  // False: it does not arrive. A frame can be made undecodable here, nothing else can become a frame.
+  // False: it does not arrive. A frame can be made undecodable or another frame here; nothing else can become a frame.
   virtual bool arriving(Arriving& signal) { return (void)signal, true; }
   // When it acts by itself next, after all nodes' events of that instant; and what it does then.
   virtual TrueTime next() const { return kNever; }

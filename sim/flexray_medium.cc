@@ -80,29 +80,30 @@ void FlexRayMedium::spread(const Leaving& signal, std::optional<NodeId> sender, 
   const auto receivers = static_cast<int>(std::count_if(attached.begin(), attached.end(),
                                                         [&](NodeId node) { return node != sender; }));
   if (receivers == 0) return;
-  Arrival arrival;
-  if (signal.signal == Signal::kFrame) arrival.frame = pool_.put_frame(signal.channel, signal.bytes, receivers);
+  std::uint32_t frame = 0;
+  if (signal.signal == Signal::kFrame) frame = pool_.put_frame(signal.channel, signal.bytes, receivers);
   for (const NodeId node : attached) {
     if (node == sender) continue;
     const Duration on_the_way = regenerated ? branch(node) : sender ? delay(*sender, node) : Duration{};
     Arriving last{signal.sender, node, signal.channel, signal.signal, signal.start + on_the_way,
-                  signal.end + on_the_way, regenerated};
+                  signal.end + on_the_way, regenerated, signal.bytes};
     const bool arrives = disturbance_ == nullptr || disturbance_->arriving(last);
-    arrival.channel = signal.channel;
-    arrival.signal = last.signal;
-    arrival.start = last.start;
-    arrival.end = last.end;
-    if (signal.signal == Signal::kFrame && (!arrives || last.signal != Signal::kFrame)) pool_.release(arrival.frame);
+    Arrival arrival{signal.channel, last.signal, last.start, last.end, frame};
+    const bool as_it_left = arrives && last.signal == Signal::kFrame && last.bytes.data() == signal.bytes.data();
+    if (signal.signal == Signal::kFrame && !as_it_left) pool_.release(frame);
+    if (arrives && last.signal == Signal::kFrame && !as_it_left)
+      arrival.frame = pool_.put_frame(signal.channel, last.bytes, 1);
     if (arrives) put(node, signal.sender, arrival);
   }
 }
 
 void FlexRayMedium::to_coupler(const Leaving& signal, NodeId sender, TrueTime now) {
   const Duration on_the_way = branch(sender);
-  Arriving last{sender, kNoNode, signal.channel, signal.signal, signal.start + on_the_way, signal.end + on_the_way, false};
+  Arriving last{sender, kNoNode, signal.channel, signal.signal, signal.start + on_the_way, signal.end + on_the_way, false,
+                signal.bytes};
   if (disturbance_ != nullptr && !disturbance_->arriving(last)) return;
   Pending made{next_id_++, {signal.channel, last.signal, last.start, last.end, 0}, sender, false};
-  if (last.signal == Signal::kFrame) made.arrival.frame = pool_.put_frame(signal.channel, signal.bytes, 1);
+  if (last.signal == Signal::kFrame) made.arrival.frame = pool_.put_frame(signal.channel, last.bytes, 1);
   TTF_CHECK(to_coupler_.size() < kLaneRoom, "{} signals on their way to the couplers", to_coupler_.size());
   to_coupler_.push_back(made);
   MediumEvent event;
