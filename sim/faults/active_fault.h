@@ -1,0 +1,90 @@
+// One fault of a plan at work: what it does to signals and to the machinery of a run. Every family of faults derives its own
+// from this (families.h); the injector asks them in the plan's order.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "core/random.h"
+#include "nodes/fault_plan.h"
+#include "schedules/cluster.h"
+#include "sim/disturbance.h"
+#include "sim/plant.h"
+
+namespace ttf::sim {
+
+// What a fault leads to, to be counted and recorded; and the signals that it makes.
+class FaultLog {
+ public:
+  virtual ~FaultLog() = default;
+  virtual void acted(std::uint32_t fault, TrueTime at, std::string_view text) = 0;
+  virtual void emit(const Leaving& signal, std::optional<NodeId> source) = 0;
+};
+
+// What every fault is given; all of it outlives the fault.
+struct FaultSetting {
+  const nodes::Fault& fault;             // resolved
+  std::uint32_t index = 0;               // in the plan
+  const schedules::Cluster& cluster;
+  Plant& plant;
+  FaultLog& log;
+  TrueTime from{}, until{};
+  std::uint64_t seed = 0;
+  std::uint32_t replication = 0;
+};
+
+class ActiveFault {
+ public:
+  explicit ActiveFault(const FaultSetting& setting) : setting_(setting) {}
+  virtual ~ActiveFault() = default;
+  ActiveFault(const ActiveFault&) = delete;
+  ActiveFault& operator=(const ActiveFault&) = delete;
+
+  // As in Disturbance. `emitted`: no controller sent it, but a fault.
+  virtual bool leaving(Leaving& signal) { return (void)signal, true; }
+  virtual bool arriving(Arriving& signal, bool emitted) { return (void)signal, (void)emitted, true; }
+  virtual TrueTime next() const { return Disturbance::kNever; }
+  virtual void act(TrueTime now) { (void)now; }
+
+ protected:
+  const nodes::Fault& fault() const { return setting_.fault; }
+  const schedules::Cluster& cluster() const { return setting_.cluster; }
+  const schedules::GlobalParameters& flexray() const { return setting_.cluster.flexray; }
+  Plant& plant() { return setting_.plant; }
+  TrueTime from() const { return setting_.from; }
+  TrueTime until() const { return setting_.until; }
+  bool active(TrueTime at) const { return at >= setting_.from && at < setting_.until; }
+  bool on(schedules::Channel channel) const { return includes(setting_.fault.channels, channel); }
+  std::string_view name(NodeId node) const { return setting_.cluster.node(node).name; }
+  void emit(const Leaving& signal, std::optional<NodeId> source) { setting_.log.emit(signal, source); }
+
+  // One of the fault's own streams, of the `index`-th draw; what one draws never depends on what another drew.
+  RandomStream draws(std::uint32_t index) const {
+    return RandomStream({setting_.seed, setting_.replication, Purpose::kFault,
+                         static_cast<std::uint16_t>(setting_.index), index});
+  }
+
+  // Counts and records that the fault does something, now, with one sentence about it. Allocates nothing.
+  template <class... Args>
+  void acted(fmt::format_string<Args...> sentence, Args&&... args) {
+    std::array<char, 200> text;
+    const auto end = fmt::format_to_n(text.begin(), text.size(), sentence, std::forward<Args>(args)...).out;
+    // Of a signal that is under way when the fault begins, it is known when it leaves.
+    const TrueTime at = std::max(setting_.plant.now(), setting_.from);
+    setting_.log.acted(setting_.index, at, {text.data(), static_cast<std::size_t>(end - text.begin())});
+  }
+
+ private:
+  FaultSetting setting_;
+};
+
+constexpr char letter(schedules::Channel channel) { return channel == schedules::Channel::kA ? 'A' : 'B'; }
+inline constexpr std::array kBothChannels = {schedules::Channel::kA, schedules::Channel::kB};
+
+}  // namespace ttf::sim

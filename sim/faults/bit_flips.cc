@@ -1,0 +1,88 @@
+// Bits of a frame that are inverted on its way: in the header, the payload or the trailer; for all receivers, or for some.
+#include <array>
+
+#include "sim/faults/families.h"
+#include "sim/faults/frame_fault.h"
+
+namespace ttf::sim {
+namespace {
+
+using nodes::FaultKind;
+
+constexpr int kBitsOfAByte = 8;
+
+class BitFlips final : public FrameFault {
+ public:
+  using FrameFault::FrameFault;
+
+  bool leaving(Leaving& signal) override {
+    if (!befalls(signal)) return true;
+    Frame& frame = frames_[index_of(signal.channel)];
+    std::copy(signal.bytes.begin(), signal.bytes.end(), frame.bytes.begin());
+    frame.size = signal.bytes.size();
+    const int flips = flip(frame, index_of(signal.channel));
+    if (flips == 0) return true;
+    if (fault().receivers.empty()) signal.bytes = frame.whole();
+    acted("{} bit{} of a frame of {} on {} inverted", flips, flips == 1 ? " is" : "s are",
+          name(signal.sender), letter(signal.channel));
+    return true;
+  }
+  bool arriving(Arriving& signal, bool emitted) override {
+    if (!fault().receivers.empty() && befallen(signal, emitted) && at_receiver(signal.receiver))
+      signal.bytes = frames_[index_of(signal.channel)].whole();
+    return true;
+  }
+
+ private:
+  struct Frame {
+    std::array<std::byte, wire::kMaxFrameBytes> bytes{};
+    std::size_t size = 0;
+    std::span<const std::byte> whole() const { return std::span<const std::byte>(bytes).first(size); }
+  };
+  // Bits of a frame, the first on the bus 0.
+  struct Region {
+    int first = 0, count = 0;
+  };
+  Region region(std::size_t bytes) const {
+    constexpr int kHeader = kBitsOfAByte * static_cast<int>(wire::kHeaderBytes);
+    constexpr int kTrailer = kBitsOfAByte * static_cast<int>(wire::kTrailerBytes);
+    const int bits = kBitsOfAByte * static_cast<int>(bytes);
+    if (fault().kind == FaultKind::kBitFlipHeader) return {0, kHeader};
+    if (fault().kind == FaultKind::kBitFlipTrailer) return {bits - kTrailer, kTrailer};
+    return {kHeader, bits - kHeader - kTrailer};
+  }
+
+  // How many bits of the frame it has inverted.
+  int flip(Frame& frame, std::size_t part) const {
+    const Region where = region(frame.size);
+    if (!fault().bits.empty()) {
+      int flips = 0;
+      for (const int bit : fault().bits)
+        if (bit < where.count) invert(frame, where.first + bit), ++flips;   // a dynamic frame may be shorter
+      return flips;
+    }
+    const int flips = std::min(fault().flips, where.count);
+    // The k-th of those that are left, so that all are different: R. Floyd's way of drawing a set (Bentley, CACM 1987).
+    std::array<int, 24> drawn{};
+    RandomStream stream = frame_draws(static_cast<std::uint32_t>(part));
+    for (int i = 0; i < flips; ++i) {
+      const int last = where.count - flips + i;
+      const int bit = static_cast<int>(stream.integer(0, last));
+      const auto end = drawn.begin() + i;
+      drawn[static_cast<std::size_t>(i)] = std::find(drawn.begin(), end, bit) == end ? bit : last;
+      invert(frame, where.first + drawn[static_cast<std::size_t>(i)]);
+    }
+    return flips;
+  }
+  static void invert(Frame& frame, int bit) {
+    frame.bytes[static_cast<std::size_t>(bit / kBitsOfAByte)] ^= std::byte{0x80} >> (bit % kBitsOfAByte);
+  }
+
+  std::array<Frame, 2> frames_;   // by channel, the last one befallen, with its bits inverted
+};
+
+}  // namespace
+
+std::unique_ptr<ActiveFault> make_bit_flips(const FaultSetting& setting) { return std::make_unique<BitFlips>(setting); }
+
+}  // namespace ttf::sim

@@ -1,0 +1,178 @@
+// What appears on the channels out of nothing, again and again: noise that nobody sends, a node that babbles, a coldstart node
+// that never stops beginning.
+#include <algorithm>
+#include <array>
+
+#include "bus/wire/flexray_frame.h"
+#include "sim/faults/families.h"
+
+namespace ttf::sim {
+namespace {
+
+using bus::Signal;
+using schedules::Channel;
+
+constexpr int kCasBits = 30;   // cdCAS (FlexRay 2.1A, annex A)
+
+// Bursts of one kind, from the beginning of the fault to its end; none reaches into the next.
+class Bursts : public ActiveFault {
+ public:
+  explicit Bursts(const FaultSetting& setting) : ActiveFault(setting), next_(setting.from) {}
+
+  TrueTime next() const final { return next_; }
+  void act(TrueTime now) final {
+    TrueTime end = now;
+    for (const Channel channel : kBothChannels)
+      if (on(channel)) end = std::max(end, burst(now, channel));
+    Duration pause = fault().interval;
+    if (fault().jitter > Duration{}) pause += Duration{draws(count_).integer(0, fault().jitter.ns)};
+    ++count_;
+    // Time goes on, whatever there is to send.
+    next_ = std::max({now + pause, end, now + Duration{1}});
+    if (next_ >= until()) next_ = Disturbance::kNever;
+  }
+
+ protected:
+  // Sends one, and says when it is over.
+  virtual TrueTime burst(TrueTime now, Channel channel) = 0;
+
+ private:
+  TrueTime next_;
+  std::uint32_t count_ = 0;
+};
+
+class Noise final : public Bursts {
+ public:
+  using Bursts::Bursts;
+
+ private:
+  TrueTime burst(TrueTime now, Channel channel) override {
+    const TrueTime end = now + fault().length;
+    acted("noise on {} for {} ns", letter(channel), fault().length.ns);
+    emit({kNoNode, channel, Signal::kUndecodable, now, end, {}}, std::nullopt);
+    return end;
+  }
+};
+
+// A node's lines: only the channels it is attached to.
+class NodeBursts : public Bursts {
+ public:
+  using Bursts::Bursts;
+
+ protected:
+  const schedules::NodeParameters& parameters() const { return *cluster().node(fault().node).flexray; }
+  TrueTime send(TrueTime now, Channel channel, Signal signal, Duration length, std::span<const std::byte> bytes) {
+    if (!includes(parameters().pChannels, channel)) return now;
+    acted("{} sends {} on {}, outside its schedule", name(fault().node), text(signal), letter(channel));
+    emit({fault().node, channel, signal, now, now + length, bytes}, fault().node);
+    return now + length;
+  }
+
+ private:
+  static std::string_view text(Signal signal) {
+    switch (signal) {
+      case Signal::kFrame: return "a frame";
+      case Signal::kCas: return "a collision avoidance symbol";
+      case Signal::kWakeup: return "a wake-up pattern";
+      case Signal::kUndecodable: return "noise";
+    }
+    return "";
+  }
+};
+
+// Noise, or the frame it sent last: before that, a null frame of its key slot.
+class BabblingIdiot final : public NodeBursts {
+ public:
+  explicit BabblingIdiot(const FaultSetting& setting) : NodeBursts(setting) {
+    wire::FrameHeader header;
+    header.null_frame = true;
+    header.frame_id = static_cast<std::uint16_t>(parameters().pKeySlotId);
+    const std::array<std::byte, wire::kMaxPayloadBytes> nothing{};
+    const auto payload = std::span<const std::byte>(nothing).first(2 * static_cast<std::size_t>(flexray().gPayloadLengthStatic));
+    for (const Channel channel : kBothChannels) {
+      Frame& frame = last_[index_of(channel)];
+      frame.size = wire::encode_frame(header, channel, payload, frame.bytes);
+    }
+  }
+
+  bool leaving(Leaving& signal) override {
+    if (signal.sender != fault().node || signal.signal != Signal::kFrame) return true;
+    Frame& frame = last_[index_of(signal.channel)];
+    std::copy(signal.bytes.begin(), signal.bytes.end(), frame.bytes.begin());
+    frame.size = signal.bytes.size();
+    return true;
+  }
+
+ private:
+  struct Frame {
+    std::array<std::byte, wire::kMaxFrameBytes> bytes{};
+    std::size_t size = 0;
+  };
+  TrueTime burst(TrueTime now, Channel channel) override {
+    if (fault().signal == nodes::FaultSignal::kNoise) return send(now, channel, Signal::kUndecodable, fault().length, {});
+    const Frame& frame = last_[index_of(channel)];
+    return send(now, channel, Signal::kFrame, wire::frame_duration(flexray(), wire::words_in_frame(frame.size)),
+                std::span<const std::byte>(frame.bytes).first(frame.size));
+  }
+
+  std::array<Frame, 2> last_;   // by channel
+};
+
+class RepeatedCas final : public NodeBursts {
+ public:
+  using NodeBursts::NodeBursts;
+
+ private:
+  TrueTime burst(TrueTime now, Channel channel) override {
+    const std::int64_t ps = (flexray().gdTSSTransmitter + kCasBits) * flexray().gdBit_ps;
+    return send(now, channel, Signal::kCas, {(ps + 999) / 1000}, {});
+  }
+};
+
+// Startup frames once a nominal cycle, as from a cluster that began when the fault did; the counter counts on.
+class RogueStartup final : public ActiveFault {
+ public:
+  explicit RogueStartup(const FaultSetting& setting) : ActiveFault(setting), next_(setting.from) {}
+
+  TrueTime next() const override { return next_; }
+  void act(TrueTime now) override {
+    const schedules::NodeParameters& p = *cluster().node(fault().node).flexray;
+    wire::FrameHeader header;
+    header.null_frame = header.sync = header.startup = true;
+    header.frame_id = static_cast<std::uint16_t>(p.pKeySlotId);
+    header.cycle = static_cast<std::uint8_t>(count_ % static_cast<std::uint32_t>(flexray().gCycleCountMax + 1));
+    const std::array<std::byte, wire::kMaxPayloadBytes> nothing{};
+    const auto payload = std::span<const std::byte>(nothing).first(2 * static_cast<std::size_t>(flexray().gPayloadLengthStatic));
+    const TrueTime end = now + wire::frame_duration(flexray(), flexray().gPayloadLengthStatic);
+    for (const Channel channel : kBothChannels) {
+      if (!on(channel) || !includes(p.pChannels, channel)) continue;
+      const std::size_t size = wire::encode_frame(header, channel, payload, frame_);
+      acted("{} sends a startup frame of cycle {} on {}, on a grid of its own", name(fault().node), header.cycle,
+            letter(channel));
+      emit({fault().node, channel, Signal::kFrame, now, end, std::span<const std::byte>(frame_).first(size)}, fault().node);
+    }
+    ++count_;
+    next_ = from() + cluster().cycle() * count_;
+    if (next_ >= until()) next_ = Disturbance::kNever;
+  }
+
+ private:
+  TrueTime next_;
+  std::uint32_t count_ = 0;
+  std::array<std::byte, wire::kMaxFrameBytes> frame_{};
+};
+
+}  // namespace
+
+std::unique_ptr<ActiveFault> make_noise(const FaultSetting& setting) { return std::make_unique<Noise>(setting); }
+std::unique_ptr<ActiveFault> make_babbling_idiot(const FaultSetting& setting) {
+  return std::make_unique<BabblingIdiot>(setting);
+}
+std::unique_ptr<ActiveFault> make_repeated_cas(const FaultSetting& setting) {
+  return std::make_unique<RepeatedCas>(setting);
+}
+std::unique_ptr<ActiveFault> make_rogue_startup(const FaultSetting& setting) {
+  return std::make_unique<RogueStartup>(setting);
+}
+
+}  // namespace ttf::sim

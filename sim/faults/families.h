@@ -1,0 +1,38 @@
+// The families of faults. One function for each makes what is at work of a fault of the plan; what it does, and how, is in the
+// source file of its name. docs/faults.md has the whole table.
+#pragma once
+
+#include <memory>
+
+#include "sim/faults/active_fault.h"
+
+namespace ttf::sim {
+
+// Supply and clock.
+std::unique_ptr<ActiveFault> make_crash(const FaultSetting& setting);
+std::unique_ptr<ActiveFault> make_lone_coldstart(const FaultSetting& setting);
+std::unique_ptr<ActiveFault> make_drift(const FaultSetting& setting);
+
+// The node's own frames, as they leave or towards some receivers.
+std::unique_ptr<ActiveFault> make_omission(const FaultSetting& setting);
+std::unique_ptr<ActiveFault> make_sos_timing(const FaultSetting& setting);
+std::unique_ptr<ActiveFault> make_sos_value(const FaultSetting& setting);
+std::unique_ptr<ActiveFault> make_bit_flips(const FaultSetting& setting);
+std::unique_ptr<ActiveFault> make_channel_swap(const FaultSetting& setting);
+std::unique_ptr<ActiveFault> make_byzantine_clock(const FaultSetting& setting);
+std::unique_ptr<ActiveFault> make_masquerading(const FaultSetting& setting);
+std::unique_ptr<ActiveFault> make_wrong_schedule(const FaultSetting& setting);   // and the same key slot
+
+// What comes out of nothing.
+std::unique_ptr<ActiveFault> make_babbling_idiot(const FaultSetting& setting);
+std::unique_ptr<ActiveFault> make_noise(const FaultSetting& setting);
+std::unique_ptr<ActiveFault> make_repeated_cas(const FaultSetting& setting);
+std::unique_ptr<ActiveFault> make_rogue_startup(const FaultSetting& setting);
+
+// The medium.
+std::unique_ptr<ActiveFault> make_transient(const FaultSetting& setting);
+
+// The one of these that the fault's kind and mode ask for.
+std::unique_ptr<ActiveFault> make_active_fault(const FaultSetting& setting);
+
+}  // namespace ttf::sim

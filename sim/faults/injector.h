@@ -1,0 +1,68 @@
+// A plan of faults at work in a simulation: injects each of them in the medium, the clock or the supply, never in a node.
+//
+//   L1  the same plan, seed, replication and simulation give the same signals and the same records
+//   L2  what a fault draws does not depend on the other faults of the plan
+//   L3  without faults the simulation is bit for bit what it is without an injector
+//   L4  nothing here allocates after construction, and nothing throws
+// Faults are asked in the plan's order; each sees what those before it have made of a signal. What a fault sends is not changed
+// by what befalls its sender's frames; a receiver that is deaf and a transient do not tell it from other signals.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "nodes/fault_plan.h"
+#include "recording/records/records.h"
+#include "schedules/cluster.h"
+#include "sim/disturbance.h"
+#include "sim/faults/active_fault.h"
+#include "sim/plant.h"
+
+namespace ttf::sim {
+
+class Injector final : public Disturbance, private FaultLog {
+ public:
+  // `plan`: resolved for the cluster. `origin`: what its times count from. Everything but the plan must outlive the injector;
+  // the simulation is told of it by set_disturbance(), and gets the schedules its nodes believe in where it is made
+  // (nodes/believed_schedule.h).
+  Injector(nodes::FaultPlan plan, const schedules::Cluster& cluster, Plant& plant, std::uint64_t seed,
+           std::uint32_t replication, records::Sink& sink, TrueTime origin = {});
+  ~Injector() override;
+
+  // How often a fault did something, by its index in the plan: a signal changed, made or withheld, a supply or a clock changed.
+  struct Activation {
+    std::uint64_t times = 0;
+    TrueTime first{}, last{};       // where times > 0
+  };
+  std::span<const Activation> activations() const { return activations_; }
+
+  bool leaving(Leaving& signal) override;
+  bool arriving(Arriving& signal) override;
+  TrueTime next() const override { return next_; }
+  void act(TrueTime now) override;
+
+ private:
+  // One fault with the times it begins and ends at, while they are to come.
+  struct Entry {
+    std::unique_ptr<ActiveFault> fault;
+    TrueTime begins, ends;
+  };
+  void acted(std::uint32_t fault, TrueTime at, std::string_view text) override;
+  void emit(const Leaving& signal, std::optional<NodeId> source) override;
+  void report(std::size_t fault, std::uint8_t what, TrueTime at, std::string_view text);
+  void begin(std::size_t fault, TrueTime at);
+  void plan_next();
+
+  nodes::FaultPlan plan_;
+  const schedules::Cluster& cluster_;
+  Plant& plant_;
+  records::Sink& sink_;
+  std::vector<Entry> entries_;               // by index in the plan, as what follows
+  std::vector<Activation> activations_;
+  bool emitting_ = false;
+  TrueTime next_ = kNever;
+};
+
+}  // namespace ttf::sim

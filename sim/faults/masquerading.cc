@@ -1,0 +1,131 @@
+// Frames that claim to be another's, with a right CRC, and the frames of a node that believes in another schedule.
+#include <array>
+
+#include "sim/faults/families.h"
+#include "sim/faults/frame_fault.h"
+
+namespace ttf::sim {
+namespace {
+
+using schedules::Channel;
+using schedules::FrameSlot;
+
+// Its own static frames, with the other's frame id.
+class WrongFrameId final : public FrameFault {
+ public:
+  using FrameFault::FrameFault;
+
+  bool leaving(Leaving& signal) override {
+    if (!befalls(signal)) return true;
+    const wire::DecodedFrame decoded = wire::decode_frame(signal.channel, signal.bytes);
+    if (decoded.error != wire::FrameError::kNone || decoded.header.frame_id > flexray().gNumberOfStaticSlots ||
+        decoded.header.sync < decoded.header.startup)
+      return true;
+    wire::FrameHeader header = decoded.header;
+    header.frame_id = static_cast<std::uint16_t>(fault().slot);
+    acted("a frame of {} on {} says frame id {} in slot {}", name(signal.sender), letter(signal.channel), fault().slot,
+          decoded.header.frame_id);
+    const std::size_t size = wire::encode_frame(header, signal.channel, decoded.payload, frame_);
+    signal.bytes = std::span<const std::byte>(frame_).first(size);
+    return true;
+  }
+
+ private:
+  std::array<std::byte, wire::kMaxFrameBytes> frame_{};
+};
+
+// A frame more, in the other's slot. The node knows when that is: its own key slot, and how long its cycles are.
+class InAnothersSlot final : public FrameFault {
+ public:
+  explicit InAnothersSlot(const FaultSetting& setting) : FrameFault(setting) {}
+
+  TrueTime next() const override { return due_; }
+
+  bool leaving(Leaving& signal) override {
+    const schedules::NodeParameters& p = *cluster().node(fault().node).flexray;
+    if (signal.sender != fault().node || signal.signal != bus::Signal::kFrame || signal.start == key_slot_) return true;
+    const wire::DecodedFrame decoded = wire::decode_frame(signal.channel, signal.bytes);
+    if (decoded.error != wire::FrameError::kNone || decoded.header.frame_id != p.pKeySlotId) return true;
+    const int counters = flexray().gCycleCountMax + 1;
+    const int cycles = (decoded.header.cycle - counter_ + counters) % counters;
+    const bool paced = key_slot_ != Disturbance::kNever && cycles > 0;
+    const Duration cycle = paced ? Duration{(signal.start - key_slot_).ns / cycles} : cluster().cycle();
+    key_slot_ = signal.start;
+    counter_ = decoded.header.cycle;
+    if (befalls_any_channel(signal)) plan(cycle, p.pKeySlotId);
+    return true;
+  }
+
+  void act(TrueTime now) override {
+    due_ = Disturbance::kNever;
+    const FrameSlot* owner = nullptr;
+    for (const FrameSlot& slot : cluster().frames)
+      if (slot.slot == fault().slot && due_counter_ % slot.repetition == slot.base_cycle) owner = &slot;
+    wire::FrameHeader header;
+    header.frame_id = static_cast<std::uint16_t>(fault().slot);
+    header.cycle = static_cast<std::uint8_t>(due_counter_);
+    if (owner != nullptr) {
+      const auto& p = cluster().node(owner->sender).flexray;
+      header.sync = p && p->pKeySlotUsedForSync && p->pKeySlotId == fault().slot;
+      header.startup = header.sync && p->pKeySlotUsedForStartup;
+    }
+    const int words = flexray().gPayloadLengthStatic;
+    const auto payload = std::span<std::byte>(payload_).first(2 * static_cast<std::size_t>(words));
+    RandomStream stream = frame_draws(0);
+    for (std::byte& byte : payload) byte = static_cast<std::byte>(stream.bits() & 0xffU);
+    for (const Channel channel : kBothChannels) {
+      if (!on(channel) || !includes(cluster().node(fault().node).flexray->pChannels, channel)) continue;
+      const std::size_t size = wire::encode_frame(header, channel, payload, frame_);
+      acted("{} sends a frame of slot {}, which is not its own, on {}", name(fault().node), fault().slot, letter(channel));
+      emit({fault().node, channel, bus::Signal::kFrame, now, now + wire::frame_duration(flexray(), words),
+            std::span<const std::byte>(frame_).first(size)},
+           fault().node);
+    }
+  }
+
+ private:
+  // The key slot's frame stands for the cycle, also where it is on the other channel.
+  bool befalls_any_channel(const Leaving& signal) {
+    Leaving any = signal;
+    any.channel = on(signal.channel) ? signal.channel : (on(Channel::kA) ? Channel::kA : Channel::kB);
+    return befalls(any);
+  }
+  void plan(Duration cycle, int key_slot) {
+    const int slots = fault().slot - key_slot;
+    const std::int64_t macroticks = static_cast<std::int64_t>(slots) * flexray().gdStaticSlot;
+    const Duration ahead{macroticks * cycle.ns / flexray().gMacroPerCycle};
+    due_ = key_slot_ + (slots > 0 ? ahead : cycle + ahead);
+    due_counter_ = (counter_ + (slots > 0 ? 0 : 1)) % (flexray().gCycleCountMax + 1);
+    if (due_ >= until()) due_ = Disturbance::kNever;
+  }
+
+  TrueTime key_slot_ = Disturbance::kNever;   // start of its last frame there
+  TrueTime due_ = Disturbance::kNever;
+  int counter_ = 0, due_counter_ = 0;
+  std::array<std::byte, wire::kMaxPayloadBytes> payload_{};
+  std::array<std::byte, wire::kMaxFrameBytes> frame_{};
+};
+
+// The node's controller runs on the schedule that it believes in (nodes/believed_schedule.h): what it sends is what comes of it.
+class WrongBelief final : public ActiveFault {
+ public:
+  using ActiveFault::ActiveFault;
+
+  bool leaving(Leaving& signal) override {
+    if (signal.sender == fault().node && signal.signal == bus::Signal::kFrame)
+      acted("{} sends a frame on {} by the schedule it believes in", name(signal.sender), letter(signal.channel));
+    return true;
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<ActiveFault> make_masquerading(const FaultSetting& setting) {
+  if (setting.fault.masquerade == nodes::MasqueradeMode::kOwnSlot) return std::make_unique<WrongFrameId>(setting);
+  return std::make_unique<InAnothersSlot>(setting);
+}
+std::unique_ptr<ActiveFault> make_wrong_schedule(const FaultSetting& setting) {
+  return std::make_unique<WrongBelief>(setting);
+}
+
+}  // namespace ttf::sim

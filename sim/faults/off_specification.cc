@@ -1,0 +1,102 @@
+// Slightly off the specification: what is early, late or misshapen by so little that receivers disagree about it (H. Kopetz,
+// "A comparison of TTP/C and FlexRay", TU Wien report 10/2001); and a sync node whose clock says another time to everyone.
+#include <algorithm>
+
+#include "sim/faults/families.h"
+#include "sim/faults/frame_fault.h"
+
+namespace ttf::sim {
+namespace {
+
+using nodes::ByzantinePattern;
+
+// Nothing ends before it is sent.
+template <class Signal>
+void shift_by(Signal& signal, Duration shift, TrueTime now) {
+  const Duration possible = std::max(shift, now - signal.end);
+  signal.start += possible;
+  signal.end += possible;
+}
+
+std::uint32_t part(const Arriving& signal) {
+  return static_cast<std::uint32_t>(2 * index_of(signal.receiver) + index_of(signal.channel));
+}
+
+class SosTiming final : public FrameFault {
+ public:
+  using FrameFault::FrameFault;
+
+  bool leaving(Leaving& signal) override {
+    if (!befalls(signal)) return true;
+    acted("a frame of {} on {} is {} ns late", name(signal.sender), letter(signal.channel), fault().shift.ns);
+    if (fault().receivers.empty()) shift_by(signal, fault().shift, plant().now());
+    return true;
+  }
+  bool arriving(Arriving& signal, bool emitted) override {
+    if (!fault().receivers.empty() && befallen_as_sent(signal, emitted) && at_receiver(signal.receiver))
+      shift_by(signal, fault().shift, plant().now());
+    return true;
+  }
+};
+
+class SosValue final : public FrameFault {
+ public:
+  using FrameFault::FrameFault;
+
+  bool leaving(Leaving& signal) override {
+    if (befalls(signal))
+      acted("a frame of {} on {} can be made out by some receivers only", name(signal.sender),
+            letter(signal.channel));
+    return true;
+  }
+  bool arriving(Arriving& signal, bool emitted) override {
+    if (!befallen_as_sent(signal, emitted)) return true;
+    const bool lost = fault().receivers.empty() ? frame_draws(part(signal)).uniform() < 0.5 : at_receiver(signal.receiver);
+    if (lost) signal.signal = bus::Signal::kUndecodable;
+    return true;
+  }
+};
+
+class ByzantineClock final : public FrameFault {
+ public:
+  using FrameFault::FrameFault;
+
+  bool leaving(Leaving& signal) override {
+    if (!befalls(signal)) return true;
+    // The cycle's counter is the frame's last six bits of header.
+    other_way_ = (static_cast<unsigned>(signal.bytes[wire::kHeaderBytes - 1]) & 1U) != 0;
+    acted("a frame of {} on {} says another time to every receiver", name(signal.sender),
+          letter(signal.channel));
+    return true;
+  }
+  bool arriving(Arriving& signal, bool emitted) override {
+    if (befallen_as_sent(signal, emitted)) shift_by(signal, lie(signal), plant().now());
+    return true;
+  }
+
+ private:
+  Duration lie(const Arriving& signal) const {
+    const Duration most = fault().shift;
+    const Duration pull = index_of(signal.receiver) % 2 == 0 ? most : -most;
+    switch (fault().pattern) {
+      case ByzantinePattern::kRandom: return {frame_draws(part(signal)).integer(-most.ns, most.ns)};
+      case ByzantinePattern::kPullApart: return pull;
+      case ByzantinePattern::kPullRates: return other_way_ ? -pull : pull;
+    }
+    return {};
+  }
+
+  bool other_way_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<ActiveFault> make_sos_timing(const FaultSetting& setting) {
+  return std::make_unique<SosTiming>(setting);
+}
+std::unique_ptr<ActiveFault> make_sos_value(const FaultSetting& setting) { return std::make_unique<SosValue>(setting); }
+std::unique_ptr<ActiveFault> make_byzantine_clock(const FaultSetting& setting) {
+  return std::make_unique<ByzantineClock>(setting);
+}
+
+}  // namespace ttf::sim

@@ -1,0 +1,44 @@
+// What a node sends does not leave it, or what others send does not reach it: symbols as well as frames.
+#include "sim/faults/families.h"
+#include "sim/faults/occasions.h"
+
+namespace ttf::sim {
+namespace {
+
+using nodes::FaultDirection;
+
+class Omission final : public ActiveFault {
+ public:
+  explicit Omission(const FaultSetting& setting)
+      : ActiveFault(setting), occasions_(setting.fault.every, setting.fault.probability) {}
+
+  bool leaving(Leaving& signal) override {
+    if (fault().direction == FaultDirection::kReceive || signal.sender != fault().node ||
+        !befalls(signal.channel, signal.start, signal.sender))
+      return true;
+    acted("what {} sends on {} does not leave it", name(signal.sender), letter(signal.channel));
+    return false;
+  }
+  bool arriving(Arriving& signal, bool emitted) override {
+    (void)emitted;   // a receiver that is deaf is deaf to whatever there is
+    if (fault().direction == FaultDirection::kSend || signal.receiver != fault().node ||
+        !befalls(signal.channel, signal.start, signal.sender))
+      return true;
+    acted("what arrives at {} on {} is not received", name(signal.receiver), letter(signal.channel));
+    return false;
+  }
+
+ private:
+  bool befalls(schedules::Channel channel, TrueTime start, NodeId sender) {
+    return on(channel) && active(start) &&
+           occasions_.chosen(plant().now(), sender, [this](std::uint32_t index) { return draws(index); });
+  }
+
+  Occasions occasions_;
+};
+
+}  // namespace
+
+std::unique_ptr<ActiveFault> make_omission(const FaultSetting& setting) { return std::make_unique<Omission>(setting); }
+
+}  // namespace ttf::sim

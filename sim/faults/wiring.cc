@@ -1,0 +1,61 @@
+// What the medium does: a node's lines changed over, and everything destroyed for a while.
+#include "sim/faults/families.h"
+#include "sim/faults/occasions.h"
+
+namespace ttf::sim {
+namespace {
+
+using schedules::Channel;
+
+// What the node sends on A appears on B, and the other way round; the CRC says where it belongs. What it hears is in order.
+class ChannelSwap final : public ActiveFault {
+ public:
+  explicit ChannelSwap(const FaultSetting& setting)
+      : ActiveFault(setting), occasions_(setting.fault.every, setting.fault.probability) {}
+
+  bool leaving(Leaving& signal) override {
+    if (signal.sender != fault().node || !active(signal.start) ||
+        !occasions_.chosen(plant().now(), signal.sender, [this](std::uint32_t index) { return draws(index); }))
+      return true;
+    const Channel other = signal.channel == Channel::kA ? Channel::kB : Channel::kA;
+    acted("what {} sends on {} appears on {}", name(signal.sender), letter(signal.channel), letter(other));
+    signal.channel = other;
+    return true;
+  }
+
+ private:
+  Occasions occasions_;
+};
+
+// Whatever is on the channels in that time, in part or in whole, nobody can make out. Nothing new appears on them.
+class Transient final : public ActiveFault {
+ public:
+  using ActiveFault::ActiveFault;
+
+  bool arriving(Arriving& signal, bool emitted) override {
+    (void)emitted;   // whoever sent it
+    if (!on(signal.channel) || signal.start >= until() || signal.end <= from()) return true;
+    signal.signal = bus::Signal::kUndecodable;
+    // Once for all its receivers.
+    if (plant().now() == last_ && signal.sender == last_sender_ && signal.channel == last_channel_) return true;
+    last_ = plant().now();
+    last_sender_ = signal.sender;
+    last_channel_ = signal.channel;
+    acted("what is on {} is destroyed", letter(signal.channel));
+    return true;
+  }
+
+ private:
+  TrueTime last_{Disturbance::kNever};
+  NodeId last_sender_ = kNoNode;
+  Channel last_channel_{};
+};
+
+}  // namespace
+
+std::unique_ptr<ActiveFault> make_channel_swap(const FaultSetting& setting) {
+  return std::make_unique<ChannelSwap>(setting);
+}
+std::unique_ptr<ActiveFault> make_transient(const FaultSetting& setting) { return std::make_unique<Transient>(setting); }
+
+}  // namespace ttf::sim

@@ -1,0 +1,154 @@
+// Controllers without hosts on a bus on which faults happen, and everything that they and the injector say.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/random.h"
+#include "nodes/believed_schedule.h"
+#include "nodes/fault_plan.h"
+#include "sim/bus_simulation.h"
+#include "sim/faults/injector.h"
+#include "tests/sim/bus_clusters.h"
+
+namespace ttf::sim {
+
+inline constexpr std::int64_t kCycleNs = 5'000'000;
+
+// What one controller says.
+struct Said final : bus::ControllerEvents {
+  struct Problem {
+    std::int64_t cycle = 0;
+    int slot = 0;
+    schedules::Channel channel{};
+    unsigned status = 0;
+  };
+  std::vector<Problem> problems;
+  std::vector<bus::PocKind> states;
+  std::vector<std::string> all;
+  bool rate_limited = false, clock_missing = false;
+  std::int64_t lists = 0;
+
+  void slot_problem(std::int64_t cycle, int slot, schedules::Channel channel, bus::SlotStatus status,
+                    Microticks at) override {
+    problems.push_back({cycle, slot, channel, static_cast<unsigned>(status)});
+    all.push_back(fmt::format("{} cycle {} slot {} channel {} status {}", at.value, cycle, slot, index_of(channel),
+                              static_cast<unsigned>(status)));
+  }
+  void state_changed(bus::PocKind from, const bus::PocStep& step, Microticks at) override {
+    states.push_back(step.next.kind);
+    all.push_back(fmt::format("{} from {} to {}", at.value, static_cast<int>(from), static_cast<int>(step.next.kind)));
+  }
+  void clock_corrected(std::int64_t cycle, const timebase::Correction& offset, const timebase::Correction& rate,
+                       Microticks at) override {
+    rate_limited |= rate.limit_reached;
+    clock_missing |= offset.missing || rate.missing;
+    all.push_back(fmt::format("{} cycle {} offset {} rate {}", at.value, cycle, offset.value, rate.value));
+  }
+  // How often a slot had one of these problems.
+  int count(int slot, unsigned status) const {
+    int times = 0;
+    for (const Problem& problem : problems) times += problem.slot == slot && (problem.status & status) != 0 ? 1 : 0;
+    return times;
+  }
+};
+
+struct FaultBusConfig {
+  schedules::Cluster cluster = bus_cluster(4, 2, 4);
+  std::vector<nodes::Fault> faults;
+  std::uint64_t seed = 1;
+  std::int64_t most_drift_ppb = 200'000;
+  bool cold = false;           // all powered on at time zero; else integrated, cycle 0 beginning at a millisecond
+  bool inject = true;          // false: nobody disturbs
+};
+
+class FaultBus final : public records::Sink {
+ public:
+  explicit FaultBus(FaultBusConfig config)
+      : config_(std::move(config)), plan_{"", config_.faults}, believed_(plan_, config_.cluster) {
+    std::vector<BusNode> nodes;
+    std::vector<bus::ControllerEvents*> events;
+    for (std::size_t n = 0; n < config_.cluster.nodes.size(); ++n) {
+      RandomStream draw({config_.seed, 0, Purpose::kClockDrift, static_cast<std::uint16_t>(n), 0});
+      BusNode node{timebase::Oscillator(25'000, draw.integer(-config_.most_drift_ppb, config_.most_drift_ppb), draw.integer(0, 24'999))};
+      if (!config_.cold) node.clock = integrated(node.oscillator);
+      node.view = believed_.of(static_cast<NodeId>(n));
+      nodes.push_back(node);
+      said_.push_back(std::make_unique<Said>());
+      events.push_back(said_.back().get());
+    }
+    simulation_ = std::make_unique<BusSimulation>(config_.cluster, std::move(nodes), std::move(events));
+    if (!config_.inject) return;
+    injector_ = std::make_unique<Injector>(plan_, config_.cluster, *simulation_, config_.seed, 0, *this, origin());
+    simulation_->set_disturbance(injector_.get());
+  }
+
+  // With one fault, after so many cycles.
+  FaultBus(const nodes::Fault& fault, int cycles) : FaultBus(FaultBusConfig{.faults = {fault}}) { run(5 * cycles + 1); }
+  FaultBus(const FaultBus&) = delete;
+  FaultBus& operator=(const FaultBus&) = delete;
+
+  FaultBus& run(int milliseconds) {
+    simulation_->run_until(origin() + Duration::milliseconds(milliseconds));
+    return *this;
+  }
+  const Said& said(int node) const { return *said_[static_cast<std::size_t>(node)]; }
+  bus::PocKind state(int node) const { return simulation_->controller(static_cast<NodeId>(node)).state().kind; }
+  BusSimulation& simulation() { return *simulation_; }
+  std::uint64_t acts(std::size_t fault = 0) const { return injector_->activations()[fault].times; }
+  const Injector& injector() const { return *injector_; }
+
+  struct Activity {
+    TrueTime at{};
+    std::uint32_t fault = 0;
+    unsigned what = 0;
+    NodeId node{};
+    std::string kind, text;
+  };
+  const std::vector<Activity>& activities() const { return activities_; }
+  // Everything that was said, faults included, as one text.
+  std::string everything() const {
+    std::string text;
+    for (std::size_t n = 0; n < said_.size(); ++n)
+      for (const std::string& line : said_[n]->all) text += fmt::format("{}: {}\n", n, line);
+    for (const Activity& a : activities_)
+      text += fmt::format("{} fault {} {} {} {}\n", a.at.ns, a.fault, a.what, a.kind, a.text);
+    return text;
+  }
+
+ private:
+  TrueTime origin() const { return TrueTime{config_.cold ? 0 : 1'000'000}; }
+  bus::InitialClock integrated(const timebase::Oscillator& oscillator) const {
+    const TrueTime start = origin();
+    const std::int64_t thousand = (oscillator.ticks_at(start + config_.cluster.cycle() * 1000) - oscillator.ticks_at(start)).value;
+    return {oscillator.ticks_at(start) + Microticks{1}, static_cast<int>((thousand + 500) / 1000 - kMicroPerCycle)};
+  }
+  using records::Sink::on;
+  void on(const records::FaultActivity& activity) override {
+    activities_.push_back({activity.at, activity.fault, activity.what, activity.node, std::string(activity.kind),
+                           std::string(activity.text)});
+  }
+
+  FaultBusConfig config_;
+  nodes::FaultPlan plan_;
+  nodes::BelievedSchedules believed_;
+  std::vector<std::unique_ptr<Said>> said_;
+  std::unique_ptr<BusSimulation> simulation_;
+  std::unique_ptr<Injector> injector_;
+  std::vector<Activity> activities_;
+};
+
+// A fault of node `node`, from cycle `from` on for `cycles` cycles, a macrotick before cycle boundaries; -1: to the end.
+inline nodes::Fault fault_of(nodes::FaultKind kind, int node, int from = 10, int cycles = -1) {
+  nodes::Fault fault;
+  fault.kind = kind;
+  if (nodes::has_node(kind)) fault.node = static_cast<NodeId>(node);
+  fault.from = Duration{from * kCycleNs - (from > 0 ? 10'000 : 0)};
+  if (cycles >= 0) fault.duration = Duration{cycles * kCycleNs};
+  return fault;
+}
+
+}  // namespace ttf::sim

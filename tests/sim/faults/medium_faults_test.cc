@@ -1,0 +1,133 @@
+// What appears on the channels out of nothing, and what destroys what is on them.
+#include <gtest/gtest.h>
+
+#include "tests/sim/faults/fault_bus.h"
+
+namespace ttf::sim {
+namespace {
+
+using bus::PocKind;
+using nodes::FaultKind;
+using schedules::Channel;
+using schedules::Channels;
+
+FaultBusConfig with(std::vector<nodes::Fault> faults) {
+  FaultBusConfig config;
+  config.faults = std::move(faults);
+  return config;
+}
+
+TEST(MediumFaults, AContinuousBabblingIdiotSilencesOneChannelAndNotTheOther) {
+  nodes::Fault fault = fault_of(FaultKind::kBabblingIdiot, 3, 10, 5);
+  fault.channels = Channels::kA;
+  fault.interval = Duration{};
+  FaultBus bus(with({fault}));
+  bus.run(5 * 30);
+  for (const int n : {0, 1, 2}) {
+    for (int slot = 1; slot <= 3; ++slot) {
+      if (slot == n + 1) continue;
+      EXPECT_GE(bus.said(n).count(slot, bus::kSyntaxError | bus::kNoFrame), 5) << n << " slot " << slot;
+    }
+    EXPECT_GE(bus.said(n).count(n + 1, bus::kTransmissionConflict), 5) << "its own slot";
+    EXPECT_GT(bus.said(n).count(0, bus::kBoundaryViolation), 0) << "outside every slot";
+    for (const Said::Problem& problem : bus.said(n).problems) EXPECT_EQ(problem.channel, Channel::kA);
+    EXPECT_EQ(bus.state(n), PocKind::kNormalActive) << "there is a second channel";
+  }
+}
+
+TEST(MediumFaults, ABabblingIdiotOnBothChannelsTakesTheClusterDown) {
+  nodes::Fault fault = fault_of(FaultKind::kBabblingIdiot, 3, 10);
+  fault.interval = Duration{};
+  FaultBusConfig config = with({fault});
+  config.cluster = bus_cluster(5, 2, 2);
+  FaultBus bus(std::move(config));
+  bus.run(5 * 40);
+  for (const int n : {2, 4}) EXPECT_EQ(bus.state(n), PocKind::kHalt) << n;
+  // A sync node alone misses no term of clock correction: its own frame is one.
+  for (const int n : {0, 1}) EXPECT_EQ(bus.state(n), PocKind::kNormalActive) << n;
+}
+
+TEST(MediumFaults, FramesAtIntervalsAreContentErrorsOrCollisions) {
+  nodes::Fault fault = fault_of(FaultKind::kBabblingIdiot, 3, 10, 20);
+  fault.signal = nodes::FaultSignal::kFrame;
+  fault.interval = Duration{630'000};   // 15 slots of 43 us less 15 us: every time elsewhere
+  FaultBus bus(with({fault}));
+  bus.run(5 * 40);
+  EXPECT_EQ(bus.acts(), 2U * (20 * 5'000 / 630 + 1));
+  int content = 0;
+  for (const int slot : {20, 25, 30, 35, 40, 45, 50, 55, 60}) content += bus.said(0).count(slot, bus::kContentError);
+  EXPECT_GT(content, 0) << "a valid frame in a slot that is nobody's";
+  EXPECT_GT(bus.said(0).count(0, bus::kBoundaryViolation), 0);
+}
+
+TEST(MediumFaults, NoiseIsSeenInSlotsThatAreNobodys) {
+  nodes::Fault fault = fault_of(FaultKind::kNoise, -1, 10, 20);
+  fault.channels = Channels::kB;
+  fault.interval = Duration{700'000};
+  fault.jitter = Duration{300'000};
+  FaultBus bus(with({fault}));
+  bus.run(5 * 40);
+  EXPECT_EQ(bus.activities()[0].node, kNoNode);
+  for (int n = 0; n < 4; ++n) {
+    EXPECT_FALSE(bus.said(n).problems.empty()) << n;
+    for (const Said::Problem& problem : bus.said(n).problems) {
+      EXPECT_EQ(problem.channel, Channel::kB);
+      if (problem.slot == 0 || problem.slot > 4) {
+        EXPECT_NE(problem.status & (bus::kSyntaxError | bus::kBoundaryViolation), 0U);
+      }
+    }
+  }
+  // 100 ms at 850 us on average.
+  EXPECT_NEAR(static_cast<double>(bus.acts()), 118.0, 12.0);
+}
+
+TEST(MediumFaults, NoiseDuringStartUpIsWaitedOutByTheNoiseTimer) {
+  nodes::Fault fault = fault_of(FaultKind::kNoise, -1, 0, 10);
+  fault.interval = Duration::milliseconds(4);   // less than the listen timeout of two cycles
+  FaultBusConfig config = with({fault});
+  config.cold = true;
+  FaultBus bus(std::move(config));
+  bus.run(80);
+  const bool noisy = bus.simulation().controller(NodeId{0}).state().coldstart_noise ||
+                     bus.simulation().controller(NodeId{1}).state().coldstart_noise;
+  EXPECT_TRUE(noisy);
+  bus.run(300);
+  for (int n = 0; n < 4; ++n) EXPECT_EQ(bus.state(n), PocKind::kNormalActive) << n;
+}
+
+TEST(MediumFaults, ATransientDestroysEverythingWhileItLastsAndNoLonger) {
+  FaultBus bus(with({fault_of(FaultKind::kTransient, -1, 10, 1)}));
+  bus.run(5 * 30);
+  EXPECT_EQ(bus.acts(), 2U * 4);
+  for (int n = 0; n < 4; ++n) {
+    for (int slot = 1; slot <= 4; ++slot) EXPECT_EQ(bus.said(n).count(slot, bus::kSyntaxError), slot == n + 1 ? 0 : 2);
+    EXPECT_EQ(bus.state(n), PocKind::kNormalActive) << n;
+  }
+}
+
+TEST(MediumFaults, ALongTransientTakesThoseWithoutASyncFrameToPassiveThenHalt) {
+  // gMaxWithoutClockCorrectionPassive 2, -Fatal 4 double cycles.
+  FaultBusConfig config = with({fault_of(FaultKind::kTransient, -1, 10, 20)});
+  config.cluster = bus_cluster(4, 2, 2);
+  FaultBus bus(std::move(config));
+  bus.run(5 * 16 + 1);
+  for (const int n : {2, 3}) EXPECT_EQ(bus.state(n), PocKind::kNormalPassive) << n;
+  bus.run(5 * 20 + 1);
+  for (const int n : {2, 3}) EXPECT_EQ(bus.state(n), PocKind::kHalt) << n;
+  bus.run(5 * 60);
+  for (const int n : {0, 1}) EXPECT_EQ(bus.state(n), PocKind::kNormalActive) << n;
+}
+
+TEST(MediumFaults, ATransientIsOfItsChannels) {
+  nodes::Fault fault = fault_of(FaultKind::kTransient, -1, 10, 20);
+  fault.channels = Channels::kA;
+  FaultBus bus(with({fault}));
+  bus.run(5 * 40);
+  for (int n = 0; n < 4; ++n) {
+    EXPECT_EQ(bus.state(n), PocKind::kNormalActive) << n;
+    for (const Said::Problem& problem : bus.said(n).problems) EXPECT_EQ(problem.channel, Channel::kA);
+  }
+}
+
+}  // namespace
+}  // namespace ttf::sim
