@@ -26,6 +26,7 @@ enum class Purpose : std::uint16_t {
   kExecutionTime = 9,
   kTest = 10,
   kFault = 11,
+  kPowerOn = 12,
 };
 
 struct StreamKey {

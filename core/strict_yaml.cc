@@ -120,6 +120,11 @@ bool YamlMap::has(std::string_view key) const {
   return child(content_->node, key).IsDefined();
 }
 
+bool YamlMap::is_map(std::string_view key) const {
+  const YAML::Node node = child(content_->node, key);
+  return node.IsDefined() && node.IsMap();
+}
+
 int YamlMap::line(std::string_view key) const {
   if (!key.empty())
     if (const YAML::Node node = child(content_->node, key); node.IsDefined()) return line_of(node);

@@ -38,6 +38,7 @@ using Choices = std::vector<std::pair<std::string_view, Enum>>;
 class YamlMap {
  public:
   bool has(std::string_view key) const;
+  bool is_map(std::string_view key) const;   // for keys that take a word or a mapping
 
   std::int64_t integer(std::string_view key, Range<std::int64_t> allowed, std::string_view unit = "");
   std::int64_t integer_or(std::string_view key, std::int64_t fallback, Range<std::int64_t> allowed,

@@ -20,6 +20,9 @@ DriveMeasures::DriveMeasures(TrueTime from, double gate_m) : from_(from), gate_(
 
 void DriveMeasures::on(const records::FusionInput& input) {
   ++summary_.received;
+  // A fusion node whose clock has gone back has started anew, and received nothing yet.
+  if (input.stamp.global < receiving_) newest_received_.reset();
+  receiving_ = input.stamp.global;
   // Lists that a fusion step takes in together have no order among themselves.
   if (input.step != receiving_step_) {
     receiving_step_ = input.step;
@@ -40,8 +43,9 @@ void DriveMeasures::on(const records::ListFused& fused) {
   const Duration age = fused.stamp.global - fused.measured;
   summary_.age_fused.add(age);
   summary_.age_fused_by_sensor[fused.id.sensor].add(age);
-  const auto [newest, first] = newest_fused_.try_emplace(fused.id.sensor, Fused{fused.id, fused.measured});
-  if (!first && fused.measured > newest->second.measured) newest->second = {fused.id, fused.measured};
+  const TrueTime measured = records::true_time_of(fused.stamp, fused.measured);
+  const auto [newest, first] = newest_fused_.try_emplace(fused.id.sensor, Fused{fused.id, measured});
+  if (!first && measured > newest->second.measured) newest->second = {fused.id, measured};
 }
 
 void DriveMeasures::on(const records::TrackState& track) {
@@ -81,7 +85,7 @@ void DriveMeasures::on(const records::FeatureUsed& used) {
   if (used.stale) ++summary_.stale_uses;
   if (const Image* image = used.stale ? nullptr : image_of(used.image_sequence))
     for (const Fused& newest : image->newest) {
-      const Duration age = used.stamp.global - newest.measured;
+      const Duration age = used.stamp.true_time - newest.measured;
       summary_.age_used.add(age);
       summary_.age_used_by_sensor[newest.id.sensor].add(age);
     }

@@ -91,7 +91,7 @@ class DriveMeasures final : public records::Sink {
   // A measurement of a sensor, known by its number as long as the sensor does not count anew.
   struct Fused {
     MeasurementId id;
-    GlobalTime measured{};
+    TrueTime measured{};
   };
   // What an image shows and was made from; its objects and predictions are in the same order.
   struct Image {
@@ -115,6 +115,7 @@ class DriveMeasures final : public records::Sink {
   std::array<double, 4> squares_{};
   double nees_sum_ = 0.0;
   std::uint32_t receiving_step_ = 0;
+  GlobalTime receiving_{};                                        // instant of that step
   std::optional<GlobalTime> newest_received_, newest_before_;     // before: in earlier steps
   std::map<SensorId, Fused> newest_fused_;
   std::vector<Predicted> predicted_;                              // for the image that is being written

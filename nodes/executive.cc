@@ -43,7 +43,8 @@ struct Executive::SensorState {
   std::size_t task = 0;          // the device's measuring task
   std::uint32_t measured = 0;    // device: measurements so far
   bool armed = false;            // host: trigger still due in this cycle
-  LocalTime first{};             // device, free-running: first measurement
+  Duration phase{};              // device, free-running: from power-on to the first measurement
+  LocalTime first{};             // likewise: the instant of that
 };
 
 Executive::Executive(const ExecutiveConfig& config, std::vector<std::shared_ptr<Step>> steps,
@@ -60,11 +61,9 @@ Executive::Executive(const ExecutiveConfig& config, std::vector<std::shared_ptr<
     TTF_CHECK(flexray != nullptr, "{} needs a FlexRay port", node_.name);
     flexray_ = std::make_unique<bus::FlexRayController>(cluster_, config.node, *flexray,
                                                         static_cast<bus::ControllerEvents&>(*this));
-    if (config.clock)
-      flexray_->start_integrated(*config.clock);
-    else
-      flexray_->start_cold(config.power_on);
+    if (config.clock) flexray_->start_integrated(*config.clock);
   }
+  asleep_ = flexray_ && !config.clock && config.cold == ColdStart::kSleeps;
   cans_.resize(cluster_.can_buses.size());
   for (std::size_t b = 0; b < cans_.size(); ++b)
     if (b < cans.size() && cans[b] != nullptr)
@@ -97,12 +96,12 @@ Executive::Executive(const ExecutiveConfig& config, std::vector<std::shared_ptr<
       state.task = static_cast<std::size_t>(measuring - node_.tasks.begin());
       if (!sensor.scheduled) {
         RandomStream phase({config.seed, config.replication, Purpose::kSensorPhase, static_cast<std::uint16_t>(s), 0});
-        const Duration start = sensor.phase ? *sensor.phase : Duration{phase.integer(0, sensor.period.ns - 1)};
-        state.first = config_.oscillator.local_time(config.power_on) + start;
+        state.phase = sensor.phase ? *sensor.phase : Duration{phase.integer(0, sensor.period.ns - 1)};
       }
     }
     sensors_.push_back(state);
   }
+  if (!asleep_) rise(config.power_on);
   arm_cycle();
 }
 
@@ -127,7 +126,25 @@ Microticks Executive::ticks(Duration duration) const {
   return {(duration.ns * 1000 + period - 1) / period};
 }
 
+void Executive::rise(Microticks now) {
+  for (SensorState& state : sensors_) state.first = config_.oscillator.local_time(now) + state.phase;
+  if (!flexray_ || config_.clock) return;
+  waking_ = config_.cold == ColdStart::kWakes;
+  if (!waking_) return flexray_->start_cold(now);
+  for (const auto command : {bus::PocEventKind::kConfig, bus::PocEventKind::kConfigComplete, bus::PocEventKind::kWakeup})
+    flexray_->command(command, now);
+}
+
+// However the wake-up ended, its host lets the controller start up then.
+void Executive::start_up_after_waking(Microticks now) {
+  if (!waking_ || flexray_->state().kind != bus::PocKind::kReady) return;
+  waking_ = false;
+  if (node_.flexray->pKeySlotUsedForStartup) flexray_->command(bus::PocEventKind::kAllowColdstart, now);
+  flexray_->command(bus::PocEventKind::kRun, now);
+}
+
 Microticks Executive::next_event() const {
+  if (asleep_) return rises_.value_or(kNever);
   Microticks next = running_ ? running_end_ : kNever;
   if (!running_ && !ready_.empty()) next = tasks_[ready_.front()].activated;
   if (flexray_) next = std::min(next, flexray_->next_event());
@@ -157,8 +174,17 @@ void Executive::arm_cycle() {
 }
 
 void Executive::advance(Microticks now) {
+  if (asleep_) {
+    if (!rises_ || *rises_ > now) return;
+    asleep_ = false;
+    sink_.on(records::PowerChanged{stamp(now), true});
+    rise(now);
+  }
   if (running_ && running_end_ <= now) finish(now);
-  if (flexray_) flexray_->advance(now);
+  if (flexray_) {
+    flexray_->advance(now);
+    start_up_after_waking(now);
+  }
   arm_cycle();
   activate_due(now);
   start_next(now);
@@ -189,6 +215,7 @@ void Executive::measure(SensorState& sensor, Microticks now) {
 }
 
 void Executive::trigger(SensorId sensor, Microticks now) {
+  if (asleep_) return;
   for (SensorState& state : sensors_)
     if (state.id == sensor && state.is_device) measure(state, now);
 }
@@ -302,12 +329,21 @@ bus::IncomingList& Executive::incoming(const schedules::PortBinding& binding) {
   return binding.can_bus ? cans_[*binding.can_bus]->incoming(binding.pdu) : flexray_->incoming(binding.pdu);
 }
 
-void Executive::command(bus::PocEventKind command, Microticks now) { flexray_->command(command, now); }
+void Executive::command(bus::PocEventKind command, Microticks now) {
+  if (!asleep_) flexray_->command(command, now);
+}
 
-void Executive::receive(const bus::Reception& reception) { flexray_->receive(reception); }
+void Executive::receive(const bus::Reception& reception) {
+  if (asleep_) {
+    if (reception.signal == bus::Signal::kWakeup && !rises_) rises_ = reception.end + ticks(config_.boots);
+    return;
+  }
+  flexray_->receive(reception);
+  start_up_after_waking(reception.end);
+}
 
 void Executive::receive_can(std::size_t can_bus, const bus::CanFrame& frame, Microticks now) {
-  if (!cans_[can_bus]) return;
+  if (!cans_[can_bus] || asleep_) return;
   if (const auto arrival = cans_[can_bus]->receive(frame))
     arrived(arrival->pdu, static_cast<int>(can_bus), arrival->effect, arrival->sequence, arrival->torn, now);
 }

@@ -9,6 +9,7 @@
 //
 // At one microtick things happen in this order: arrivals (by the crank), ends of tasks, the bus controller, activations,
 // starts. So what becomes visible at a tick is still sent or read at that tick.
+// A sleeping node does nothing and hears nothing but a wake-up pattern.
 //   L1  after advance(t) and without further arrivals, next_event() is after t
 //   L2  nothing allocates or throws after construction
 #pragma once
@@ -23,6 +24,7 @@
 #include "bus/can_port.h"
 #include "bus/controller.h"
 #include "core/ids.h"
+#include "nodes/startup.h"
 #include "nodes/step.h"
 #include "recording/records/records.h"
 #include "schedules/cluster.h"
@@ -46,6 +48,8 @@ struct ExecutiveConfig {
   std::uint64_t seed = 0;                  // of the execution times
   std::uint32_t replication = 0;
   Microticks power_on{};                   // free-running sensors count their phase from here, too
+  ColdStart cold{};                        // of a node that does not begin integrated
+  Duration boots{};                        // of a sleeping node: from the end of the wake-up pattern to its start-up
 };
 
 struct ExecutiveCounts {
@@ -108,6 +112,8 @@ class Executive final : private bus::ControllerEvents {
 
   void arrived(PduId pdu, int can_bus, bus::ArrivalEffect effect, std::uint32_t sequence,
                std::optional<std::uint32_t> torn, Microticks at);
+  void rise(Microticks now);
+  void start_up_after_waking(Microticks now);
   void arm_cycle();
   void activate_due(Microticks now);
   void activate(std::size_t task, Microticks now);
@@ -133,6 +139,9 @@ class Executive final : private bus::ControllerEvents {
   std::optional<std::size_t> running_;
   Microticks running_end_{};
   std::int64_t armed_cycle_ = -1;
+  bool asleep_ = false;
+  std::optional<Microticks> rises_;         // while asleep: when, once a wake-up pattern was heard
+  bool waking_ = false;                     // others: start-up comes after the wake-up
   ExecutiveCounts counts_;
 };
 

@@ -49,7 +49,7 @@ records::FeatureObject judge(const records::ImageObject& object, const FeatureCo
 
 FeatureService::FeatureService(const schedules::Cluster& cluster, const schedules::Task& task,
                                const FeatureConfig& config)
-    : config_(config) {
+    : config_(config), round_(cluster.round()) {
   const schedules::PduLayout& layout = cluster.pdu(binding_of(task.reads, "image").pdu);
   signals_ = bind_image(cluster, layout);
   objects_.reserve(static_cast<std::size_t>(layout.max_elements));
@@ -58,7 +58,7 @@ FeatureService::FeatureService(const schedules::Cluster& cluster, const schedule
 void FeatureService::run(StepContext& context) {
   const Input& image = context.inputs[0];
   if (!image.list) return;   // no image has arrived yet: nothing is made up
-  if (image.fresh) valid_at_ = time_stamp(*image.layout, *image.list, context.stamp.global);
+  if (image.fresh) valid_at_ = time_stamp(*image.layout, *image.list, context.stamp.global, round_);
   const Duration age = context.stamp.global - valid_at_;
   const bool stale = age > config_.max_image_age || -age > config_.max_image_age;
   objects_.clear();

@@ -40,6 +40,7 @@ class FeatureService final : public Step {
 
  private:
   FeatureConfig config_;
+  Duration round_;
   ImageSignals signals_;
   GlobalTime valid_at_{};   // of the newest image, told when it came: later, its wrapped stamp could mean another round
   std::vector<records::FeatureObject> objects_;

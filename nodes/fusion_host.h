@@ -38,6 +38,7 @@ class FusionStep final : public Step {
   void record_result(const StepContext& context) const;
 
   std::shared_ptr<FusionHost> host_;
+  Duration round_;                               // of the schedule
   std::vector<ObservationCodec> codecs_;         // per port
   std::vector<fusion::Observation> observations_;
 };

@@ -29,6 +29,8 @@ Scenario read_scenario(const StrictYaml& yaml) {
   scenario.duration = root.duration("duration", {Duration::milliseconds(100), Duration::milliseconds(3'600'000)});
   scenario.evaluate_from = root.duration_or("evaluate_from", Duration{}, {Duration{}, scenario.duration});
 
+  scenario.startup = load_startup(root, scenario.duration);
+
   YamlMap clusters = root.map("clusters");
   for (const auto strategy :
        {fusion::StrategyKind::kBuff, fusion::StrategyKind::kAdva, fusion::StrategyKind::kTt}) {

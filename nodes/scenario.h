@@ -15,6 +15,7 @@
 #include "nodes/feature_service.h"
 #include "nodes/laser/laser_preprocessor.h"
 #include "nodes/recorded.h"
+#include "nodes/startup.h"
 #include "schedules/cluster.h"
 #include "sim/world/camera.h"
 #include "sim/world/laser.h"
@@ -29,8 +30,9 @@ struct Scenario {
   std::string file;
   std::string text;                 // the YAML as read, attached to logs
   std::uint64_t seed = 1;
-  Duration duration{};              // of the drive, from the start of cycle 0
+  Duration duration{};              // of the drive, from its start (sim/drive.h)
   Duration evaluate_from{};         // likewise; measures and pictures start here, before it the tracker warms up
+  Startup startup;
   std::string cluster_files[3];     // by StrategyKind, as paths that can be opened
   world::WorldConfig world;
   world::LaserConfig laser;

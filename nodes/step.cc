@@ -98,7 +98,7 @@ std::optional<Strobe> measurement_of(StepContext& context, SensorId sensor) {
   return measurement;
 }
 
-GlobalTime time_stamp(const schedules::PduLayout& layout, const bus::ListView& list, GlobalTime near) {
+GlobalTime time_stamp(const schedules::PduLayout& layout, const bus::ListView& list, GlobalTime near, Duration round) {
   const std::size_t signal = wire::header_signal(layout, "timestamp");
   const int bits = layout.header[signal].bits;
   const std::int64_t modulus = std::int64_t{1} << bits;
@@ -108,7 +108,13 @@ GlobalTime time_stamp(const schedules::PduLayout& layout, const bus::ListView& l
   std::int64_t difference = (raw - near_us) % modulus;
   if (difference < 0) difference += modulus;
   if (difference > modulus / 2) difference -= modulus;
-  return {(near_us + difference) * 1000};
+  const GlobalTime here{(near_us + difference) * 1000};
+  const Duration half{round.ns / 2};
+  if (here - near <= half && near - here <= half) return here;
+  std::int64_t apart = (raw * 1000 - near.ns) % round.ns;
+  if (apart > half.ns) apart -= round.ns;
+  if (apart < -half.ns) apart += round.ns;
+  return near + Duration{apart};
 }
 
 int element_count(const schedules::PduLayout& layout, const bus::ListView& list) {

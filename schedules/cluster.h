@@ -16,6 +16,7 @@
 #include "core/time.h"
 #include "schedules/flexray_parameters.h"
 #include "schedules/pdu.h"
+#include "schedules/round.h"
 
 namespace ttf::schedules {
 
@@ -173,6 +174,8 @@ struct Cluster {
   std::optional<PduId> find_pdu(std::string_view name) const;
   std::optional<SensorId> find_sensor(std::string_view name) const;
   Duration cycle() const { return {flexray.cycle_ps() / 1000}; }
+  // After which all that the schedule does repeats, to the nanosecond.
+  Duration round() const { return {kCycles * flexray.cycle_ps() / 1000}; }
 };
 
 // Global time of an instant in the n-th cycle since the start (n counts on beyond gCycleCountMax).

@@ -130,7 +130,7 @@ ClusterSimulation::ClusterSimulation(const SimulationConfig& config, records::Si
     seat(crystal, power_on);
     if (power_on) continue;
     make_node(n, node.flexray ? std::optional(integrated(crystal, cluster_, node)) : std::nullopt,
-              crystal.ticks_at(kFirstCycle));
+              crystal.ticks_at(kFirstCycle), {});
     refresh(n);
   }
   for (const schedules::Channel channel : {schedules::Channel::kA, schedules::Channel::kB})
@@ -149,18 +149,30 @@ void ClusterSimulation::make_guardian(schedules::Channel channel) {
 
 ClusterSimulation::~ClusterSimulation() = default;
 
-void ClusterSimulation::make_node(std::size_t node, std::optional<bus::InitialClock> clock, Microticks power_on) {
+void ClusterSimulation::make_node(std::size_t node, std::optional<bus::InitialClock> clock, Microticks power_on,
+                                  const nodes::NodeStart& cold) {
   const auto id = static_cast<NodeId>(node);
   const schedules::Cluster* view = config_.view ? config_.view(id) : nullptr;
   const nodes::ExecutiveConfig executive{view != nullptr ? view : &cluster_, id, oscillator(id), clock, config_.seed,
-                                         config_.replication, power_on};
+                                         config_.replication, power_on, cold.how, cold.after};
   nodes_[node] = std::make_unique<nodes::Executive>(executive, config_.make_steps(id), flexray_taps_[node].get(),
                                                     can_ports_[node], static_cast<nodes::SensorLines&>(*this), sink_);
 }
 
-void ClusterSimulation::start(std::size_t node, Microticks now) { make_node(node, std::nullopt, now); }
+void ClusterSimulation::start(std::size_t node, Microticks now) {
+  const auto id = static_cast<NodeId>(node);
+  // Whoever comes back finds the others awake.
+  const bool first = powered_since(node) < TrueTime{};
+  const nodes::NodeStart cold = first && config_.cold ? config_.cold(id) : nodes::NodeStart{};
+  if (cold.how != nodes::ColdStart::kSleeps) {
+    const LocalTime local = oscillator(id).local_time(now);
+    sink_.on(records::PowerChanged{{oscillator(id).time_of(now), local, GlobalTime{local.ns}, id}, true});
+  }
+  make_node(node, std::nullopt, now, cold);
+}
 
 void ClusterSimulation::stop(std::size_t node) {
+  sink_.on(records::PowerChanged{nodes_[node]->stamp(ticks(node)), false});
   add(gone_, nodes_[node]->counts());
   nodes_[node].reset();
   watched_cycle_[node] = kNoCycle;

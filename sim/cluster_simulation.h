@@ -23,7 +23,7 @@
 
 namespace ttf::sim {
 
-// The instant at which cycle 0 starts, give or take the nodes' initial phases.
+// The instant at which cycle 0 starts, give or take the nodes' initial phases; where nodes start up, time zero of that.
 inline constexpr TrueTime kFirstCycle{1'000'000};
 
 struct SimulationConfig {
@@ -35,6 +35,8 @@ struct SimulationConfig {
   // When the node is powered on, cold. Nothing, or no function: it begins integrated, and off FlexRay as if powered on at
   // kFirstCycle.
   std::function<std::optional<TrueTime>(NodeId)> power_on = {};
+  // How a node begins that is powered on for the first time. No function: it starts up at once, as it does every other time.
+  std::function<nodes::NodeStart(NodeId)> cold = {};
   // The schedule that the node believes in, with the same nodes, tasks, PDUs and CANs. Null, or no function: the cluster's.
   std::function<const schedules::Cluster*(NodeId)> view = {};
 };
@@ -75,7 +77,8 @@ class ClusterSimulation final : public Crank, private nodes::SensorLines {
   void trigger(SensorId sensor) override;
   void strobe(SensorId sensor, std::uint32_t sequence) override;
   void make_guardian(schedules::Channel channel);
-  void make_node(std::size_t node, std::optional<bus::InitialClock> clock, Microticks power_on);
+  void make_node(std::size_t node, std::optional<bus::InitialClock> clock, Microticks power_on,
+                 const nodes::NodeStart& cold);
   bool arrives(const MediumEvent& event) const;
   void observe();
   void watch_cycle(std::size_t node);

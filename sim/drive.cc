@@ -17,10 +17,12 @@ class Observer final : public records::Sink {
     states_.reserve(scene.objects());
   }
 
-  void follow(const world::Reference* reference, const world::World* world, TrueTime start) {
+  // `integrated`: cycle 0 starts at kFirstCycle.
+  void follow(const world::Reference* reference, const world::World* world, TrueTime start, bool integrated) {
     reference_ = reference;
     world_ = world;
     start_ = start;
+    integrated_ = integrated;
   }
 
   using records::Sink::on;
@@ -34,10 +36,9 @@ class Observer final : public records::Sink {
       if (fix.available + since_start > step.stamp.true_time) return;
       records::ReferenceFix record;
       record.measured_true = fix.measured + since_start;
-      // GPS time is the reference's own: it is on the cluster's scale by its offset to cycle 0, known after the drive.
       record.measured_local = LocalTime{record.measured_true.ns};
-      record.measured = GlobalTime{} + (record.measured_true - kFirstCycle);
-      record.available = GlobalTime{} + (fix.available + since_start - kFirstCycle);
+      record.measured = global_of(record.measured_true, step.stamp);
+      record.available = global_of(fix.available + since_start, step.stamp);
       record.object = fix.object;
       record.x = fix.x;
       record.y = fix.y;
@@ -51,6 +52,13 @@ class Observer final : public records::Sink {
   }
 
  private:
+  // GPS time is the reference's own. It is on the cluster's scale by its offset to cycle 0, known after the drive; where
+  // nobody knows beforehand when that is, and at which rate the cluster will count, by the reading of the fusion node's clock
+  // when it took the fix in.
+  GlobalTime global_of(TrueTime at, const records::Stamp& fused) const {
+    return integrated_ ? GlobalTime{} + (at - kFirstCycle) : fused.global + (at - fused.true_time);
+  }
+
   void truth(const records::Stamp& stamp) {
     const TrueTime at = stamp.true_time;
     if (last_truth_ && *last_truth_ == at) return;
@@ -66,6 +74,7 @@ class Observer final : public records::Sink {
   const world::Reference* reference_ = nullptr;
   const world::World* world_ = nullptr;
   TrueTime start_{};
+  bool integrated_ = true;
   std::uint32_t next_fix_ = 0;
   std::vector<world::ObjectState> states_;
   std::optional<TrueTime> last_truth_;
@@ -93,6 +102,9 @@ void check_recording(const nodes::Scenario& scenario, const schedules::Cluster& 
   if (!needed && given)
     throw InputError({scenario.file, 0, "clusters", cluster.file,
                       "takes no recording, so --input would be ignored: it has no task with step recorded_source"});
+  if (needed && scenario.startup.cold)
+    throw InputError({scenario.file, 0, "startup", "cold",
+                      "must be integrated: a recording begins with cycle 0, and nobody knows when that will be"});
 }
 
 DriveOutcome run_drive(const DriveConfig& config, records::Sink& sink) {
@@ -116,7 +128,7 @@ DriveOutcome run_drive(const DriveConfig& config, records::Sink& sink) {
   }
 
   Observer observer(*scene, sink);
-  if (reference) observer.follow(&*reference, &world->world(), start);
+  if (reference) observer.follow(&*reference, &world->world(), start, !scenario.startup.cold);
   records::Tee tee({&sink, &observer});
 
   const nodes::NodeSetConfig nodes{&scenario, &cluster, config.strategy, config.seed, config.replication, scene,
@@ -126,6 +138,16 @@ DriveOutcome run_drive(const DriveConfig& config, records::Sink& sink) {
   simulation_config.seed = config.seed;
   simulation_config.replication = config.replication;
   simulation_config.make_steps = [&](NodeId node) { return nodes::make_steps(nodes, node); };
+  std::vector<nodes::NodeStart> starts;
+  if (scenario.startup.cold) {
+    starts = nodes::node_starts(scenario.startup, cluster, config.seed, config.replication);
+    // Who sleeps has its supply from the start on.
+    simulation_config.power_on = [&](NodeId node) -> std::optional<TrueTime> {
+      const nodes::NodeStart& cold = starts[index_of(node)];
+      return cold.how == nodes::ColdStart::kSleeps ? kFirstCycle : kFirstCycle + cold.after;
+    };
+    simulation_config.cold = [&](NodeId node) { return starts[index_of(node)]; };
+  }
   ClusterSimulation simulation(simulation_config, tee);
   simulation.run_until(drive_end(scenario));
 

@@ -25,6 +25,10 @@ struct Stamp {
   NodeId node{};
 };
 
+// When the node's clock of the cluster showed or will show `at`, by what it showed at the stamp. Global times of different nodes,
+// or of one before and after a restart, may be whole rounds of the cycle counter apart; true times are comparable.
+constexpr TrueTime true_time_of(const Stamp& stamp, GlobalTime at) { return stamp.true_time + (at - stamp.global); }
+
 // A sensor measured, as its device saw it (`stamp.node`). The time stamp that travels with the observations is its host's
 // latched global time (FusionInput::measured).
 struct Measured {

@@ -58,6 +58,9 @@ schedules::PduLayout stamped(int bits) {
   return layout;
 }
 
+// Longer than the signal's wrap: sender and reader count the same rounds.
+constexpr Duration kSameRounds{std::int64_t{1} << 50};
+
 // Any instant comes back to the microsecond from its low bits, whatever instant within half a wrap it is
 // looked at from.
 TEST(TimeStamp, UnwrapsToTheNearestInstant) {
@@ -70,7 +73,7 @@ TEST(TimeStamp, UnwrapsToTheNearestInstant) {
       const std::int64_t us = draw.integer(-5 * half, 50 * half);
       out.begin(0, 1, GlobalTime{us * 1000});
       const std::int64_t off = k == 0 ? half - 1 : k == 1 ? -half + 1 : draw.integer(-half + 1, half - 1);
-      ASSERT_EQ(time_stamp(layout, out.view(), GlobalTime{(us + off) * 1000}).ns, us * 1000)
+      ASSERT_EQ(time_stamp(layout, out.view(), GlobalTime{(us + off) * 1000}, kSameRounds).ns, us * 1000)
           << bits << " bits, " << us << " " << off;
     }
   }
@@ -81,7 +84,28 @@ TEST(TimeStamp, RoundsToTheNearestMicrosecondAlsoBeforeTheStart) {
   Output out("out", PduId{0}, layout);
   for (const auto& [ns, us] : {std::pair{1499, 1}, {1500, 2}, {-499, 0}, {-501, -1}, {-1501, -2}}) {
     out.begin(0, 1, GlobalTime{ns});
-    EXPECT_EQ(time_stamp(layout, out.view(), GlobalTime{0}).ns, us * 1000) << ns;
+    EXPECT_EQ(time_stamp(layout, out.view(), GlobalTime{0}, kSameRounds).ns, us * 1000) << ns;
+  }
+}
+
+// The sender has restarted, or the reader has, any number of times: they count different rounds. What the stamp says is found
+// on the reader's count, whatever instant within half a round it is looked at from.
+TEST(TimeStamp, IsUnderstoodModuloARoundOfTheCycleCounter) {
+  RandomStream draw({.seed = 10});
+  const schedules::PduLayout layout = stamped(32);
+  Output out("out", PduId{0}, layout);
+  for (const std::int64_t cycle_us : {1'000, 2'000, 5'000, 16'000}) {
+    const std::int64_t round_us = 64 * cycle_us, half = round_us / 2;
+    for (int k = 0; k < 2000; ++k) {
+      const std::int64_t sent_us = draw.integer(0, 3'600'000'000);
+      const std::int64_t rounds = draw.integer(-sent_us / round_us, 3'600'000'000 / round_us);
+      const std::int64_t meant_us = sent_us + rounds * round_us;
+      const std::int64_t off = k == 0 ? half - 1 : k == 1 ? -half + 1 : draw.integer(-half + 1, half - 1);
+      out.begin(0, 1, GlobalTime{sent_us * 1000});
+      ASSERT_EQ(time_stamp(layout, out.view(), GlobalTime{(meant_us + off) * 1000}, Duration::microseconds(round_us)).ns,
+                meant_us * 1000)
+          << cycle_us << " " << sent_us << " " << rounds << " " << off;
+    }
   }
 }
 
