@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "cli/commands.h"
 #include "cli/time_window.h"
@@ -20,8 +20,6 @@
 
 namespace ttf::cli {
 namespace {
-
-constexpr Duration kLongestCycle = Duration::milliseconds(16);   // cCycleMax
 
 struct Options {
   std::vector<std::string> logs;
@@ -86,11 +84,10 @@ std::string startup(const Options& options) {
   const TimeWindow window = time_window(options.from_s, options.to_s);
   report::StartupExtent extent;
   const recording::LogInfo info = read(options.logs[0], extent);
-  const Duration cycle{std::clamp<std::int64_t>(info.manifest.cycle_ns, 0, kLongestCycle.ns)};
-  const Duration after = cycle * 2 + Duration::milliseconds(1);
-  const TrueTime begin = extent.first.value_or(TrueTime{}), done = extent.last_active.value_or(extent.last.value_or(begin));
-  const TrueTime from = options.from_s >= 0.0 ? window.from : std::max(TrueTime{}, begin - Duration::milliseconds(1));
-  report::StartupDiagram diagram(names_of(info.manifest), cycle, from, window.to ? *window.to : done + after);
+  const Duration cycle{info.manifest.cycle_ns};
+  const auto whole = extent.window(cycle).value_or(std::pair(TrueTime{}, TrueTime{}));
+  report::StartupDiagram diagram(names_of(info.manifest), cycle, options.from_s >= 0.0 ? window.from : whole.first,
+                                 window.to.value_or(whole.second));
   recording::read_log(options.logs[0], diagram);
   return diagram.svg();
 }

@@ -10,6 +10,7 @@
 #include "cli/commands.h"
 #include "cli/output.h"
 #include "cli/run_outputs.h"
+#include "cli/startup_outputs.h"
 #include "core/errors.h"
 #include "core/file_bytes.h"
 #include "nodes/catalog.h"
@@ -103,7 +104,8 @@ StrategyResult run_strategy(const Options& options, const nodes::Scenario& scena
   result.cluster = checked_cluster(scenario.cluster_files[static_cast<std::size_t>(strategy)]);
   sim::check_recording(scenario, result.cluster, recording.rows != nullptr);
   experiments::DriveMeasures measures(sim::evaluation_start(scenario));
-  std::vector<records::Sink*> sinks{&measures};
+  experiments::StartupAccount startup(result.cluster.cycle());
+  std::vector<records::Sink*> sinks{&measures, &startup};
   std::unique_ptr<recording::LogWriter> log;
   if (!options.no_log) {
     result.log_path = fmt::format("{}/{}.mcap", folder, nodes::name_of(strategy));
@@ -119,6 +121,7 @@ StrategyResult run_strategy(const Options& options, const nodes::Scenario& scena
   const sim::DriveConfig config{&scenario, &result.cluster, strategy, seed, 0, recording.rows};
   result.outcome = sim::run_drive(config, tee);
   result.summary = measures.finish();
+  result.startup = startup.nodes();
   if (log) {
     log->close();
     result.content_hash = log->content_hash_text();
@@ -163,7 +166,7 @@ int run(const Options& options) {
   if (options.json)
     fmt::print("{}\n", json.dump(2));
   else
-    fmt::print("{}\n{}", scenario.description, comparison_table(results));
+    fmt::print("{}\n{}{}", scenario.description, startup_text(results), comparison_table(results));
   fmt::print(stderr, "written to {}\n", folder);
   return 0;
 }

@@ -5,12 +5,14 @@
 #include <filesystem>
 #include <memory>
 
+#include "cli/startup_outputs.h"
 #include "recording/log_reader.h"
 #include "recording/records/tee.h"
 #include "report/index_page.h"
 #include "report/position_plot.h"
 #include "report/render.h"
 #include "report/schedule_picture.h"
+#include "report/startup_diagram.h"
 #include "report/tables.h"
 #include "report/timing_diagram.h"
 
@@ -143,6 +145,7 @@ nlohmann::ordered_json to_json(const nodes::Scenario& scenario, std::uint64_t se
     one["objects"] = {{"compared", s.matched}, {"missed", s.missed}, {"spurious", s.spurious}};
     one["uses"] = s.uses;
     one["uses_with_warning"] = s.warnings;
+    if (!result.startup.empty()) one["startup"] = startup_json(result);
     one["precision_us"] = us(result.outcome.precision);
     one["slot_problems"] = result.outcome.counts.slot_problems;
     one["deadlines_missed"] = result.outcome.counts.deadlines_missed;
@@ -183,8 +186,14 @@ void write_pictures(const nodes::Scenario& scenario, const std::vector<StrategyR
     const TrueTime from = sim::evaluation_start(scenario);
     report::TimingDiagram timing(names, result.cluster.cycle(), from, from + Duration::milliseconds(160));
     plots.push_back(std::make_unique<report::PositionPlots>(names, position_options(scenario, result)));
-    records::Tee tee({&timing, plots.back().get()});
+    report::StartupExtent extent;
+    records::Tee tee({&timing, plots.back().get(), &extent});
     recording::read_log(result.log_path, tee);
+    if (const auto window = extent.window(result.cluster.cycle())) {
+      report::StartupDiagram startup(names, result.cluster.cycle(), window->first, window->second);
+      recording::read_log(result.log_path, startup);
+      picture(strategy + "_startup", strategy + ": start-up", "Every node's states, and what it sent.", startup.svg());
+    }
     picture(strategy + "_timing", strategy + ": timing", "Slots, tasks and every measurement's way.", timing.svg());
     picture(strategy + "_over_time", strategy + ": x and y over time", "", plots.back()->over_time_svg());
     picture(strategy + "_plane", strategy + ": y over x", "", plots.back()->plane_svg());

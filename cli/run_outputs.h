@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "experiments/measures.h"
+#include "experiments/startup_account.h"
 #include "fusion/strategy.h"
 #include "nodes/scenario.h"
 #include "schedules/cluster.h"
@@ -18,6 +19,7 @@ struct StrategyResult {
   schedules::Cluster cluster;
   sim::DriveOutcome outcome;
   experiments::DriveSummary summary;
+  std::vector<experiments::NodeStartup> startup;   // nodes that started up or changed their state
   std::string log_path;
   std::string content_hash;
 };

@@ -56,16 +56,23 @@ std::string StartupDiagram::svg() const {
 
 void StartupExtent::see(TrueTime at) {
   if (!possible(at)) return;
-  first = first ? std::min(*first, at) : at;
-  last = last ? std::max(*last, at) : at;
+  first_ = first_ ? std::min(*first_, at) : at;
+  last_ = last_ ? std::max(*last_, at) : at;
 }
 void StartupExtent::on(const records::StateChanged& r) {
   see(r.stamp.true_time);
   const std::size_t node = index_of(r.stamp.node);
   if (r.to != kStateNormalActive || active_[node] || !possible(r.stamp.true_time)) return;
   active_[node] = true;
-  last_active = last_active ? std::max(*last_active, r.stamp.true_time) : r.stamp.true_time;
+  last_active_ = last_active_ ? std::max(*last_active_, r.stamp.true_time) : r.stamp.true_time;
 }
 void StartupExtent::on(const records::PowerChanged& r) { see(r.stamp.true_time); }
+
+std::optional<std::pair<TrueTime, TrueTime>> StartupExtent::window(Duration cycle) const {
+  if (!first_) return std::nullopt;
+  const Duration a_little = Duration::milliseconds(1);
+  const Duration after = std::clamp(cycle, Duration{}, kLongestCycle) * 2;
+  return std::pair(std::max(TrueTime{}, *first_ - a_little), last_active_.value_or(*last_) + a_little + after);
+}
 
 }  // namespace ttf::report

@@ -9,6 +9,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "recording/records/records.h"
@@ -45,10 +46,12 @@ struct StartupExtent final : records::Sink {
   void on(const records::StateChanged& r) override;
   void on(const records::PowerChanged& r) override;
 
-  std::optional<TrueTime> first, last_active, last;
+  // All of it: a little before, and two cycles after. Nothing where no node was powered on or changed its state.
+  std::optional<std::pair<TrueTime, TrueTime>> window(Duration cycle) const;
 
  private:
   void see(TrueTime at);
+  std::optional<TrueTime> first_, last_active_, last_;
   std::vector<bool> active_ = std::vector<bool>(256);
 };
 

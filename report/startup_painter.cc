@@ -16,7 +16,7 @@ namespace {
 
 // A double cycle holds the longest name of a state that lasts one.
 constexpr double kPixelsPerCycle = 78, kPixelsPerMs = 14, kLeastPlot = 900, kMostPlot = 5600;
-constexpr double kTop = 74, kNodeLane = 62, kFaultLane = 22, kText = 9.5;
+constexpr double kTop = 74, kNodeLane = 62, kLaneOffFlexRay = 34, kFaultLane = 22, kText = 9.5;
 // Within a node's lane, from its top.
 constexpr double kNotes = 10, kBar = 14, kBarHeight = 16, kChannels[] = {38, 49}, kRowHeight = 8;
 
@@ -36,11 +36,11 @@ class Painter {
         leader_(leading_node(data)),
         legend_(startup_legend(data, spans_, from, to)) {
     if (leader_) cycles_ = cycles_of(data, *leader_, cycle, to);
-    std::set<NodeId> nodes;
-    for (const auto& c : data.changes) nodes.insert(c.node);
+    for (const auto& c : data.changes) on_flexray_.insert(c.node);
+    for (const auto& f : data.frames) on_flexray_.insert(f.node);
+    for (const auto& s : data.symbols) on_flexray_.insert(s.node);
+    std::set<NodeId> nodes = on_flexray_;
     for (const auto& p : data.power) nodes.insert(p.node);
-    for (const auto& f : data.frames) nodes.insert(f.node);
-    for (const auto& s : data.symbols) nodes.insert(s.node);
     plot_.x = 40;
     plot_.y = kTop;
     double y = kTop;
@@ -51,7 +51,7 @@ class Painter {
     }
     for (const NodeId node : nodes) {
       node_top_[node] = y;
-      y += kNodeLane;
+      y += on_flexray_.count(node) != 0 ? kNodeLane : kLaneOffFlexRay;
       plot_.x = std::max(plot_.x, text_width(names.node(node), 11) + 24);
     }
     plot_.height = y - kTop;
@@ -139,6 +139,7 @@ class Painter {
     for (const auto& [node, y] : node_top_) {
       if (y > plot_.y) line_at(y);
       svg_->text({plot_.x - 10, y + kBar + 12}, names_.node(node), {.size = 11, .anchor = Anchor::kEnd});
+      if (on_flexray_.count(node) == 0) continue;
       for (int c = 0; c < 2; ++c) {
         const double centre = y + kChannels[c];
         svg_->line({plot_.x, centre}, {plot_.x + plot_.width, centre}, {.stroke = "#e0e0e0", .width = 0.7});
@@ -202,11 +203,14 @@ class Painter {
     }
   }
 
+  // Wider than it lasts to the left: the frame of cycle 0 follows at once.
   void symbols() {
-    for (const auto& s : data_.symbols)
-      if (visible(s.start, s.end))
-        svg_->rect(row(s.node, s.channel, s.start, s.end, 2.5), {.fill = kBlack},
-                   fmt::format("{}, {} ms", symbol_name(s.kind), number(ms(s.start))), "symbol");
+    for (const auto& s : data_.symbols) {
+      if (!visible(s.start, s.end)) continue;
+      Area area = row(s.node, s.channel, s.start, s.end, 2.5);
+      area.x = x(s.end) - area.width;
+      svg_->rect(area, {.fill = kBlack}, fmt::format("{}, {} ms", symbol_name(s.kind), number(ms(s.start))), "symbol");
+    }
   }
 
   void power() {
@@ -257,6 +261,7 @@ class Painter {
   std::map<std::int64_t, TrueTime> cycles_;
   std::map<std::uint32_t, double> fault_top_;
   std::map<NodeId, double> node_top_;
+  std::set<NodeId> on_flexray_;
   Area plot_;
   LabelSpace space_;
   Svg* svg_ = nullptr;

@@ -1,0 +1,49 @@
+// What start-up came to, node by node, from a drive's records alone: when each was powered on, when and in which cycle it became
+// active, and why it is in the state it is in.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/ids.h"
+#include "core/time.h"
+#include "recording/records/records.h"
+
+namespace ttf::experiments {
+
+struct NodeStartup {
+  NodeId node{};
+  std::optional<TrueTime> powered;        // for the first time
+  struct Active {
+    TrueTime at{};
+    std::int64_t cycle = 0;               // that begins then, on the node's own count
+    std::string from, why;                // the state before, and why it was left
+  };
+  std::optional<Active> active;           // for the first time
+  // The last change of its state, which it is in now.
+  std::string state, why;
+};
+
+class StartupAccount final : public records::Sink {
+ public:
+  // `cycle`: nominal length of the communication cycle.
+  explicit StartupAccount(Duration cycle) : cycle_(cycle) {}
+
+  // Nodes that were powered on or changed their state, by id. None in a drive that began integrated and went well.
+  std::vector<NodeStartup> nodes() const;
+
+  using records::Sink::on;
+  void on(const records::PowerChanged&) override;
+  void on(const records::StateChanged&) override;
+
+ private:
+  NodeStartup& of(NodeId node);
+
+  Duration cycle_;
+  std::map<NodeId, NodeStartup> nodes_;
+};
+
+}  // namespace ttf::experiments
