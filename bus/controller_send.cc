@@ -48,7 +48,7 @@ void FlexRayController::State::send_static(Microticks at) {
 }
 
 std::size_t FlexRayController::State::preamble_bytes(const FrameSlot& slot) const {
-  if (slot.message_id) return wire::kMessageIdBytes;
+  if (slot.message_id) return schedules::kMessageIdBytes;
   return slot.network_management ? network_management.own().size() : 0;
 }
 

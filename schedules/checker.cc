@@ -26,10 +26,11 @@ std::int64_t around_action_points(const GlobalParameters& g, std::int64_t bits, 
 }
 
 // What an offset correction can take from the macroticks behind gOffsetCorrectionStart, in the shortest cycle that rate
-// correction makes, and still leave each of them a microtick.
+// correction makes, and still leave each of them a microtick. The external terms come on top of both corrections.
 std::int64_t offset_correction_room(const GlobalParameters& g, const NodeParameters& p) {
   const std::int64_t macroticks = g.gMacroPerCycle - g.gOffsetCorrectionStart;
-  return macroticks * (p.pMicroPerCycle - p.pRateCorrectionOut) / g.gMacroPerCycle - macroticks;
+  return macroticks * (p.pMicroPerCycle - p.pRateCorrectionOut - p.pExternRateCorrection) / g.gMacroPerCycle - macroticks -
+         p.pExternOffsetCorrection;
 }
 
 template <std::size_t N>

@@ -10,6 +10,7 @@
 
 #include "schedules/can_load.h"
 #include "schedules/checker.h"
+#include "schedules/limits.h"
 
 namespace ttf::schedules {
 namespace {
@@ -113,8 +114,16 @@ void check_payload(const Cluster& cluster, const FrameSlot& frame, const std::st
     if (frame.network_management)
       findings.at(frame.line, key, "network_management: true",
                   fmt::format("needs a static slot, 1..{} (gNumberOfStaticSlots)", g.gNumberOfStaticSlots));
+    const int most = kMostFragmentBytes - (frame.message_id ? kMessageIdBytes : 0);
+    if (frame.pdu != kNoPdu && cluster.pdu(frame.pdu).fragment_bytes > most)
+      findings.at(frame.line, key, fmt::format("{} ({} bytes)", cluster.pdu(frame.pdu).name,
+                                               cluster.pdu(frame.pdu).fragment_bytes),
+                  fmt::format("must have at most {} bytes behind its message id", most));
     return;   // as long as its fragment
   }
+  if (frame.message_id)
+    findings.at(frame.line, key, fmt::format("message_id: {}", *frame.message_id),
+                fmt::format("needs a dynamic slot, above {} (gNumberOfStaticSlots)", g.gNumberOfStaticSlots));
   const int payload = 2 * g.gPayloadLengthStatic;
   const PduLayout* layout = frame.pdu != kNoPdu ? &cluster.pdu(frame.pdu) : nullptr;
   const int fragment = layout != nullptr ? layout->fragment_bytes : 0;

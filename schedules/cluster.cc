@@ -32,7 +32,8 @@ bool continues(const FrameSlot& before, const FrameSlot& frame) {
   return frame.pdu != kNoPdu && frame.pdu == before.pdu && frame.slot == before.slot + 1 &&
          frame.fragment == before.fragment + 1 && frame.sender == before.sender &&
          frame.channels == before.channels && frame.base_cycle == before.base_cycle &&
-         frame.repetition == before.repetition && frame.network_management == before.network_management;
+         frame.repetition == before.repetition && frame.network_management == before.network_management &&
+         frame.message_id == before.message_id;
 }
 
 std::optional<NodeId> Cluster::find_node(std::string_view node_name) const {

@@ -44,10 +44,12 @@ struct FrameSlot {
   // Static frames only: the payload begins with the network management vector, gNetworkManagementVectorLength bytes,
   // and says so (payload preamble indicator); the fragment follows it.
   bool network_management = false;
-  // Dynamic frames only: the payload begins with this message id, two bytes, and says so (payload preamble indicator). Frames
-  // of one sender may share a slot if their ids differ.
+  // Dynamic frames only: the payload begins with this message id, two bytes, and says so (payload preamble indicator); the
+  // fragment follows it. Receivers take the frame for this one only if it has this id.
   std::optional<std::uint16_t> message_id = std::nullopt;
 };
+
+inline constexpr int kMessageIdBytes = 2;
 
 constexpr bool is_dynamic(const GlobalParameters& flexray, const FrameSlot& frame) {
   return frame.slot > flexray.gNumberOfStaticSlots;

@@ -64,6 +64,8 @@ inline constexpr FibexParameter kFibexController[] = {
     {"pClusterDriftDamping", "flexray:CLUSTER-DRIFT-DAMPING"},
     {"pDecodingCorrection", "flexray:DECODING-CORRECTION"},
     {"pdListenTimeout", "flexray:LISTEN-TIMEOUT"},
+    {"pExternOffsetCorrection", "flexray:EXTERN-OFFSET-CORRECTION"},
+    {"pExternRateCorrection", "flexray:EXTERN-RATE-CORRECTION"},
     {"pLatestTx", "flexray:LATEST-TX"},
     {"pMicroPerCycle", "flexray:MICRO-PER-CYCLE"},
     {"pOffsetCorrectionOut", "flexray:OFFSET-CORRECTION-OUT"},

@@ -111,8 +111,11 @@ class Loader {
       cluster_.parameter_lines[fmt::format("{}.{}", own.path(), key)] = map.line(key);
       return map;
     };
-    for (const auto& p : kNodeIntegers)
-      local.*p.member = static_cast<int>(from(p.name).integer(p.name, {p.low, p.high}, p.unit));
+    for (const auto& p : kNodeIntegers) {
+      YamlMap& map = from(p.name);
+      local.*p.member = static_cast<int>(p.otherwise ? map.integer_or(p.name, *p.otherwise, {p.low, p.high}, p.unit)
+                                                     : map.integer(p.name, {p.low, p.high}, p.unit));
+    }
     for (const auto& p : kNodeScaled)
       local.*p.member = from(p.name).scaled(p.name, p.scale, {p.low, p.high}, p.unit);
     local.pChannels = from("pChannels").choice_or("pChannels", local.pChannels, kChannels);
@@ -334,6 +337,7 @@ class Loader {
       frame.fragment = static_cast<int>(map.integer_or("first_fragment", 0, {0, kLastStaticSlot - 1}));
     }
     frame.network_management = map.boolean_or("network_management", false);
+    if (map.has("message_id")) frame.message_id = static_cast<std::uint16_t>(map.integer("message_id", {0, 65535}));
     const bool dynamic = is_dynamic(cluster_.flexray, frame);
     if (const int last = dynamic ? kLastSlot : kLastStaticSlot; frame.slot + fragments - 1 > last) {
       map.fail("fragments", fmt::format("must be at most {}: {} slots end at {}", last - frame.slot + 1,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 #include "schedules/flexray_parameters.h"
@@ -16,6 +17,7 @@ struct IntegerParameter {
   int high;
   std::string_view unit;
   int Struct::* member;
+  std::optional<int> otherwise = std::nullopt;   // where a file does not give it; else it has to
 };
 
 // Given as a decimal number of `unit`, kept as a whole number of picoseconds (or bit/s).
@@ -97,6 +99,8 @@ inline constexpr IntegerParameter<Local> kNodeIntegers[] = {
     {"pLatestTx", 0, 7980, "minislots", &Local::pLatestTx},
     {"pAllowPassiveToActive", 0, 31, "pairs of cycles", &Local::pAllowPassiveToActive},
     {"pWakeupPattern", 2, 63, "", &Local::pWakeupPattern},
+    {"pExternOffsetCorrection", 0, 7, "microticks", &Local::pExternOffsetCorrection, 0},   // GTUC11.EOC
+    {"pExternRateCorrection", 0, 7, "microticks", &Local::pExternRateCorrection, 0},       // GTUC11.ERC
 };
 
 inline constexpr ScaledParameter<Local> kNodeScaled[] = {

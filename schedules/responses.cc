@@ -149,13 +149,14 @@ class NodeTasks {
   }
 
   // A distance of global time in the node's own: every cycle may be shorter by the rate correction, every second one by an
-  // offset correction.
+  // offset correction, external terms included.
   std::int64_t shrunk(std::int64_t global_ns) const {
     if (global_ns == 0 || !node_.flexray) return global_ns;
     const NodeParameters& p = *node_.flexray;
-    const std::int64_t rate = static_cast<std::int64_t>(static_cast<Int128>(global_ns) * p.pRateCorrectionOut /
+    const std::int64_t rate = static_cast<std::int64_t>(static_cast<Int128>(global_ns) *
+                                                        (p.pRateCorrectionOut + p.pExternRateCorrection) /
                                                         std::max(p.pMicroPerCycle, 1)) + 1;
-    const std::int64_t offset = p.pOffsetCorrectionOut * p.pdMicrotick_ps / 1000 + 1;
+    const std::int64_t offset = (p.pOffsetCorrectionOut + p.pExternOffsetCorrection) * p.pdMicrotick_ps / 1000 + 1;
     const std::int64_t corrections = global_ns / (2 * std::max<std::int64_t>(1, cluster_.cycle().ns)) + 1;
     return std::max<std::int64_t>(0, global_ns - rate - offset * corrections - kGranularity_ns);
   }

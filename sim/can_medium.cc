@@ -93,9 +93,9 @@ void CanMedium::report(const Pending& frame, TrueTime start, TrueTime end) {
     if (sent.data.size() < bytes) break;   // a foreign frame: receivers ignore it too
     const auto payload = sent.data.first(bytes);
     sent.pdu = message.pdu;
-    sent.sequence = wire::read_header_raw(layout, payload, *schedules::find_signal(layout.header, "sequence"));
+    sent.sequence = wire::read_header_raw(layout, payload, wire::header_signal(layout, "sequence"));
     sent.fragment = static_cast<std::uint8_t>(
-        wire::read_header_raw(layout, payload, *schedules::find_signal(layout.header, "fragment")));
+        wire::read_header_raw(layout, payload, wire::header_signal(layout, "fragment")));
   }
   sink_.on(sent);
 }

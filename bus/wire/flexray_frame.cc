@@ -66,7 +66,7 @@ DecodedFrame decode_frame(schedules::Channel channel, std::span<const std::byte>
 }
 
 std::optional<std::uint16_t> message_id(const DecodedFrame& frame) {
-  if (!frame.header.payload_preamble || frame.payload.size() < kMessageIdBytes) return std::nullopt;
+  if (!frame.header.payload_preamble || frame.payload.size() < schedules::kMessageIdBytes) return std::nullopt;
   return static_cast<std::uint16_t>(static_cast<unsigned>(frame.payload[0]) << 8 |
                                     static_cast<unsigned>(frame.payload[1]));
 }

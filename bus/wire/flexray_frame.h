@@ -60,9 +60,7 @@ struct DecodedFrame {
 // the cycle are the receiver's to judge: they depend on the slot.
 DecodedFrame decode_frame(schedules::Channel channel, std::span<const std::byte> frame);
 
-// In the dynamic segment, a frame with payload preamble begins with these two bytes, the more significant first.
-inline constexpr std::size_t kMessageIdBytes = 2;
-// Of a dynamic frame; nothing where the indicator is not set or the payload is too short for it.
+// Of a dynamic frame: with payload preamble it begins with kMessageIdBytes, the more significant first. Nothing where the indicator is not set or the payload is too short for it.
 std::optional<std::uint16_t> message_id(const DecodedFrame& frame);
 
 // Of a static frame on the wire (schedules::frame_bits), in picoseconds; and in whole nanoseconds, rounded up: a frame is
