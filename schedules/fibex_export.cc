@@ -146,8 +146,6 @@ class Exporter {
       if (parameter.name != "pdListenTimeout") continue;
       // pdListenTimeout = 2 (pMicroPerCycle + pdMaxDrift)
       put(one, "flexray:MAX-DRIFT", std::to_string(p.pdListenTimeout / 2 - p.pMicroPerCycle));
-      put(one, "flexray:EXTERN-OFFSET-CORRECTION", "0");
-      put(one, "flexray:EXTERN-RATE-CORRECTION", "0");
     }
   }
 

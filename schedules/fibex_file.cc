@@ -209,11 +209,6 @@ void read_controller(XmlElement& controller, FibexEcu& out, FibexReader& reader)
   for (const char* known : {"flexray:MAX-DRIFT", "flexray:MICRO-PER-MACRO-NOM"}) controller.ignore(known);
   if (controller.has("flexray:MAX-DYNAMIC-PAYLOAD-LENGTH"))
     out.max_dynamic_words = reader.integer(controller, "flexray:MAX-DYNAMIC-PAYLOAD-LENGTH", 0, 127);
-  // Of these no cluster file has more than none: a host's external correction.
-  for (const char* known : {"flexray:EXTERN-OFFSET-CORRECTION", "flexray:EXTERN-RATE-CORRECTION"})
-    if (const auto value = controller.text_of(known); value && *value != "0")
-      reader.leave_out(controller, fmt::format("{} {}", known, *value),
-                       "is left out: a cluster file has none but 0");
   controller.finish();
 }
 
