@@ -1,0 +1,76 @@
+// How fast the simulated FlexRay goes: controllers without hosts, every static slot owned and sent on both channels.
+//
+// A slot here is one static slot of the schedule with all that belongs to it: one frame on channel A and one on channel B, each
+// encoded, put on its way, and received, judged and stored by every other node. Items per second are such slots.
+#include <benchmark/benchmark.h>
+
+#include <memory>
+#include <vector>
+
+#include "core/random.h"
+#include "sim/bus_simulation.h"
+#include "tests/bench/yardstick.h"
+#include "tests/sim/bus_clusters.h"
+
+namespace ttf::sim {
+namespace {
+
+// All 64 static slots of a 5 ms cycle are owned, by the nodes in turn.
+schedules::Cluster full_cluster(int nodes) {
+  schedules::Cluster cluster = bus_cluster(nodes, 3, nodes < 15 ? nodes : 15);
+  for (int slot = nodes + 1; slot <= cluster.flexray.gNumberOfStaticSlots; ++slot)
+    cluster.frames.push_back({slot, schedules::Channels::kAB, 0, 1, static_cast<NodeId>((slot - 1) % nodes), kNoPdu, 0, 0});
+  return cluster;
+}
+
+struct Problems final : bus::ControllerEvents {
+  int count = 0;
+  void slot_problem(std::int64_t, int, schedules::Channel, bus::SlotStatus, Microticks) override { ++count; }
+};
+
+void report(benchmark::State& state, const schedules::Cluster& cluster, int slots_per_cycle, std::int64_t cycles) {
+  state.SetItemsProcessed(cycles * slots_per_cycle);
+  state.counters["x real time"] = benchmark::Counter(static_cast<double>(cycles) * cluster.cycle().seconds(),
+                                                     benchmark::Counter::kIsRate);
+}
+
+void run(benchmark::State& state, const schedules::Cluster& cluster, int slots_per_cycle) {
+  std::vector<BusNode> nodes;
+  std::vector<Problems> seen(cluster.nodes.size());
+  std::vector<bus::ControllerEvents*> events;
+  for (std::size_t n = 0; n < cluster.nodes.size(); ++n) {
+    RandomStream draw({1, 0, Purpose::kClockDrift, static_cast<std::uint16_t>(n), 0});
+    const std::int64_t ppb = draw.integer(-100'000, 100'000);
+    BusNode node{timebase::Oscillator(25'000, ppb, draw.integer(0, 24'999))};
+    node.clock = bus::InitialClock{node.oscillator.ticks_at(TrueTime{1'000'000}),
+                                   static_cast<int>(ppb * kMicroPerCycle / 1'000'000'000)};
+    nodes.push_back(node);
+    events.push_back(&seen[n]);
+  }
+  BusSimulation simulation(cluster, std::move(nodes), std::move(events));
+  simulation.run_until(TrueTime{1'000'000} + cluster.cycle() * 10);
+  constexpr std::int64_t kCycles = 20;
+  for (auto _ : state) simulation.run_until(simulation.now() + cluster.cycle() * kCycles);
+  for (const Problems& one : seen)
+    if (one.count > 0) state.SkipWithError("a slot had a problem");
+  report(state, cluster, slots_per_cycle, state.iterations() * kCycles);
+}
+
+void StaticSlots(benchmark::State& state) {
+  const schedules::Cluster cluster = full_cluster(static_cast<int>(state.range(0)));
+  run(state, cluster, cluster.flexray.gNumberOfStaticSlots);
+}
+BENCHMARK(StaticSlots)->Arg(4)->Arg(16)->ArgName("nodes")->Unit(benchmark::kMicrosecond);
+
+// One slot per node, as in start-up tests and fault campaigns: what nobody owns costs nothing.
+void OneSlotPerNode(benchmark::State& state) {
+  const int nodes = static_cast<int>(state.range(0));
+  const schedules::Cluster cluster = bus_cluster(nodes, 3, nodes < 15 ? nodes : 15);
+  run(state, cluster, nodes);
+}
+BENCHMARK(OneSlotPerNode)->Arg(4)->Arg(6)->Arg(16)->ArgName("nodes")->Unit(benchmark::kMicrosecond);
+
+}  // namespace
+}  // namespace ttf::sim
+
+BENCHMARK_MAIN();
