@@ -91,6 +91,11 @@ class ControllerEvents {
   // The static segment of a cycle is over, its slot problems have been told, and slot_status() is of it. During start-up
   // too: what that is worth is the host's to judge by state().
   virtual void static_segment_ended(std::int64_t cycle, Microticks at) { (void)cycle, (void)at; }
+  // A valid frame in the slot it says it is of; not during start-up. `frame` only during the call.
+  virtual void frame_received(std::int64_t cycle, int slot, schedules::Channel channel, const wire::DecodedFrame& frame,
+                              Microticks at) {
+    (void)cycle, (void)slot, (void)channel, (void)frame, (void)at;
+  }
   // A frame of an outgoing list left; `last` with the last fragment of that list.
   virtual void frame_sent(const Transmission& transmission, std::int64_t cycle, bool null_frame, PduId pdu,
                           std::uint32_t sequence, int fragment, bool last) {

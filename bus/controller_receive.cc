@@ -153,6 +153,8 @@ void FlexRayController::State::judge_static(const Reception& reception, int slot
     return;
   }
   status.valid[c] = true;
+  if (!in_startup(poc.kind))
+    events.frame_received(clock->cycle(), slot, reception.channel, reception.frame, reception.end);
   if (header.sync) {
     // The medium reports when the first bit of the TSS arrived, so no decoding time has to be taken off
     // (pDecodingCorrection); the bus' mean propagation delay is the schedule's to compensate.
@@ -185,6 +187,8 @@ void FlexRayController::State::judge_dynamic(const Reception& reception, std::ui
                           preamble_bytes(*expected) + static_cast<std::size_t>(cluster.pdu(expected->pdu).fragment_bytes)))
     errors |= kContentError;
   if (errors == 0 && !store(*expected, reception)) errors |= kContentError;
+  if (errors == 0 && !in_startup(poc.kind))
+    events.frame_received(clock->cycle(), slot, reception.channel, reception.frame, reception.end);
   if (errors != 0 && !in_startup(poc.kind))
     events.slot_problem(clock->cycle(), slot, reception.channel, static_cast<SlotStatus>(errors), reception.end);
 }
