@@ -26,6 +26,7 @@ FlexRayController::State::State(const schedules::Cluster& c, NodeId n, FlexRayPo
       slots(c, n),
       minislots(c.flexray),
       geometry{g.gMacroPerCycle, g.gdMacrotick_ps, p.pMicroPerCycle, g.gOffsetCorrectionStart},
+      nominal_slot(static_cast<std::int64_t>(g.gdStaticSlot) * p.pMicroPerCycle / g.gMacroPerCycle),
       poc(poc_power_on(poc_parameters)),
       cni(c, n),
       network_management(c.flexray.gNetworkManagementVectorLength),
@@ -158,12 +159,13 @@ void FlexRayController::State::enter_cycle(const StartupFramesSeen& ended, Micro
 }
 
 void FlexRayController::State::tell_slot_problems(Microticks at) {
+  const int now = counter();
   for (int slot = 1; slot <= g.gNumberOfStaticSlots; ++slot)
     for (const schedules::Channel channel : kChannels) {
       const auto c = index_of(channel);
       const Seen& status = seen[static_cast<std::size_t>(slot - 1)];
       std::uint8_t errors = status.errors[c];
-      if (errors == 0 && !status.valid[c] && slots.expected(slot, counter(), channel) != nullptr) errors = kNoFrame;
+      if (errors == 0 && !status.valid[c] && slots.expected(slot, now, channel) != nullptr) errors = kNoFrame;
       if (errors != 0) events.slot_problem(clock->cycle(), slot, channel, static_cast<SlotStatus>(errors), at);
     }
 }

@@ -96,6 +96,8 @@ class ControllerEvents {
                               Microticks at) {
     (void)cycle, (void)slot, (void)channel, (void)frame, (void)at;
   }
+  // Whether frame_sent() looks at the bytes of transmissions.
+  virtual bool wants_bytes() const { return true; }
   // A frame of an outgoing list left; `last` with the last fragment of that list.
   virtual void frame_sent(const Transmission& transmission, std::int64_t cycle, bool null_frame, PduId pdu,
                           std::uint32_t sequence, int fragment, bool last) {

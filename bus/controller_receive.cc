@@ -63,8 +63,9 @@ void FlexRayController::State::receive(const Reception& reception) {
     judge(reception, conflict);
   else if (!conflict)
     hear(reception);
+  if (clock) return;
   const bool idle = !port.carrier(Channel::kA) && !port.carrier(Channel::kB);
-  if (!clock && idle) tell({PocEventKind::kChannelsIdle}, reception.end + bits(kIdleDelimiterBits));
+  if (idle) tell({PocEventKind::kChannelsIdle}, reception.end + bits(kIdleDelimiterBits));
 }
 
 // Without a schedule only startup frames matter: two of them make one.
@@ -101,7 +102,7 @@ int FlexRayController::State::static_slot_at(Microticks at) const {
   if (at >= clock->start_of(static_end())) return g.gNumberOfStaticSlots + 1;
   // An estimate on the nominal grid, put right by a slot at most.
   const std::int64_t into = (at - clock->cycle_start()).value;
-  int slot = static_cast<int>(into * g.gMacroPerCycle / p.pMicroPerCycle / g.gdStaticSlot) + 1;
+  int slot = static_cast<int>(nominal_slot.floor(into)) + 1;
   if (slot > g.gNumberOfStaticSlots) slot = g.gNumberOfStaticSlots;
   while (slot > 1 && clock->start_of(slot_start(slot)) > at) --slot;
   while (slot < g.gNumberOfStaticSlots && clock->start_of(slot_start(slot + 1)) <= at) ++slot;
@@ -135,7 +136,9 @@ void FlexRayController::State::judge_static(const Reception& reception, int slot
   // A frame that outlasts the segment is judged when that has been closed without it.
   std::vector<Seen>& slots_seen = segment == Segment::kStatic ? seen : seen_last;
   Seen& status = slots_seen[static_cast<std::size_t>(slot - 1)];
-  const int last = static_slot_at(reception.end - Microticks{1});
+  // One division and two comparisons less where it ends in the slot, as it should.
+  const bool within = reception.end <= clock->start_of(slot_start(slot + 1));
+  const int last = within ? slot : static_slot_at(reception.end - Microticks{1});
   if (last != slot) {
     errors |= kBoundaryViolation;
     if (last <= g.gNumberOfStaticSlots) slots_seen[static_cast<std::size_t>(last - 1)].errors[c] |= kBoundaryViolation;

@@ -73,9 +73,12 @@ void FlexRayController::State::send_frame(const FrameSlot& slot, Channel channel
   } else if (header.payload_preamble) {
     std::copy_n(network_management.own().begin(), preamble, payload.begin());
   }
-  const std::size_t size = wire::encode_frame(header, channel, std::span<const std::byte>(payload).first(length), frame);
+  header.payload_words = static_cast<std::uint8_t>(length / 2);
+  const std::span<const std::byte> words = std::span<const std::byte>(payload).first(length);
+  const bool in_bytes = port.wants_bytes(channel) || events.wants_bytes();
+  const std::size_t size = in_bytes ? wire::encode_frame(header, channel, words, frame) : 0;
   const Transmission transmission{channel, Signal::kFrame, at, end, slot.slot,
-                                  std::span<const std::byte>(frame).first(size)};
+                                  std::span<const std::byte>(frame).first(size), {wire::FrameError::kNone, header, words}};
   sending_from[index_of(channel)] = at;
   sending_to[index_of(channel)] = end;
   port.transmit(transmission);

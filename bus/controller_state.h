@@ -32,6 +32,7 @@ struct FlexRayController::State {
   const SlotTable slots;
   const MinislotGrid minislots;
   const timebase::CycleGeometry geometry;
+  const timebase::Divisor nominal_slot;    // a static slot's microticks, give or take one
 
   // --- where it stands
   PocState poc;
@@ -90,7 +91,10 @@ struct FlexRayController::State {
   void enter_cycle(const StartupFramesSeen& ended, Microticks at);
   void close_static_segment(Microticks at);
   void tell_slot_problems(Microticks at);
-  int counter() const { return static_cast<int>(clock->cycle() % (g.gCycleCountMax + 1)); }
+  int counter() const {
+    const int round = g.gCycleCountMax + 1;   // 64 but for schedules made by hand: no division is needed
+    return static_cast<int>((round & (round - 1)) == 0 ? clock->cycle() & (round - 1) : clock->cycle() % round);
+  }
   Macroticks slot_start(int slot) const { return {static_cast<std::int64_t>(slot - 1) * g.gdStaticSlot}; }
   Macroticks action_point(int slot) const { return slot_start(slot) + Macroticks{g.gdActionPointOffset}; }
   Macroticks static_end() const { return slot_start(g.gNumberOfStaticSlots + 1); }

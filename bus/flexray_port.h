@@ -37,7 +37,8 @@ struct Transmission {
   Microticks start{};                  // the action point: first bit leaves
   Microticks end{};                    // last bit has left, a dynamic frame's trailing sequence included
   int slot = 0;                        // for the log
-  std::span<const std::byte> bytes;    // of a frame: header, payload, trailer
+  std::span<const std::byte> bytes;    // of a frame: header, payload, trailer; empty where nobody wants them
+  wire::DecodedFrame content{};        // of a frame: what the bytes say or would say, but for the header CRC
 };
 
 struct Reception {
@@ -54,6 +55,8 @@ class FlexRayPort {
   virtual void transmit(const Transmission& transmission) = 0;
   // Whether something is arriving just now.
   virtual bool carrier(schedules::Channel channel) const = 0;
+  // Whether the next transmission's bytes are looked at; a medium that carries contents can do without.
+  virtual bool wants_bytes(schedules::Channel channel) const { return (void)channel, true; }
 };
 
 }  // namespace ttf::bus

@@ -10,9 +10,7 @@ using schedules::FrameSlot;
 SlotTable::SlotTable(const schedules::Cluster& cluster, NodeId node) {
   for (const FrameSlot& frame : cluster.frames) {
     if (frame.sender != node) {
-      const auto slots = static_cast<std::size_t>(frame.slot);
-      if (expected_.size() < slots) expected_.resize(slots);
-      expected_[slots - 1].push_back(&frame);
+      others_.push_back(&frame);
     } else if (frame.slot <= cluster.flexray.gNumberOfStaticSlots) {
       own_static_.push_back(&frame);
     } else {
@@ -22,20 +20,21 @@ SlotTable::SlotTable(const schedules::Cluster& cluster, NodeId node) {
   }
   const auto by_slot = [](const FrameSlot* a, const FrameSlot* b) { return a->slot < b->slot; };
   std::stable_sort(own_static_.begin(), own_static_.end(), by_slot);
+  std::stable_sort(others_.begin(), others_.end(), by_slot);
+  for (std::size_t f = 0; f < others_.size(); ++f) first_.resize(static_cast<std::size_t>(others_[f]->slot), f);
+  first_.push_back(others_.size());
   for (auto& own : own_dynamic_) std::stable_sort(own.begin(), own.end(), by_slot);
 }
 
 const FrameSlot* SlotTable::expected(int slot, int counter, Channel channel) const {
-  if (slot < 1 || static_cast<std::size_t>(slot) > expected_.size()) return nullptr;
-  for (const FrameSlot* frame : expected_[static_cast<std::size_t>(slot - 1)])
+  for (const FrameSlot* frame : others_in(slot))
     if (in_cycle(*frame, counter) && includes(frame->channels, channel)) return frame;
   return nullptr;
 }
 
 const FrameSlot* SlotTable::expected(int slot, int counter, Channel channel,
                                      std::optional<std::uint16_t> message_id) const {
-  if (slot < 1 || static_cast<std::size_t>(slot) > expected_.size()) return nullptr;
-  for (const FrameSlot* frame : expected_[static_cast<std::size_t>(slot - 1)])
+  for (const FrameSlot* frame : others_in(slot))
     if (in_cycle(*frame, counter) && includes(frame->channels, channel) && frame->message_id == message_id) return frame;
   return nullptr;
 }

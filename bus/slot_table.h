@@ -31,12 +31,20 @@ class SlotTable {
  private:
   std::vector<const schedules::FrameSlot*> own_static_;
   std::array<std::vector<const schedules::FrameSlot*>, 2> own_dynamic_;      // by channel
-  std::vector<std::vector<const schedules::FrameSlot*>> expected_;           // by slot - 1
+  std::span<const schedules::FrameSlot* const> others_in(int slot) const {
+    if (slot < 1 || static_cast<std::size_t>(slot) >= first_.size()) return {};
+    const auto s = static_cast<std::size_t>(slot);
+    return {others_.data() + first_[s - 1], others_.data() + first_[s]};
+  }
+  std::vector<const schedules::FrameSlot*> others_;                          // what other nodes send, by slot
+  std::vector<std::size_t> first_;                                           // by slot - 1, where it begins in others_
 };
 
 // Whether the frame has its turn in a cycle with this counter.
 constexpr bool in_cycle(const schedules::FrameSlot& frame, int counter) {
-  return counter % frame.repetition == frame.base_cycle;
+  const int repetition = frame.repetition;   // nearly always a power of two, which needs no division
+  const int turn = (repetition & (repetition - 1)) == 0 ? counter & (repetition - 1) : counter % repetition;
+  return turn == frame.base_cycle;
 }
 
 }  // namespace ttf::bus

@@ -10,6 +10,7 @@ namespace {
 
 constexpr TrueTime kNever{std::numeric_limits<std::int64_t>::max()};
 constexpr std::size_t kPendingEvents = 4096;
+constexpr Microticks kUnknown{std::numeric_limits<std::int64_t>::min()};
 
 }  // namespace
 
@@ -22,8 +23,9 @@ Crank::Crank(const schedules::Cluster& cluster)
 void Crank::seat(const timebase::Oscillator& oscillator, std::optional<TrueTime> power_on) {
   TTF_CHECK(seats_.size() < cluster_.nodes.size(), "{} nodes are all", seats_.size());
   TTF_CHECK(!power_on || *power_on >= TrueTime{}, "power-on at {} ns", power_on->ns);
-  seats_.push_back({oscillator, !power_on, TrueTime{} - Duration{1}});
-  next_.push_back(power_on.value_or(kNever));
+  seats_.push_back({oscillator, !power_on, TrueTime{} - Duration{1}, kUnknown});
+  next_.push_back(kNever);
+  if (power_on) set_next(seats_.size() - 1, *power_on);
 }
 
 void Crank::seat_guardian(schedules::Channel channel, const timebase::Oscillator& oscillator) {
@@ -40,7 +42,8 @@ void Crank::set_disturbance(Disturbance* disturbance) {
 
 void Crank::power_off(NodeId node) {
   const std::size_t n = index_of(node);
-  next_[n] = kNever;
+  set_next(n, kNever);
+  seats_[n].next = kUnknown;
   if (!seats_[n].powered) return;
   seats_[n].powered = false;
   seats_[n].since = now_;
@@ -52,12 +55,13 @@ void Crank::power_on(NodeId node, TrueTime at) {
   TTF_CHECK(at >= now_, "power-on at {} ns, it is {} ns", at.ns, now_.ns);
   power_off(node);
   const std::size_t n = index_of(node);
-  next_[n] = std::max(at, seats_[n].since + Duration{1});
+  set_next(n, std::max(at, seats_[n].since + Duration{1}));
 }
 
 void Crank::change_drift(NodeId node, std::int64_t ppb) {
   const std::size_t n = index_of(node);
   seats_[n].oscillator.change_drift(now_, ppb);
+  seats_[n].next = kUnknown;
   if (!seats_[n].powered) return;
   drifts(n);
   refresh(n);
@@ -75,18 +79,33 @@ void Crank::command(NodeId node, bus::PocEventKind command) {
 void Crank::emit(const Leaving& signal, std::optional<NodeId> source) { medium_.emit(signal, source); }
 
 void Crank::refresh(std::size_t node) {
-  if (!seats_[node].powered) return;
+  Seat& seat = seats_[node];
+  if (!seat.powered) return;
   const Microticks next = next_event(node);
+  // What most arrivals change nothing about.
+  if (next == seat.next) return;
+  seat.next = next;
   const bool never = next.value == std::numeric_limits<std::int64_t>::max();
-  next_[node] = never ? kNever : std::max(now_, seats_[node].oscillator.time_of(next));
+  set_next(node, never ? kNever : std::max(now_, seat.oscillator.time_of(next)));
+}
+
+// Keeps `earliest_` the first of those that are due first.
+void Crank::set_next(std::size_t node, TrueTime time) {
+  const TrueTime before = next_[node];
+  next_[node] = time;
+  if (node == earliest_) {
+    if (time > before)
+      earliest_ = static_cast<std::size_t>(std::min_element(next_.begin(), next_.end()) - next_.begin());
+  } else if (time < next_[earliest_] || (time == next_[earliest_] && node < earliest_)) {
+    earliest_ = node;
+  }
 }
 
 void Crank::run_until(TrueTime end) {
   while (true) {
-    const auto earliest = static_cast<std::size_t>(std::min_element(next_.begin(), next_.end()) - next_.begin());
-    const bool node_is_due = queue_.empty() || EventOrder{next_[earliest], Phase::kNode,
-                                                          static_cast<std::uint8_t>(earliest), 0, 0} < queue_.next();
-    const TrueTime time = node_is_due ? next_[earliest] : queue_.next().time;
+    const bool node_is_due = queue_.empty() || EventOrder{next_[earliest_], Phase::kNode,
+                                                          static_cast<std::uint8_t>(earliest_), 0, 0} < queue_.next();
+    const TrueTime time = node_is_due ? next_[earliest_] : queue_.next().time;
     if (disturbance_ != nullptr && disturbance_->next() < time) {
       if (disturbance_->next() > end) break;
       now_ = std::max(now_, disturbance_->next());
@@ -97,7 +116,7 @@ void Crank::run_until(TrueTime end) {
     TTF_CHECK(time >= now_, "time goes back from {} to {} ns", now_.ns, time.ns);
     now_ = time;
     if (node_is_due) {
-      step(earliest);
+      step(earliest_);
     } else {
       const MediumEvent event = queue_.pop();
       if (event.kind == MediumEvent::Kind::kFlexRayArrival)
@@ -145,6 +164,8 @@ void CrankPort::transmit(const bus::Transmission& transmission) {
   crank_.medium().transmit(node_, transmission, oscillator.time_of(transmission.start),
                            oscillator.time_of(transmission.end));
 }
+
+bool CrankPort::wants_bytes(schedules::Channel channel) const { return crank_.medium().wants_bytes(node_, channel); }
 
 bool CrankPort::carrier(schedules::Channel channel) const {
   return crank_.medium().carrier(node_, channel, crank_.now());

@@ -82,13 +82,16 @@ class Crank : public Plant {
     timebase::Oscillator oscillator;
     bool powered = false;
     TrueTime since{};                  // it is with or without supply
+    Microticks next{};                 // its next own event, when it was asked last
   };
+  void set_next(std::size_t node, TrueTime time);
   void step(std::size_t node);
   void arrive(const MediumEvent& event);
 
   std::array<std::unique_ptr<StarCoupler>, 2> couplers_;   // by channel
   std::vector<Seat> seats_;            // by NodeId
   std::vector<TrueTime> next_;         // by NodeId, its next own event; without supply its power-on
+  std::size_t earliest_ = 0;           // in next_
   Disturbance* disturbance_ = nullptr;
   TrueTime now_{};
 };
@@ -99,6 +102,7 @@ class CrankPort : public bus::FlexRayPort {
   CrankPort(Crank& crank, NodeId node) : crank_(crank), node_(node) {}
   void transmit(const bus::Transmission& transmission) override;
   bool carrier(schedules::Channel channel) const override;
+  bool wants_bytes(schedules::Channel channel) const override;
 
  private:
   Crank& crank_;

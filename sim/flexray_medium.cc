@@ -13,6 +13,8 @@ using schedules::Channel;
 
 // More than can ever be on its way to a node at once, were all others to babble.
 constexpr std::size_t kLaneRoom = 64;
+// Signals on their way at once, whoever they are for.
+constexpr std::size_t kFlights = 1024;
 
 bool overlap(const FlexRayMedium::Arrival& a, const FlexRayMedium::Arrival& b) {
   return a.start < b.end && b.start < a.end;
@@ -40,6 +42,26 @@ FlexRayMedium::FlexRayMedium(const schedules::Cluster& cluster, MediumQueue& que
   ends_ = on_bus - 1;
   for (Lane& lane : lanes_) lane.reserve(kLaneRoom);
   to_coupler_.reserve(kLaneRoom);
+  for (const Channel channel : {Channel::kA, Channel::kB}) {
+    from_nowhere_[index_of(channel)] = make_way(channel, std::nullopt, false);
+    if (star_) from_coupler_[index_of(channel)] = make_way(channel, std::nullopt, true);
+  }
+  for (std::size_t n = 0; n < cluster.nodes.size(); ++n)
+    for (const Channel channel : {Channel::kA, Channel::kB})
+      ways_.push_back(position_[n] < 0 ? Way{} : make_way(channel, static_cast<NodeId>(n), false));
+  flights_.resize(kFlights);
+  for (std::size_t f = kFlights; f-- > 0;) {
+    flights_[f].stops.reserve(static_cast<std::size_t>(on_bus));
+    free_flights_.push_back(static_cast<std::uint32_t>(f));
+  }
+}
+
+FlexRayMedium::Way FlexRayMedium::make_way(Channel channel, std::optional<NodeId> sender, bool from_coupler) const {
+  Way way;
+  for (const NodeId node : attached_[index_of(channel)])
+    if (node != sender) way.push_back({node, from_coupler ? branch(node) : sender ? delay(*sender, node) : Duration{}});
+  std::stable_sort(way.begin(), way.end(), [](const Leg& a, const Leg& b) { return a.delay < b.delay; });
+  return way;
 }
 
 std::int64_t FlexRayMedium::branch_ps(NodeId node) const {
@@ -59,12 +81,14 @@ Duration FlexRayMedium::delay(NodeId from, NodeId to) const {
 }
 
 void FlexRayMedium::transmit(NodeId sender, const bus::Transmission& transmission, TrueTime start, TrueTime end) {
-  Leaving signal{sender, transmission.channel, transmission.signal, start, end, transmission.bytes};
+  Leaving signal{sender, transmission.channel, transmission.signal, start, end, {}};
+  const bool in_bytes = wants_bytes(sender, transmission.channel);
+  if (in_bytes) signal.bytes = transmission.bytes;
   if (disturbance_ != nullptr && !disturbance_->leaving(signal)) return;
   busy_[index_of(signal.channel)] += signal.end - signal.start;
   sent_until_[lane_of(sender, signal.channel)] = signal.end;
   if (coupler_[index_of(signal.channel)] != nullptr) return to_coupler(signal, sender, start);
-  spread(signal, sender, false);
+  spread(signal, sender, false, in_bytes ? nullptr : &transmission.content);
 }
 
 void FlexRayMedium::emit(const Leaving& signal, std::optional<NodeId> source) {
@@ -75,26 +99,31 @@ void FlexRayMedium::emit(const Leaving& signal, std::optional<NodeId> source) {
   spread(signal, source, false);
 }
 
-void FlexRayMedium::spread(const Leaving& signal, std::optional<NodeId> sender, bool regenerated) {
-  const auto& attached = attached_[index_of(signal.channel)];
-  const auto receivers = static_cast<int>(std::count_if(attached.begin(), attached.end(),
-                                                        [&](NodeId node) { return node != sender; }));
+void FlexRayMedium::spread(const Leaving& signal, std::optional<NodeId> sender, bool regenerated,
+                           const wire::DecodedFrame* content) {
+  const auto c = index_of(signal.channel);
+  const Way& way = regenerated ? from_coupler_[c] : sender ? ways_[lane_of(*sender, signal.channel)] : from_nowhere_[c];
+  const bool itself = regenerated && std::any_of(way.begin(), way.end(), [&](const Leg& leg) { return leg.receiver == sender; });
+  const int receivers = static_cast<int>(way.size()) - (itself ? 1 : 0);
   if (receivers == 0) return;
   std::uint32_t frame = 0;
-  if (signal.signal == Signal::kFrame) frame = pool_.put_frame(signal.channel, signal.bytes, receivers);
-  for (const NodeId node : attached) {
-    if (node == sender) continue;
-    const Duration on_the_way = regenerated ? branch(node) : sender ? delay(*sender, node) : Duration{};
-    Arriving last{signal.sender, node, signal.channel, signal.signal, signal.start + on_the_way,
-                  signal.end + on_the_way, regenerated, signal.bytes};
+  if (signal.signal == Signal::kFrame)
+    frame = content != nullptr ? pool_.put_content(*content, receivers)
+                               : pool_.put_frame(signal.channel, signal.bytes, receivers);
+  Flight& flight = take_off(signal.sender, signal.channel);
+  for (const Leg& leg : way) {
+    if (leg.receiver == sender) continue;
+    Arriving last{signal.sender, leg.receiver, signal.channel, signal.signal, signal.start + leg.delay,
+                  signal.end + leg.delay, regenerated, signal.bytes};
     const bool arrives = disturbance_ == nullptr || disturbance_->arriving(last);
-    Arrival arrival{signal.channel, last.signal, last.start, last.end, frame};
+    Arrival arrival{last.start, last.end, frame, signal.channel, last.signal};
     const bool as_it_left = arrives && last.signal == Signal::kFrame && last.bytes.data() == signal.bytes.data();
     if (signal.signal == Signal::kFrame && !as_it_left) pool_.release(frame);
     if (arrives && last.signal == Signal::kFrame && !as_it_left)
       arrival.frame = pool_.put_frame(signal.channel, last.bytes, 1);
-    if (arrives) put(node, signal.sender, arrival);
+    if (arrives) put(flight, leg.receiver, arrival);
   }
+  depart(flight);
 }
 
 void FlexRayMedium::to_coupler(const Leaving& signal, NodeId sender, TrueTime now) {
@@ -102,7 +131,7 @@ void FlexRayMedium::to_coupler(const Leaving& signal, NodeId sender, TrueTime no
   Arriving last{sender, kNoNode, signal.channel, signal.signal, signal.start + on_the_way, signal.end + on_the_way, false,
                 signal.bytes};
   if (disturbance_ != nullptr && !disturbance_->arriving(last)) return;
-  Pending made{next_id_++, {signal.channel, last.signal, last.start, last.end, 0}, sender, false};
+  Pending made{{last.start, last.end, 0, signal.channel, last.signal}, next_id_++, sender, false};
   if (last.signal == Signal::kFrame) made.arrival.frame = pool_.put_frame(signal.channel, last.bytes, 1);
   TTF_CHECK(to_coupler_.size() < kLaneRoom, "{} signals on their way to the couplers", to_coupler_.size());
   to_coupler_.push_back(made);
@@ -121,7 +150,7 @@ void FlexRayMedium::at_coupler(const MediumEvent& event) {
   const auto found = std::find_if(to_coupler_.begin(), to_coupler_.end(),
                                   [&](const Pending& one) { return one.id == event.frame; });
   TTF_CHECK(found != to_coupler_.end(), "nothing on its way to the coupler is {}", event.frame);
-  const auto [id, arrived, sender, merged] = *found;
+  const auto [arrived, id, sender, merged] = *found;
   *found = to_coupler_.back();
   to_coupler_.pop_back();
   const bool is_frame = arrived.signal == Signal::kFrame;
@@ -132,9 +161,21 @@ void FlexRayMedium::at_coupler(const MediumEvent& event) {
   release(arrived);
 }
 
-void FlexRayMedium::put(NodeId receiver, NodeId sender, const Arrival& arrival) {
+FlexRayMedium::Flight& FlexRayMedium::take_off(NodeId sender, Channel channel) {
+  TTF_CHECK(!free_flights_.empty(), "{} signals are on their way", kFlights);
+  Flight& flight = flights_[free_flights_.back()];
+  free_flights_.pop_back();
+  flight.stops.clear();
+  flight.next = 0;
+  flight.sender = sender;
+  flight.channel = channel;
+  return flight;
+}
+
+// A stop more: what arrives there, together with what it overlaps with.
+void FlexRayMedium::put(Flight& flight, NodeId receiver, const Arrival& arrival) {
   Lane& pending = lane(receiver, arrival.channel);
-  Pending made{next_id_++, arrival, sender, false};
+  Pending made{arrival, next_id_++, flight.sender, false};
   for (std::size_t i = 0; i < pending.size();) {
     if (!overlap(pending[i].arrival, made.arrival)) {
       ++i;
@@ -154,13 +195,37 @@ void FlexRayMedium::put(NodeId receiver, NodeId sender, const Arrival& arrival) 
   }
   TTF_CHECK(pending.size() < kLaneRoom, "{} signals on their way to one node", pending.size());
   pending.push_back(made);
+  flight.stops.push_back({made.arrival.end, receiver, made.id});
+}
+
+void FlexRayMedium::depart(Flight& flight) {
+  const auto by_end = [](const Stop& a, const Stop& b) {
+    return a.end != b.end ? a.end < b.end : a.receiver < b.receiver;
+  };
+  // As the way is, unless something has changed a signal on its last metre.
+  if (!std::is_sorted(flight.stops.begin(), flight.stops.end(), by_end))
+    std::sort(flight.stops.begin(), flight.stops.end(), by_end);
+  if (flight.stops.empty())
+    free_flights_.push_back(event_of(flight).frame);
+  else
+    flight.sequence = queue_.schedule(flight.stops.front().end, Phase::kArrival,
+                                      static_cast<std::uint8_t>(flight.stops.front().receiver), event_of(flight),
+                                      order_of(flight).rank);
+}
+
+MediumEvent FlexRayMedium::event_of(const Flight& flight) const {
   MediumEvent event;
   event.kind = MediumEvent::Kind::kFlexRayArrival;
-  event.node = static_cast<std::uint8_t>(receiver);
-  event.channel_or_bus = static_cast<std::uint8_t>(arrival.channel);
-  event.frame = made.id;
-  const auto rank = static_cast<std::uint16_t>((index_of(arrival.channel) << 8) | index_of(sender));
-  queue_.schedule(made.arrival.end, Phase::kArrival, event.node, event, rank);
+  event.channel_or_bus = static_cast<std::uint8_t>(flight.channel);
+  event.frame = static_cast<std::uint32_t>(&flight - flights_.data());
+  if (flight.next < flight.stops.size()) event.node = static_cast<std::uint8_t>(flight.stops[flight.next].receiver);
+  return event;
+}
+
+EventOrder FlexRayMedium::order_of(const Flight& flight) const {
+  const Stop& stop = flight.stops[flight.next];
+  const auto rank = static_cast<std::uint16_t>((index_of(flight.channel) << 8) | index_of(flight.sender));
+  return {stop.end, Phase::kArrival, static_cast<std::uint8_t>(stop.receiver), rank, flight.sequence};
 }
 
 std::optional<FlexRayMedium::Arrival> FlexRayMedium::arrive(const MediumEvent& event, TrueTime now) {
@@ -168,9 +233,15 @@ std::optional<FlexRayMedium::Arrival> FlexRayMedium::arrive(const MediumEvent& e
     at_coupler(event);
     return std::nullopt;
   }
-  Lane& pending = lane(static_cast<NodeId>(event.node), static_cast<Channel>(event.channel_or_bus));
+  Flight& flight = flights_[event.frame];
+  const Stop stop = flight.stops[flight.next++];
+  if (flight.next < flight.stops.size())
+    queue_.go_on(order_of(flight), event_of(flight));
+  else
+    free_flights_.push_back(event.frame);
+  Lane& pending = lane(stop.receiver, flight.channel);
   const auto found =
-      std::find_if(pending.begin(), pending.end(), [&](const Pending& one) { return one.id == event.frame; });
+      std::find_if(pending.begin(), pending.end(), [&](const Pending& one) { return one.id == stop.id; });
   if (found == pending.end()) return std::nullopt;
   const Arrival arrival = found->arrival;
   TTF_CHECK(arrival.end == now, "an arrival of {} ns at {} ns", arrival.end.ns, now.ns);
@@ -178,7 +249,7 @@ std::optional<FlexRayMedium::Arrival> FlexRayMedium::arrive(const MediumEvent& e
   return arrival;
 }
 
-// The event of what is taken out finds nothing any more.
+// The stop of what is taken out finds nothing any more.
 void FlexRayMedium::take_out(Lane& pending, std::size_t index) {
   pending[index] = pending.back();
   pending.pop_back();
@@ -217,7 +288,9 @@ void FlexRayMedium::power_off(NodeId node, TrueTime now) {
         Arrival rest = one.arrival;
         rest.signal = Signal::kUndecodable;
         rest.end = cut;
-        put(receiver, node, rest);
+        Flight& flight = take_off(node, channel);
+        put(flight, receiver, rest);
+        depart(flight);
       }
     }
   }

@@ -4,6 +4,9 @@
 // gdMinPropagationDelay (neighbours at no distance) to gdMaxPropagationDelay (the two ends). What leaves reaches everybody who
 // is attached to the channel; what overlaps at a receiver arrives there as one signal that nobody can make out.
 //
+// Bit-true, it carries frames as bytes, which every frame is encoded to and decoded from, CRCs and all. Transparent, it carries
+// what they say, and bytes only where a disturbance or a coupler may look at them: all that anybody receives is the same.
+//
 // Or a star: every node on a branch of its own, each longer than the one before, the first of half gdMinPropagationDelay and the
 // last two together of gdMaxPropagationDelay. Without a coupler in its middle a star forwards everything, and is a bus but
 // for the delays.
@@ -31,6 +34,11 @@ class FlexRayMedium {
 
   // Null: nothing goes wrong.
   void set_disturbance(Disturbance* disturbance) { disturbance_ = disturbance; }
+  void set_transparent(bool transparent) { transparent_ = transparent; }
+  bool wants_bytes(NodeId sender, schedules::Channel channel) const {
+    return !transparent_ || coupler_[index_of(channel)] != nullptr ||
+           (disturbance_ != nullptr && disturbance_->touches(sender, channel));
+  }
   // In the middle of a star; null: it forwards everything.
   void set_coupler(schedules::Channel channel, Coupler* coupler) { coupler_[index_of(channel)] = coupler; }
 
@@ -49,13 +57,13 @@ class FlexRayMedium {
   // How long the channel has been taken by what nodes sent so far.
   Duration busy(schedules::Channel channel) const { return busy_[index_of(channel)]; }
 
-  // What an arrival of the queue brings: nothing where it was drawn into another signal, or where it is one at a coupler. The frame stays valid until
-  // release() is called with the same arrival.
+  // What an arrival of the queue brings: nothing where it was drawn into another signal, or where it is one at a coupler. The
+  // frame stays valid until release() is called with the same arrival.
   struct Arrival {
-    schedules::Channel channel{};
-    bus::Signal signal{};
     TrueTime start{}, end{};
     std::uint32_t frame = 0;          // in the pool, of a frame
+    schedules::Channel channel{};
+    bus::Signal signal{};
   };
   std::optional<Arrival> arrive(const MediumEvent& event, TrueTime now);
   const wire::DecodedFrame& frame(const Arrival& arrival) const { return pool_.decoded(arrival.frame); }
@@ -64,26 +72,56 @@ class FlexRayMedium {
  private:
   // What is on its way to one node on one channel.
   struct Pending {
-    std::uint32_t id = 0;             // the queue's event carries it
     Arrival arrival;
+    std::uint32_t id = 0;             // a stop of a flight has it
     NodeId sender{};
     bool merged = false;              // of several signals
   };
   using Lane = std::vector<Pending>;
+  // One signal on its way to all its receivers: a single event of the queue, which goes on from one stop to the next.
+  struct Stop {
+    TrueTime end{};
+    NodeId receiver{};
+    std::uint32_t id = 0;
+  };
+  struct Flight {
+    std::vector<Stop> stops;          // by (end, receiver)
+    std::size_t next = 0;
+    std::uint64_t sequence = 0;       // in the queue
+    NodeId sender{};
+    schedules::Channel channel{};
+  };
+  // From a sender, or from the coupler of a star, to a node.
+  struct Leg {
+    NodeId receiver{};
+    Duration delay{};
+  };
+  using Way = std::vector<Leg>;       // by (delay, receiver)
+  Way make_way(schedules::Channel channel, std::optional<NodeId> sender, bool from_coupler) const;
   std::int64_t branch_ps(NodeId node) const;
-  void spread(const Leaving& signal, std::optional<NodeId> sender, bool regenerated);
+  // `content`: of a frame without bytes.
+  void spread(const Leaving& signal, std::optional<NodeId> sender, bool regenerated,
+              const wire::DecodedFrame* content = nullptr);
   void to_coupler(const Leaving& signal, NodeId sender, TrueTime now);
   void at_coupler(const MediumEvent& event);
-  void put(NodeId receiver, NodeId sender, const Arrival& arrival);
+  Flight& take_off(NodeId sender, schedules::Channel channel);
+  void put(Flight& flight, NodeId receiver, const Arrival& arrival);
+  void depart(Flight& flight);
+  MediumEvent event_of(const Flight& flight) const;
+  EventOrder order_of(const Flight& flight) const;
   void take_out(Lane& pending, std::size_t index);
   static std::size_t lane_of(NodeId node, schedules::Channel channel) { return 2 * index_of(node) + index_of(channel); }
   Lane& lane(NodeId node, schedules::Channel channel) { return lanes_[lane_of(node, channel)]; }
 
   MediumQueue& queue_;
   FramePool& pool_;
-  std::array<std::vector<NodeId>, 2> attached_;   // by channel, in bus order
+  std::array<std::vector<NodeId>, 2> attached_;   // by channel
   std::vector<int> position_;                     // by NodeId, -1 off the bus
   std::vector<Lane> lanes_;                       // by NodeId and channel
+  std::vector<Way> ways_;                         // by sender and channel
+  std::array<Way, 2> from_nowhere_, from_coupler_;   // by channel
+  std::vector<Flight> flights_;
+  std::vector<std::uint32_t> free_flights_;
   std::array<Duration, 2> busy_{};                // by channel
   std::vector<TrueTime> sent_until_;              // by NodeId and channel
   int ends_ = 0;                                  // hops between the two ends of the line
@@ -93,6 +131,7 @@ class FlexRayMedium {
   std::array<Coupler*, 2> coupler_{};             // by channel
   std::vector<Pending> to_coupler_;               // signals that have not begun there yet
   Disturbance* disturbance_ = nullptr;
+  bool transparent_ = false;
 };
 
 }  // namespace ttf::sim

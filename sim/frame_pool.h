@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "bus/wire/flexray_crc.h"
 #include "bus/wire/flexray_frame.h"
 #include "core/check.h"
 
@@ -26,6 +27,16 @@ class FramePool {
   std::uint32_t put_frame(schedules::Channel channel, std::span<const std::byte> bytes, int uses) {
     const std::uint32_t index = put(bytes, uses);
     frames_[index].decoded = wire::decode_frame(channel, this->bytes(index));
+    return index;
+  }
+  // Stores a copy of what a frame says, as if it had been encoded and decoded. It has no bytes.
+  std::uint32_t put_content(const wire::DecodedFrame& content, int uses) {
+    const std::uint32_t index = put(content.payload, uses);
+    wire::DecodedFrame& decoded = frames_[index].decoded;
+    decoded = content;
+    const wire::FrameHeader& header = content.header;
+    decoded.header.header_crc = wire::header_crc(header.sync, header.startup, header.frame_id, header.payload_words);
+    decoded.payload = this->bytes(index);
     return index;
   }
   const wire::DecodedFrame& decoded(std::uint32_t index) const { return frames_[index].decoded; }

@@ -9,6 +9,7 @@
 #include <cstdint>
 
 #include "core/time.h"
+#include "timebase/divisor.h"
 
 namespace ttf::timebase {
 
@@ -46,12 +47,16 @@ class CycleClock {
   void next_cycle(int rate);
 
  private:
+  void set_rate(int rate);
   std::int64_t correction_phase() const;   // its microticks, the correction included
 
   CycleGeometry geometry_;
+  Divisor macroticks_, late_macroticks_;   // of the cycle, and of its part from gOffsetCorrectionStart on
   std::int64_t first_, cycle_;
   Microticks start_{0};
   int rate_ = 0;
+  std::int64_t length_ = 0;                // of the cycle without offset correction [uT]
+  std::int64_t before_ = 0;                // of it, before gOffsetCorrectionStart
   int offset_ = 0;
 };
 

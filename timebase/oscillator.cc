@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "core/check.h"
+#include "timebase/floor_div.h"
 
 namespace ttf::timebase {
 namespace {
@@ -28,7 +29,7 @@ Oscillator::Oscillator(std::int64_t nominal_period_ps, std::int64_t drift_ppb, s
     : nominal_period_ps_(nominal_period_ps), changed_{kLongAgo}, changed_tick_{kLongAgo} {
   TTF_CHECK(nominal_period_ps > 1000, "period {} ps", nominal_period_ps);
   TTF_CHECK(phase_ps >= 0 && phase_ps < nominal_period_ps, "phase {} ps", phase_ps);
-  line_ = {period_as(nominal_period_ps, drift_ppb), phase_ps * kAttosecondsPerPicosecond};
+  line_ = Line(period_as(nominal_period_ps, drift_ppb), phase_ps * kAttosecondsPerPicosecond);
   before_ = line_;
 }
 
@@ -37,35 +38,57 @@ void Oscillator::change_drift(TrueTime now, std::int64_t drift_ppb) {
   const std::int64_t period = period_as(nominal_period_ps_, drift_ppb);
   const Microticks counted = line_.ticks_at(now);
   const Int128 at = static_cast<Int128>(now.ns) * kAttosecondsPerNanosecond;
-  const Int128 next = line_.phase_as + static_cast<Int128>(counted.value + 1) * line_.period_as;
+  const Int128 next = line_.attoseconds(counted + Microticks{1});
   // In (0, old period] before, so in (0, new period] after: neither a tick more nor one less has been counted by now.
-  const Int128 rest = ((next - at) * period + line_.period_as - 1) / line_.period_as;
+  const Int128 rest = ((next - at) * period + line_.period_as() - 1) / line_.period_as();
   // A second change at the same instant leaves the past as the first one found it.
   if (now > changed_) before_ = line_;
   changed_ = now;
   changed_tick_ = counted;
-  line_ = {period, at + rest - static_cast<Int128>(counted.value + 1) * period};
+  line_ = Line(period, at + rest - static_cast<Int128>(counted.value + 1) * period);
 }
 
 Microticks Oscillator::ticks_at(TrueTime t) const { return (t <= changed_ ? before_ : line_).ticks_at(t); }
 TrueTime Oscillator::time_of(Microticks k) const { return (k <= changed_tick_ ? before_ : line_).time_of(k); }
 
+Oscillator::Line::Line(std::int64_t period_as, Int128 phase_as)
+    : period_as_(period_as),
+      phase_as_(phase_as),
+      phase_ns_(static_cast<std::int64_t>(floor_div(phase_as, kAttosecondsPerNanosecond))),
+      period_ns_(period_as / kAttosecondsPerNanosecond),
+      period_rest_(static_cast<std::uint64_t>((static_cast<UInt128>(period_as % kAttosecondsPerNanosecond) << 64) /
+                                              kAttosecondsPerNanosecond)),
+      frequency_(static_cast<std::uint64_t>((static_cast<UInt128>(kAttosecondsPerNanosecond) << 64) /
+                                            static_cast<UInt128>(period_as))) {}
+
+// The estimates are off by a few ticks or nanoseconds at most, so the remainders fit 64 bits, whatever is lost above them.
 Microticks Oscillator::Line::ticks_at(TrueTime t) const {
-  const Int128 since = static_cast<Int128>(t.ns) * kAttosecondsPerNanosecond - phase_as;
-  const Int128 whole = since / period_as;
-  return {static_cast<std::int64_t>(since < 0 && whole * period_as != since ? whole - 1 : whole)};
+  const std::int64_t since = t.ns - phase_ns_;
+  if (since < 0)
+    return {static_cast<std::int64_t>(floor_div(static_cast<Int128>(t.ns) * kAttosecondsPerNanosecond - phase_as_, period_as_))};
+  auto k = static_cast<std::int64_t>((static_cast<UInt128>(since) * frequency_) >> 64);
+  auto rest = static_cast<std::int64_t>(static_cast<std::uint64_t>(t.ns) * kAttosecondsPerNanosecond -
+                                        static_cast<std::uint64_t>(phase_as_) -
+                                        static_cast<std::uint64_t>(k) * static_cast<std::uint64_t>(period_as_));
+  for (; rest < 0; rest += period_as_) --k;
+  for (; rest >= period_as_; rest -= period_as_) ++k;
+  return {k};
 }
 
 TrueTime Oscillator::Line::time_of(Microticks k) const {
-  const Int128 at = static_cast<Int128>(k.value) * period_as + phase_as;
-  const Int128 whole = at / kAttosecondsPerNanosecond;
-  return {static_cast<std::int64_t>(at > 0 && whole * kAttosecondsPerNanosecond != at ? whole + 1 : whole)};
+  if (k.value < 0) return {static_cast<std::int64_t>(-floor_div(-attoseconds(k), kAttosecondsPerNanosecond))};
+  std::int64_t ns = phase_ns_ + k.value * period_ns_ +
+                    static_cast<std::int64_t>((static_cast<UInt128>(k.value) * period_rest_) >> 64);
+  auto late = static_cast<std::int64_t>(static_cast<std::uint64_t>(ns) * kAttosecondsPerNanosecond -
+                                        static_cast<std::uint64_t>(phase_as_) -
+                                        static_cast<std::uint64_t>(k.value) * static_cast<std::uint64_t>(period_as_));
+  for (; late < 0; late += kAttosecondsPerNanosecond) ++ns;
+  for (; late >= kAttosecondsPerNanosecond; late -= kAttosecondsPerNanosecond) --ns;
+  return {ns};
 }
 
 LocalTime Oscillator::local_time(Microticks k) const {
-  const Int128 ps = static_cast<Int128>(k.value) * nominal_period_ps_;
-  const Int128 whole = ps / 1000;
-  return {static_cast<std::int64_t>(ps < 0 && whole * 1000 != ps ? whole - 1 : whole)};
+  return {static_cast<std::int64_t>(floor_div(static_cast<Int128>(k.value) * nominal_period_ps_, 1000))};
 }
 
 }  // namespace ttf::timebase

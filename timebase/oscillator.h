@@ -39,12 +39,25 @@ class Oscillator {
   std::int64_t nominal_period_ps() const { return nominal_period_ps_; }
 
  private:
-  // phase + k * period, in attoseconds of true time.
-  struct Line {
-    std::int64_t period_as = 0;
-    Int128 phase_as = 0;
+  // phase + k * period, in attoseconds of true time. Both conversions estimate their result by a multiplication and put it
+  // right by the remainder, which is exact: a division of 128 bits per conversion is what a simulation would spend its time on.
+  class Line {
+   public:
+    Line() = default;
+    Line(std::int64_t period_as, Int128 phase_as);
     Microticks ticks_at(TrueTime t) const;
     TrueTime time_of(Microticks k) const;
+    // phase + k * period
+    Int128 attoseconds(Microticks k) const { return phase_as_ + static_cast<Int128>(k.value) * period_as_; }
+    std::int64_t period_as() const { return period_as_; }
+
+   private:
+    std::int64_t period_as_ = 0;
+    Int128 phase_as_ = 0;
+    std::int64_t phase_ns_ = 0;          // rounded down
+    std::int64_t period_ns_ = 0;         // rounded down
+    std::uint64_t period_rest_ = 0;      // the rest of it, in units of 2^-64 ns, rounded down
+    std::uint64_t frequency_ = 0;        // ticks per ns, in units of 2^-64, rounded down
   };
 
   std::int64_t nominal_period_ps_;

@@ -26,6 +26,7 @@ schedules::Cluster full_cluster(int nodes) {
 struct Problems final : bus::ControllerEvents {
   int count = 0;
   void slot_problem(std::int64_t, int, schedules::Channel, bus::SlotStatus, Microticks) override { ++count; }
+  bool wants_bytes() const override { return false; }
 };
 
 void report(benchmark::State& state, const schedules::Cluster& cluster, int slots_per_cycle, std::int64_t cycles) {
@@ -34,7 +35,7 @@ void report(benchmark::State& state, const schedules::Cluster& cluster, int slot
                                                      benchmark::Counter::kIsRate);
 }
 
-void run(benchmark::State& state, const schedules::Cluster& cluster, int slots_per_cycle) {
+void run(benchmark::State& state, const schedules::Cluster& cluster, int slots_per_cycle, bool transparent = false) {
   std::vector<BusNode> nodes;
   std::vector<Problems> seen(cluster.nodes.size());
   std::vector<bus::ControllerEvents*> events;
@@ -48,6 +49,7 @@ void run(benchmark::State& state, const schedules::Cluster& cluster, int slots_p
     events.push_back(&seen[n]);
   }
   BusSimulation simulation(cluster, std::move(nodes), std::move(events));
+  simulation.medium().set_transparent(transparent);
   simulation.run_until(TrueTime{1'000'000} + cluster.cycle() * 10);
   constexpr std::int64_t kCycles = 20;
   for (auto _ : state) simulation.run_until(simulation.now() + cluster.cycle() * kCycles);
@@ -58,17 +60,23 @@ void run(benchmark::State& state, const schedules::Cluster& cluster, int slots_p
 
 void StaticSlots(benchmark::State& state) {
   const schedules::Cluster cluster = full_cluster(static_cast<int>(state.range(0)));
-  run(state, cluster, cluster.flexray.gNumberOfStaticSlots);
+  run(state, cluster, cluster.flexray.gNumberOfStaticSlots, state.range(1) != 0);
 }
-BENCHMARK(StaticSlots)->Arg(4)->Arg(16)->ArgName("nodes")->Unit(benchmark::kMicrosecond);
+BENCHMARK(StaticSlots)
+    ->ArgsProduct({{4, 16}, {0, 1}})
+    ->ArgNames({"nodes", "transparent"})
+    ->Unit(benchmark::kMicrosecond);
 
 // One slot per node, as in start-up tests and fault campaigns: what nobody owns costs nothing.
 void OneSlotPerNode(benchmark::State& state) {
   const int nodes = static_cast<int>(state.range(0));
   const schedules::Cluster cluster = bus_cluster(nodes, 3, nodes < 15 ? nodes : 15);
-  run(state, cluster, nodes);
+  run(state, cluster, nodes, state.range(1) != 0);
 }
-BENCHMARK(OneSlotPerNode)->Arg(4)->Arg(6)->Arg(16)->ArgName("nodes")->Unit(benchmark::kMicrosecond);
+BENCHMARK(OneSlotPerNode)
+    ->ArgsProduct({{4, 6, 16}, {0, 1}})
+    ->ArgNames({"nodes", "transparent"})
+    ->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace ttf::sim

@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <utility>
 #include <vector>
+
+#include "core/random.h"
 
 namespace ttf::sim {
 namespace {
@@ -34,6 +37,40 @@ TEST(EventQueue, RankIsBetweenNodeAndSequence) {
   queue.schedule(TrueTime{10}, Phase::kNode, 0, 5, 0);
   for (int expected = 0; expected < 6; ++expected) EXPECT_EQ(queue.pop(), expected);
   EXPECT_TRUE(queue.empty());
+}
+
+// Scheduled, popped and gone on with in any order, against a sorted list.
+TEST(EventQueue, TheSameAsASortedList) {
+  for (std::uint16_t seed = 0; seed < 50; ++seed) {
+    RandomStream draw({1, 0, Purpose::kTest, seed, 0});
+    EventQueue<int> queue(4);
+    std::vector<std::pair<EventOrder, int>> sorted;
+    TrueTime now{};
+    for (int i = 0; i < 2'000; ++i) {
+      ASSERT_EQ(queue.empty(), sorted.empty());
+      if (sorted.empty() || draw.integer(0, 99) < 50) {
+        const TrueTime at = now + Duration{draw.integer(0, 20)};
+        const auto phase = static_cast<Phase>(draw.integer(0, 3));
+        const auto node = static_cast<std::uint8_t>(draw.integer(0, 3));
+        const auto rank = static_cast<std::uint16_t>(draw.integer(0, 2));
+        const std::uint64_t sequence = queue.schedule(at, phase, node, i, rank);
+        sorted.push_back({{at, phase, node, rank, sequence}, i});
+        std::sort(sorted.begin(), sorted.end());
+        continue;
+      }
+      ASSERT_EQ(queue.next(), sorted.front().first);
+      ASSERT_EQ(queue.pop(), sorted.front().second);
+      auto [order, payload] = sorted.front();
+      now = order.time;
+      sorted.erase(sorted.begin());
+      if (draw.integer(0, 2) == 0) continue;
+      order.time = order.time + Duration{draw.integer(0, 20)};
+      order.node = 4;
+      queue.go_on(order, payload);
+      sorted.push_back({order, payload});
+      std::sort(sorted.begin(), sorted.end());
+    }
+  }
 }
 
 }  // namespace

@@ -1,0 +1,47 @@
+#include "timebase/divisor.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <limits>
+
+#include "core/int128.h"
+#include "core/random.h"
+#include "timebase/floor_div.h"
+
+namespace ttf::timebase {
+namespace {
+
+constexpr std::int64_t kLargest = std::numeric_limits<std::int64_t>::max();
+
+TEST(Divisor, IsTheDivisionAtEveryEdge) {
+  RandomStream draw({1, 0, Purpose::kTest, 11, 0});
+  for (int i = 0; i < 20'000; ++i) {
+    const std::int64_t d = i < 64 ? i + 1 : i == 64 ? kLargest : draw.integer(1, std::int64_t{1} << draw.integer(0, 61));
+    const Divisor divisor(d);
+    for (int j = 0; j < 20; ++j) {
+      const std::int64_t q = draw.integer(0, kLargest / d);
+      for (const std::int64_t x : {q * d, q * d - 1, q * d + 1, q * d + d / 2, kLargest, std::int64_t{0}}) {
+        if (x < 0) continue;
+        ASSERT_EQ(divisor.floor(x), x / d) << x << " / " << d;
+        if (x > kLargest - d) continue;
+        ASSERT_EQ(divisor.ceil(x), x / d + (x % d != 0)) << x << " / " << d;
+      }
+    }
+  }
+}
+
+TEST(FloorDiv, RoundsDownOnBothSidesOfZeroAndOf64Bits) {
+  EXPECT_EQ(static_cast<int>(floor_div(7, 2)), 3);
+  EXPECT_EQ(static_cast<int>(floor_div(-7, 2)), -4);
+  EXPECT_EQ(static_cast<int>(floor_div(-8, 2)), -4);
+  RandomStream draw({1, 0, Purpose::kTest, 12, 0});
+  for (int i = 0; i < 20'000; ++i) {
+    const std::int64_t b = draw.integer(1, kLargest);
+    const Int128 q = draw.integer(-kLargest, kLargest), rest = draw.integer(0, b - 1);
+    ASSERT_TRUE(floor_div(q * b + rest, b) == q);
+  }
+}
+
+}  // namespace
+}  // namespace ttf::timebase

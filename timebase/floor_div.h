@@ -1,0 +1,18 @@
+// Whole quotients of wide numbers.
+#pragma once
+
+#include <cstdint>
+
+#include "core/int128.h"
+
+namespace ttf::timebase {
+
+// The largest whole number at or below a / b, for b > 0. Where `a` fits 64 bits, which it nearly always does, no wide
+// division is made.
+constexpr Int128 floor_div(Int128 a, std::int64_t b) {
+  const auto narrow = static_cast<std::int64_t>(a);
+  if (narrow == a) return narrow / b - (narrow % b < 0 ? 1 : 0);
+  return a / b - (a % b < 0 ? 1 : 0);
+}
+
+}  // namespace ttf::timebase
