@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "nodes/believed_schedule.h"
 #include "nodes/catalog.h"
 #include "nodes/recorded.h"
 #include "recording/records/tee.h"
@@ -148,13 +149,22 @@ DriveOutcome run_drive(const DriveConfig& config, records::Sink& sink) {
     };
     simulation_config.cold = [&](NodeId node) { return starts[index_of(node)]; };
   }
+  const nodes::FaultPlan faults = nodes::resolve(scenario.faults, cluster);
+  const nodes::BelievedSchedules believed(faults, cluster);
+  simulation_config.view = [&](NodeId node) { return believed.of(node); };
   ClusterSimulation simulation(simulation_config, tee);
+  std::optional<Injector> injector;
+  if (!faults.empty()) {
+    injector.emplace(faults, cluster, simulation, config.seed, config.replication, tee, kFirstCycle);
+    simulation.set_disturbance(&*injector);
+  }
   simulation.run_until(drive_end(scenario));
 
   DriveOutcome outcome;
   outcome.precision = simulation.precision();
   outcome.counts = simulation.counts();
   outcome.frames_sent = simulation.frames_sent();
+  if (injector) outcome.faults.assign(injector->activations().begin(), injector->activations().end());
   const double elapsed = scenario.duration.seconds();
   outcome.flexray_load = simulation.flexray_busy().seconds() / elapsed;
   for (std::size_t b = 0; b < cluster.can_buses.size(); ++b)

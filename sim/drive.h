@@ -15,6 +15,7 @@
 #include "recording/records/records.h"
 #include "schedules/cluster.h"
 #include "sim/cluster_simulation.h"
+#include "sim/faults/injector.h"
 
 namespace ttf::sim {
 
@@ -34,13 +35,14 @@ struct DriveOutcome {
   double flexray_load = 0.0;          // share of the time in which the busier channel is taken
   std::vector<double> can_load;       // by Cluster::can_buses
   std::uint64_t frames_sent = 0;
+  std::vector<Injector::Activation> faults;   // by Scenario::faults
 };
 
 // Whether scenario and cluster take what they are given: a cluster with recorded sources needs a recording and nodes that begin
 // integrated, and any other has no use for a recording. Throws InputError; run_drive() asks it, too.
 void check_recording(const nodes::Scenario& scenario, const schedules::Cluster& cluster, bool given);
 
-// Runs the drive to its end. Throws InputError where scenario, cluster and code do not fit together.
+// Runs the drive to its end, with the scenario's faults; their times count from kFirstCycle. Throws InputError where scenario, cluster and code do not fit together.
 DriveOutcome run_drive(const DriveConfig& config, records::Sink& sink);
 
 // True time at which the drive (world or recording) starts in this cluster. In a cold one (nodes/startup.h) the world moves

@@ -1,5 +1,6 @@
 #include "tests/fuzz/scenario_laws.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -21,6 +22,16 @@ bool check_scenario(const std::string& text) {
   if (!accepted(kFile, [&] { scenario = nodes::parse_scenario(text, kFile); })) return false;
   TTF_CHECK(scenario.evaluate_from <= scenario.duration, "evaluated from {}, {} long", scenario.evaluate_from.ns,
             scenario.duration.ns);
+  for (const nodes::Fault& fault : scenario.faults.faults) {
+    TTF_CHECK(fault.from >= Duration{} && fault.from <= scenario.duration && fault.duration > Duration{}, "{} from {} for {}",
+              nodes::name_of(fault.kind), fault.from.ns, fault.duration.ns);
+    TTF_CHECK(fault.probability >= 0.0 && fault.probability <= 1.0 && fault.every >= 1 && fault.flips >= 1 &&
+                  fault.flips <= 24 && fault.shift >= Duration{-9'000} && fault.interval >= Duration{} &&
+                  std::is_sorted(fault.bits.begin(), fault.bits.end()),
+              "{}: {} of every {}, {} flips", nodes::name_of(fault.kind), fault.probability, fault.every, fault.flips);
+    TTF_CHECK(nodes::has_node(fault.kind) != fault.node_name.empty(), "{} of '{}'", nodes::name_of(fault.kind),
+              fault.node_name);
+  }
   scenario.world.duration = std::min(scenario.world.duration, kLongestDrawn);
   const nodes::WorldScene scene(scenario.world, scenario.seed, 0, TrueTime{});
   std::vector<world::ObjectState> states;

@@ -268,7 +268,7 @@ int main(int argc, char** argv) {
   fs::remove_all(folder);
   yaml_seeds(folder, "cluster", "schedules",
              {"paper_synchronised", "paper_unsynchronised", "laser_radar", "laser_radar_synchronised"});
-  yaml_seeds(folder, "scenario", "scenarios", {"paper_scenario1", "paper_scenario2", "laser_radar_recorded"});
+  yaml_seeds(folder, "scenario", "scenarios", {"paper_scenario1", "paper_scenario2", "laser_radar_recorded", "faulty_bus"});
   fibex_seeds(folder);
   recorded_seeds(folder);
   frame_seeds(folder);

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <set>
 #include <string>
@@ -84,6 +86,21 @@ TEST(FaultPlan, EveryKindHasANameOfItsOwnAndAnEntryHere) {
     EXPECT_TRUE(kFullEntries.contains(std::string(name_of(kind)))) << name_of(kind);
   }
   EXPECT_EQ(names.size(), 17U);
+}
+
+TEST(FaultPlan, EveryKindAndItsKeysAreDocumented) {
+  std::ifstream file(std::string(TTF_SOURCE_DIR) + "/docs/faults.md");
+  const std::string text((std::istreambuf_iterator<char>(file)), {});
+  for (const auto& [kind, keys] : kFullEntries) {
+    const auto row = text.find("\n| `" + kind + "` |");
+    ASSERT_NE(row, std::string::npos) << kind;
+    const std::string line = text.substr(row + 1, text.find('\n', row + 1) - row);
+    for (const std::string& entry : keys) {
+      const std::string key = entry.substr(0, entry.find(':'));
+      const bool common = text.find("\n| `" + key + "` |") != std::string::npos;
+      EXPECT_TRUE(common || line.find('`' + key) != std::string::npos) << kind << " has " << key;
+    }
+  }
 }
 
 TEST(FaultPlan, EveryKeyOfEveryKindIsReadAndNoOtherIsTaken) {
