@@ -30,6 +30,7 @@ struct Told final : records::Sink {
   };
   std::vector<Change> changes;
   std::vector<Symbol> symbols;
+  std::vector<std::int64_t> powered;   // us
   int of_the_cluster = 0;   // records with a global time of their own
 
   using records::Sink::on;
@@ -37,6 +38,10 @@ struct Told final : records::Sink {
     changes.push_back({r.stamp.true_time.ns / 1000, r.from, r.to, std::string(r.from_name), std::string(r.to_name),
                        std::string(r.why), std::string(r.consequence)});
     of_the_cluster += r.stamp.global.ns != r.stamp.local.ns ? 1 : 0;
+  }
+  void on(const records::PowerChanged& r) override {
+    EXPECT_TRUE(r.on);
+    powered.push_back(r.stamp.true_time.ns / 1000);
   }
   void on(const records::SymbolSent& r) override {
     symbols.push_back({r.stamp.true_time.ns / 1000, r.end.true_time.ns / 1000, r.channel, r.kind});
@@ -51,10 +56,11 @@ struct ColdNode {
   Told told;
   std::unique_ptr<Executive> executive;
 
-  explicit ColdNode(std::optional<bus::InitialClock> clock = std::nullopt) {
+  explicit ColdNode(std::optional<bus::InitialClock> clock = std::nullopt, ColdStart cold = ColdStart::kStarts,
+                    Duration boots = {}) {
     cluster.flexray.gColdStartAttempts = 2;
     cluster.nodes[0].flexray->pdListenTimeout = 2 * (bus::kMicroPerCycle + 121);
-    const ExecutiveConfig config{&cluster, NodeId{0}, timebase::Oscillator(25'000, 0, 0), clock, 1, 0, {}};
+    const ExecutiveConfig config{&cluster, NodeId{0}, timebase::Oscillator(25'000, 0, 0), clock, 1, 0, {}, cold, boots};
     executive = std::make_unique<Executive>(config, std::vector<std::shared_ptr<Step>>{}, &port,
                                             std::vector<bus::CanPort*>{}, lines, told);
   }
@@ -106,6 +112,55 @@ TEST(ExecutiveStartup, WhatHappensBeforeNormalOperationHasLocalTimeForGlobalTime
   ColdNode node;
   node.run_to(60'000);
   EXPECT_EQ(node.told.of_the_cluster, 0);
+}
+
+bus::Reception heard_until(std::int64_t us, bus::Signal signal) {
+  return {schedules::Channel::kA, signal, {40 * (us - 50)}, {40 * us}, {}};
+}
+
+// Two patterns of 60 bits and 180 idle ones, 48 us, after the listen timeout of 2006 us; then start-up, which listens anew.
+TEST(ExecutiveStartup, WhoWakesSendsThePatternOnOneChannelAndStartsUpAfterwards) {
+  ColdNode node(std::nullopt, ColdStart::kWakes);
+  node.run_to(4'500);
+  ASSERT_EQ(node.told.symbols.size(), 3u);
+  EXPECT_EQ(node.told.symbols[0], (Told::Symbol{2'006, 2'054, 0, records::kSymbolWakeup}));
+  EXPECT_EQ(node.told.symbols[1].start, 2'054 + 2'006);
+  EXPECT_EQ(node.told.symbols[1].kind, records::kSymbolCas);
+  std::vector<std::string> states;
+  for (const Told::Change& change : node.told.changes) states.push_back(change.to_name);
+  EXPECT_EQ(states, (std::vector<std::string>{"config", "ready", "wakeup listen", "wakeup send", "ready", "coldstart listen",
+                                              "coldstart collision resolution"}));
+}
+
+// Somebody else's pattern ends a wake-up as well as its own.
+TEST(ExecutiveStartup, WhoWakesStartsUpAtOnceWhenSomebodyElseWasFaster) {
+  ColdNode node(std::nullopt, ColdStart::kWakes);
+  node.run_to(1'000);
+  node.executive->receive(heard_until(1'000, bus::Signal::kWakeup));
+  ASSERT_EQ(node.told.changes.size(), 5u);
+  EXPECT_EQ(node.told.changes[3].why, "somebody else sent a wake-up pattern first");
+  EXPECT_EQ(node.told.changes[4].to_name, "coldstart listen");
+  EXPECT_EQ(node.told.changes[4].at, 1'000);
+}
+
+TEST(ExecutiveStartup, WhoSleepsHearsNothingButAWakeupPattern) {
+  ColdNode node(std::nullopt, ColdStart::kSleeps, Duration::milliseconds(3));
+  node.executive->receive(heard_until(100, bus::Signal::kCas));
+  node.executive->receive(heard_until(300, bus::Signal::kUndecodable));
+  node.executive->command(bus::PocEventKind::kConfig, {40 * 400});
+  node.run_to(20'000);
+  EXPECT_TRUE(node.told.changes.empty());
+  EXPECT_EQ(node.executive->clock(), nullptr);
+
+  node.executive->receive(heard_until(20'000, bus::Signal::kWakeup));
+  node.executive->receive(heard_until(21'000, bus::Signal::kWakeup));
+  node.run_to(22'999);
+  EXPECT_TRUE(node.told.powered.empty());
+  node.run_to(24'000);
+  EXPECT_EQ(node.told.powered, std::vector<std::int64_t>{23'000}) << "3 ms after the first pattern";
+  ASSERT_EQ(node.told.changes.size(), 3u);
+  EXPECT_EQ(node.told.changes[2].to_name, "coldstart listen");
+  EXPECT_EQ(node.told.changes[2].at, 23'000);
 }
 
 TEST(ExecutiveStartup, ANodeThatBeginsIntegratedHasNothingToReport) {

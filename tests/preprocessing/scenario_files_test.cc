@@ -36,7 +36,8 @@ TEST(ScenarioFiles, EveryShippedOneLoadsAndItsClustersAreThere) {
       EXPECT_TRUE(std::filesystem::exists(cluster)) << cluster;
     EXPECT_EQ(scenario.cluster_files[0], scenario.cluster_files[1])
         << "BUFF and ADVA share their configuration";
-    EXPECT_NE(scenario.cluster_files[0], scenario.cluster_files[2]);
+    // Drives that compare the strategies give TT a schedule of its own; what starts up is one cluster.
+    EXPECT_EQ(scenario.cluster_files[0] == scenario.cluster_files[2], scenario.startup.cold);
   }
 }
 
