@@ -66,17 +66,20 @@ GuardianAnswer StartupTurns::judge(const GuardianSignal& signal) const {
                                                 : lengths_.frame(cluster_.flexray.gPayloadLengthStatic))};
 }
 
-bool StartupTurns::forwarded(const GuardianSignal& signal) {
+bool StartupTurns::forwarded(const GuardianSignal& signal, bool has_schedule) {
   if (signal.signal == Signal::kWakeup) {
     may_wake_[index_of(signal.branch)] = signal.start + cycles(kWaitCycles);
     return false;
   }
-  const bool begins = !leads(signal.start);
+  const bool begins = !has_schedule && !leads(signal.start);
   if (begins) {
     if (leader_ != kNoNode) may_lead_[index_of(leader_)] = lead_end_ + cycles(kWaitCycles);
     leader_ = signal.branch;
     lead_begin_ = signal.start;
+    frames_ = signal.signal == Signal::kCas ? 0 : kOutOfOrder;
   }
+  if (signal.signal == Signal::kFrame && signal.branch == leader_) count_frame(signal.frame->header);
+  if (has_schedule) return false;
   next_frame_ = signal.signal == Signal::kFrame ? signal.start + cycle_ - slack_ : signal.start;
   // After the symbol, the frame of cycle 0 comes within the static segment.
   const Microticks silence = cycle_ + slack_ + (signal.signal == Signal::kCas ? lengths_.symbol() : Microticks{});
@@ -84,9 +87,15 @@ bool StartupTurns::forwarded(const GuardianSignal& signal) {
   return begins;
 }
 
+void StartupTurns::count_frame(const wire::FrameHeader& header) {
+  if (header.startup && frames_ != kOutOfOrder) frames_ = header.cycle == frames_ ? frames_ + 1 : kOutOfOrder;
+}
+
 void StartupTurns::schedule_dropped(Microticks at) {
   if (leader_ == kNoNode) return;
-  may_lead_[index_of(leader_)] = at + cycles(kWaitCycles);
+  // With the end of cycle 4.
+  const bool as_it_should = frames_ == kFramesOfALead;
+  may_lead_[index_of(leader_)] = at + (as_it_should ? cycle_ - slack_ : cycles(kWaitCycles));
   leader_ = kNoNode;
 }
 

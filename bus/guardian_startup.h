@@ -10,13 +10,14 @@
 //   S3  a lead fails if no frame comes for a cycle, if there is no schedule after kLeadCycles of it, or if the guardian's
 //       controller drops the schedule it took before it is synchronised. Who led waits for kWaitCycles until it may lead again,
 //       and follows others meanwhile (bus/guardian.h G1, G8)
-//   S4  kWaitCycles is more than the others need: at most two cycles to give up what they followed, two to listen, four for
-//       a new leader to be alone, one of them for the guardian to have its schedule
+//   S4  but who led as it should, with its symbol and the startup frames of cycles 0 to 4, and was alone, waits for the silent cycle
+//       that follows and no longer: who listened would have joined it in cycle 4, and who did not listen yet shall hear the
+//       next symbol. Sooner it could keep those who gave up the last attempt from ever hearing a cycle 0
 //   S5  a wake-up pattern is forwarded on the node's wake-up channel, once in kWaitCycles for each node, and not during a lead
 //   S6  nothing else, and nothing longer than it may be
-// So one faulty node spoils at most one lead in kWaitCycles on each channel, and the fault-free coldstart nodes, two at least, have the
-// rest. A node alone with its attempts loses two of three of them to the wait: nobody is there to hear them, and
-// who comes meanwhile hears silence, and leads itself.
+// kWaitCycles is more than the others need: at most two cycles to give up what they followed, two to listen, and four for a new
+// leader to be alone. So one faulty node spoils at most one lead in kWaitCycles on each channel, and the fault-free
+// coldstart nodes, two at least, have the rest.
 #pragma once
 
 #include <cstdint>
@@ -34,8 +35,8 @@ class StartupTurns {
 
   // Of a signal at a time when the guardian has no schedule. Nothing changes.
   GuardianAnswer judge(const GuardianSignal& signal) const;
-  // It is forwarded. True: a new lead begins with it.
-  bool forwarded(const GuardianSignal& signal);
+  // It is forwarded, with or without a schedule. True: a new lead begins with it, which only happens without.
+  bool forwarded(const GuardianSignal& signal, bool has_schedule);
 
   // What became of the lead, from the guardian's controller: a schedule dropped again at `at`, or the cluster started.
   void schedule_dropped(Microticks at);
@@ -47,6 +48,10 @@ class StartupTurns {
   NodeId leader() const { return leader_; }
 
  private:
+  static constexpr int kOutOfOrder = -1;
+  static constexpr int kFramesOfALead = 5;
+
+  void count_frame(const wire::FrameHeader& header);
   bool leads(Microticks at) const { return leader_ != kNoNode && at < lead_end_; }
   Microticks waits_until(NodeId node, Microticks at) const;
   Microticks cycles(int count) const { return cycle_ * count; }
@@ -57,6 +62,7 @@ class StartupTurns {
   Microticks cycle_, slack_;             // what a clock may be off in a cycle, twice, and an action point offset
   NodeId leader_ = kNoNode;
   Microticks lead_begin_{}, lead_end_{}, next_frame_{};
+  int frames_ = 0;                       // of a lead that began with a symbol, of cycles 0, 1, ... ; kOutOfOrder for any other
   std::vector<Microticks> may_lead_, may_wake_;   // by NodeId: from then on
 };
 

@@ -65,9 +65,10 @@ FlexRayMedium::Way FlexRayMedium::make_way(Channel channel, std::optional<NodeId
 }
 
 std::int64_t FlexRayMedium::branch_ps(NodeId node) const {
-  const int steps = 2 * ends_ - 1;   // of the two longest branches together
-  const std::int64_t longer = steps <= 0 ? 0 : (max_delay_ps_ - min_delay_ps_) * position_[index_of(node)] / steps;
-  return min_delay_ps_ / 2 + longer;
+  const int steps = ends_ - 1;   // to the two longest
+  const std::int64_t longer = steps <= 0 ? max_delay_ps_ - min_delay_ps_
+                                         : (max_delay_ps_ - min_delay_ps_) * std::min(position_[index_of(node)], steps) / steps;
+  return (min_delay_ps_ + longer) / 2;
 }
 
 Duration FlexRayMedium::branch(NodeId node) const { return {(branch_ps(node) + 999) / 1000}; }

@@ -7,9 +7,8 @@
 // Bit-true, it carries frames as bytes, which every frame is encoded to and decoded from, CRCs and all. Transparent, it carries
 // what they say, and bytes only where a disturbance or a coupler may look at them: all that anybody receives is the same.
 //
-// Or a star: every node on a branch of its own, each longer than the one before, the first of half gdMinPropagationDelay and the
-// last two together of gdMaxPropagationDelay. Without a coupler in its middle a star forwards everything, and is a bus but
-// for the delays.
+// Or a star: every node on a branch of its own, from half gdMinPropagationDelay for the first to half gdMaxPropagationDelay for the
+// last two. Without a coupler in its middle a star forwards everything, and is a bus but for the delays.
 #pragma once
 
 #include <array>

@@ -183,7 +183,7 @@ bool StarCoupler::pass(Leaving& signal, const wire::DecodedFrame* frame) {
   if (told_ && (cut || !answer.forwards()))
     told_({signal.start, signal.sender, channel_, signal.signal, answer.reason, until});
   if (!answer.forwards()) return false;
-  if (!controller_->clock() && turns_.forwarded(asked)) lead_begins();
+  if (turns_.forwarded(asked, controller_->clock().has_value())) lead_begins();
   if (cut) {
     signal.end = until;
     signal.signal = Signal::kUndecodable;

@@ -2,8 +2,9 @@
 // supply; what leaves in its name is made here.
 #pragma once
 
+#include <algorithm>
 #include <array>
-#include <string_view>
+#include <initializer_list>
 #include <vector>
 
 #include "bus/wire/flexray_frame.h"
@@ -23,10 +24,14 @@ class StartSpoiler final : public Disturbance {
     kReactive,       // a symbol or a header as soon as another leads
     kSplit,          // leads on one channel, then on the other
     kWakeup,         // wake-up patterns, and leads
+    kNoSilentCycle,  // leads for five cycles, and begins anew without the silent one
+    kFromTheMiddle,  // startup frames of cycles 2, 3, 4, a silent cycle, and again
+    kOneOfTwo,       // every other attempt is led as it should be, in between one ends early
     kAnything,
   };
   static constexpr std::array kPlans = {Plan::kBabble,     Plan::kSymbols,  Plan::kFalseLeader, Plan::kEvenCycles, Plan::kMasquerade,
-                                        Plan::kReactive,   Plan::kSplit,    Plan::kWakeup,      Plan::kAnything};
+                                        Plan::kReactive,   Plan::kSplit,    Plan::kWakeup,      Plan::kNoSilentCycle,
+                                        Plan::kFromTheMiddle, Plan::kOneOfTwo, Plan::kAnything};
 
   StartSpoiler(BusSimulation& simulation, const schedules::Cluster& cluster, Plan plan, std::uint64_t seed)
       : simulation_(simulation), cluster_(cluster), plan_(plan), draw_({seed, 0, Purpose::kTest, 7, 0}) {
@@ -76,6 +81,11 @@ class StartSpoiler final : public Disturbance {
           lead(now, 5);
         }
         break;
+      case Plan::kNoSilentCycle: follow_plan(now, {-1, 0, 1, 2, 3, 4}, kCycle / 50); break;
+      case Plan::kFromTheMiddle: follow_plan(now, {2, 3, 4}, 2 * kCycle); break;
+      case Plan::kOneOfTwo:
+        follow_plan(now, {-1, 0, 1, 2, 3, 4, kPause, -1, 0, 1, 2}, draw_.integer(2, 4) * kCycle);
+        break;
       case Plan::kAnything: anything(now); break;
     }
   }
@@ -83,6 +93,7 @@ class StartSpoiler final : public Disturbance {
  private:
   static constexpr NodeId kSelf{0};
   static constexpr std::int64_t kCycle = 5'000'000;
+  static constexpr int kPause = -2;
 
   template <class Act>
   void both_or_one(Act act) {
@@ -130,6 +141,15 @@ class StartSpoiler final : public Disturbance {
     on_channels([&](auto channel) { frame(channel, now, 1, cycle_ % 64); });
     ++cycle_;
     next_ = now + Duration{--cycles_left_ > 0 ? kCycle : draw_.integer(1'000'000, 3 * kCycle)};
+  }
+  // Symbol (-1), frames of these cycles in a cycle's distance, and a pause behind the last.
+  void follow_plan(TrueTime now, std::initializer_list<int> cycles, std::int64_t pause) {
+    which_ = 0;
+    const int what = cycles.begin()[cycle_];
+    if (what == -1) on_channels([&](auto channel) { symbol(bus::Signal::kCas, channel, now); });
+    if (what >= 0) on_channels([&](auto channel) { frame(channel, now, 1, what); });
+    cycle_ = (cycle_ + 1) % static_cast<int>(cycles.size());
+    next_ = now + Duration{what == -1 ? 3'900 + 1'000 + 7'000 : cycle_ == 0 ? pause : kCycle};
   }
   template <class Act>
   void on_channels(Act act) {
