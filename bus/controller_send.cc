@@ -47,11 +47,6 @@ void FlexRayController::State::send_static(Microticks at) {
       send_frame(slot, channel, at, end, content, null_frame, content.last && channel == last_channel);
 }
 
-std::size_t FlexRayController::State::preamble_bytes(const FrameSlot& slot) const {
-  if (slot.message_id) return schedules::kMessageIdBytes;
-  return slot.network_management ? network_management.own().size() : 0;
-}
-
 void FlexRayController::State::send_frame(const FrameSlot& slot, Channel channel, Microticks at, Microticks end,
                                           const Cni::Fragment& content, bool null_frame, bool last) {
   const bool is_static = slot.slot <= g.gNumberOfStaticSlots;

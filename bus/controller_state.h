@@ -114,7 +114,9 @@ struct FlexRayController::State {
   void send_static(Microticks at);
   void plan_dynamic(schedules::Channel channel, Microticks now);
   void send_dynamic(schedules::Channel channel, Microticks at);
-  std::size_t preamble_bytes(const schedules::FrameSlot& slot) const;   // in front of the fragment
+  std::size_t preamble_bytes(const schedules::FrameSlot& slot) const {
+    return static_cast<std::size_t>(schedules::preamble_bytes(g, slot));
+  }
   void send_frame(const schedules::FrameSlot& slot, schedules::Channel channel, Microticks at, Microticks end,
                   const Cni::Fragment& content, bool null_frame, bool last);
   void send_symbol(Signal signal, schedules::Channel channel, Microticks at, Microticks end);

@@ -54,6 +54,10 @@ inline constexpr int kMessageIdBytes = 2;
 constexpr bool is_dynamic(const GlobalParameters& flexray, const FrameSlot& frame) {
   return frame.slot > flexray.gNumberOfStaticSlots;
 }
+// In front of the fragment: network management vector or message id.
+constexpr int preamble_bytes(const GlobalParameters& flexray, const FrameSlot& frame) {
+  return frame.message_id ? kMessageIdBytes : frame.network_management ? flexray.gNetworkManagementVectorLength : 0;
+}
 // Whether both have their turn in some of the same cycles; whether some channel is in both sets.
 bool share_a_cycle(const FrameSlot& a, const FrameSlot& b);
 constexpr bool share_a_channel(Channels a, Channels b) { return (static_cast<unsigned>(a) & static_cast<unsigned>(b)) != 0; }

@@ -203,13 +203,12 @@ class Exporter {
       pugi::xml_node instance = one.append_child("fx:PDU-INSTANCES").append_child("fx:PDU-INSTANCE");
       instance.append_attribute("ID") = fmt::format("pdu_instance_{}", i).c_str();
       put_reference(instance, "fx:PDU-REF", fibex_pdu_id(frame.pdu));
-      // Behind the vector.
-      const int vector = frame.network_management ? cluster_.flexray.gNetworkManagementVectorLength : 0;
-      put(instance, "fx:BIT-POSITION", std::to_string(8 * vector));
+      put(instance, "fx:BIT-POSITION", std::to_string(8 * preamble_bytes(cluster_.flexray, frame)));
       put(instance, "fx:IS-HIGH-LOW-BYTE-ORDER", "false");
       pugi::xml_node extension = one.append_child("fx:MANUFACTURER-EXTENSION");
       put(extension, "ttf:FRAGMENT", std::to_string(frame.fragment));
       if (frame.network_management) put(extension, "ttf:NETWORK-MANAGEMENT", "true");
+      if (frame.message_id) put(extension, "ttf:MESSAGE-ID", std::to_string(*frame.message_id));
     }
   }
 

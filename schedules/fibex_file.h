@@ -65,8 +65,9 @@ struct FibexFrame {
   std::string id, name;
   int bytes = 0;
   std::vector<Place> places;
-  std::optional<int> fragment;     // these two of our own extension
+  std::optional<int> fragment;     // these three of our own extension
   bool network_management = false;
+  std::optional<int> message_id = std::nullopt;
   int line = 0;
 };
 

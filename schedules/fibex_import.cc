@@ -209,7 +209,11 @@ class Importer {
     std::string contents;
     const bool dynamic = is_dynamic(out_.cluster.flexray, out);
     out.network_management = frame.network_management && !dynamic;
-    const int vector = out.network_management ? out_.cluster.flexray.gNetworkManagementVectorLength : 0;
+    if (dynamic && frame.message_id) out.message_id = static_cast<std::uint16_t>(*frame.message_id);
+    const int front = preamble_bytes(out_.cluster.flexray, out);
+    if (!dynamic && frame.message_id)
+      leave_out(frame.line, "ttf:MESSAGE-ID", std::to_string(*frame.message_id),
+                "is left out: message ids are sent in the dynamic segment");
     if (!dynamic && frame.bytes > 2 * out_.cluster.flexray.gPayloadLengthStatic)
       fail(frame.line, "fx:FRAME", std::to_string(frame.bytes),
            fmt::format("must have a BYTE-LENGTH of at most {}, the static payload",
@@ -221,7 +225,7 @@ class Importer {
         continue;
       }
       const auto list = lists_.find(place.pdu);
-      if (list != lists_.end() && place.byte == vector && frame.places.size() == 1)
+      if (list != lists_.end() && place.byte == front && frame.places.size() == 1)
         take_fragment(frame, list->second, out);
       else
         contents +=

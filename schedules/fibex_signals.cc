@@ -303,6 +303,8 @@ std::vector<FibexFrame> read_frames(XmlElement& elements, FibexReader& reader) {
     if (auto extension = element.child("fx:MANUFACTURER-EXTENSION")) {
       if (extension->has("ttf:FRAGMENT")) frame.fragment = reader.integer(*extension, "ttf:FRAGMENT", 0, 255);
       frame.network_management = reader.boolean(*extension, "ttf:NETWORK-MANAGEMENT", false);
+      if (extension->has("ttf:MESSAGE-ID"))
+        frame.message_id = reader.integer(*extension, "ttf:MESSAGE-ID", 0, 65535);
       extension->finish();
     }
     element.finish();

@@ -207,6 +207,7 @@ class Writer {
         if (first.fragment != 0) text += fmt::format(", first_fragment: {}", first.fragment);
       }
       if (first.network_management) text += ", network_management: true";
+      if (first.message_id) text += fmt::format(", message_id: {}", *first.message_id);
       text += "}";
       if (!in_.contents[i].empty()) text += comment("   # " + in_.contents[i]);
       line(text);

@@ -37,7 +37,7 @@ Macroticks minislot_start(const GlobalParameters& g, std::int64_t minislot) {
 
 int dynamic_words(const Cluster& cluster, const FrameSlot& frame) {
   return frame.pdu == kNoPdu
-             ? 0 : ((frame.message_id ? kMessageIdBytes : 0) + cluster.pdu(frame.pdu).fragment_bytes + 1) / 2;
+             ? 0 : (preamble_bytes(cluster.flexray, frame) + cluster.pdu(frame.pdu).fragment_bytes + 1) / 2;
 }
 
 int longest_dynamic_words(const Cluster& cluster, NodeId sender) {

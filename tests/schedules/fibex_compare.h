@@ -93,9 +93,10 @@ class FibexDifference {
   }
 
   static std::string frame_text(const Cluster& cluster, const FrameSlot& frame) {
-    return fmt::format("slot {} channels {} cycle {} of {} by {}{}: {} {}", frame.slot,
+    return fmt::format("slot {} channels {} cycle {} of {} by {}{}{}: {} {}", frame.slot,
                        static_cast<int>(frame.channels), frame.base_cycle, frame.repetition,
                        cluster.node(frame.sender).name, frame.network_management ? " with vector" : "",
+                       frame.message_id ? fmt::format(" as message {}", *frame.message_id) : "",
                        frame.pdu == kNoPdu ? "status" : cluster.pdu(frame.pdu).name, frame.fragment);
   }
 

@@ -129,6 +129,7 @@ TEST(FibexRoundTrip, KeepsRandomSchedules) {
           frame.pdu = static_cast<PduId>(below(static_cast<int>(cluster.pdus.size())));
           frame.fragment = below(cluster.pdu(frame.pdu).max_fragments());
         }
+        if (dynamic && below(3) == 0) frame.message_id = static_cast<std::uint16_t>(below(65536));
         cluster.frames.push_back(frame);
         if (frame.channels != Channels::kA || dynamic) continue;
         // The other channel of the same slot is someone else's.
