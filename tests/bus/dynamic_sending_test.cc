@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/random.h"
+#include "schedules/minislots.h"
 #include "tests/bus/dynamic_cluster.h"
 
 namespace ttf::bus {
@@ -45,6 +46,10 @@ TEST(DynamicSegment, TheLowerIdentifierGoesFirstAndTheOthersWaitForItsEnd) {
     minislots.push_back((macrotick - kSegment) / 5 + 1);
   }
   EXPECT_EQ(minislots, (std::vector<std::int64_t>{1, 7, 13}));
+  // As the schedule's analysis has it, whose bound this reaches.
+  const auto& frames = rig.cluster().frames;
+  for (std::size_t node = 0; node < 3; ++node)
+    EXPECT_EQ(schedules::latest_turn(rig.cluster(), frames[frames.size() - 3 + node]), minislots[node]);
 }
 
 TEST(DynamicSegment, WhatDoesNotFitWaitsForTheNextCycle) {

@@ -7,11 +7,12 @@
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace ttf::fuzz;
-  static const std::array<Shipped, 4> kFiles{
+  static const std::array<Shipped, 5> kFiles{
       {{"paper_synchronised", shipped("schedules/paper_synchronised.yaml")},
        {"paper_unsynchronised", shipped("schedules/paper_unsynchronised.yaml")},
        {"laser_radar", shipped("schedules/laser_radar.yaml")},
-       {"laser_radar_synchronised", shipped("schedules/laser_radar_synchronised.yaml")}}};
+       {"laser_radar_synchronised", shipped("schedules/laser_radar_synchronised.yaml")},
+       {"flexray_demo", shipped("schedules/flexray_demo.yaml")}}};
   check_cluster(edited(kFiles, text_of(data, size)));
   return 0;
 }

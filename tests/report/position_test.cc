@@ -162,7 +162,7 @@ TEST(SchedulePicture, ShowsSlotsTasksAndMultiplexing) {
 
 TEST(SchedulePicture, DrawsEveryShippedClusterLegibly) {
   for (const char* name :
-       {"paper_unsynchronised", "paper_synchronised", "laser_radar", "laser_radar_synchronised"}) {
+       {"paper_unsynchronised", "paper_synchronised", "laser_radar", "laser_radar_synchronised", "flexray_demo"}) {
     SCOPED_TRACE(name);
     const std::string svg =
         schedule_svg(schedules::load_cluster(std::string(TTF_SOURCE_DIR) + "/schedules/" + name + ".yaml"));

@@ -1,0 +1,48 @@
+// Measurements whose lists travel in the dynamic segment: drives of the cluster that sends them there, against the bounds.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+
+#include "schedules/ages.h"
+#include "tests/sim/drive_fixture.h"
+
+namespace ttf {
+namespace {
+
+using fusion::StrategyKind;
+
+struct FusedAges final : records::Sink {
+  using records::Sink::on;
+  std::map<SensorId, std::vector<Duration>> ages;
+  void on(const records::ListFused& list) override {
+    if (list.disposition == records::Disposition::kFused || list.disposition == records::Disposition::kFusedLate)
+      ages[list.id.sensor].push_back(list.stamp.global - list.measured);
+  }
+};
+
+TEST(DynamicAges, ListsInTheDynamicSegmentAreFusedWithinTheirBounds) {
+  for (const StrategyKind strategy : {StrategyKind::kBuff, StrategyKind::kAdva}) {
+    testing_support::Drive drive("scenarios/paper_scenario1.yaml", strategy);
+    drive.cluster = schedules::load_checked_cluster(testing_support::shipped("schedules/flexray_demo.yaml"));
+    FusedAges fused;
+    constexpr std::uint64_t kDrives = 15;
+    for (std::uint64_t seed = 1; seed <= kDrives; ++seed) drive.run(fused, seed);
+    const auto paths = schedules::measurement_ages(drive.cluster);
+    ASSERT_EQ(paths.size(), 2u);
+    for (const schedules::AgePath& path : paths) {
+      SCOPED_TRACE(drive.cluster.sensor(path.sensor).name);
+      const auto& ages = fused.ages[path.sensor];
+      ASSERT_GT(ages.size(), kDrives * 30);
+      const auto [best, worst] = std::minmax_element(ages.begin(), ages.end());
+      const Duration bound = strategy == StrategyKind::kBuff ? path.buffered_fused_worst : path.fused_worst;
+      EXPECT_GE(*best, path.fused_best);
+      EXPECT_LE(*worst, bound);
+      // No empty promise: within a fusion period and what preprocessing may differ by.
+      EXPECT_GT(*worst, bound - Duration::milliseconds(20));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ttf
