@@ -11,8 +11,8 @@
 //   slot      41  42  42  42  42  42  43  44     point of 5), minislot 6 is idle (gdDynamicSlotIdlePhase 1)
 // clang-format on
 //
-// Cluster files cannot use it yet: the loader and the checker know static slots only. A designer of frames by hand keeps
-// pLatestTx so that the longest frame ends within the segment.
+// pLatestTx must be such that the longest frame ends within the segment: schedules/checker.h sees to it in cluster files, a
+// designer of frames by hand keeps schedules/minislots.h.
 #pragma once
 
 #include "core/time.h"
