@@ -165,7 +165,8 @@ void FlexRayController::State::tell_slot_problems(Microticks at) {
       const auto c = index_of(channel);
       const Seen& status = seen[static_cast<std::size_t>(slot - 1)];
       std::uint8_t errors = status.errors[c];
-      if (errors == 0 && !status.valid[c] && slots.expected(slot, now, channel) != nullptr) errors = kNoFrame;
+      if (errors == 0 && !status.valid[c] && includes(p.pChannels, channel) && slots.expected(slot, now, channel) != nullptr)
+        errors = kNoFrame;
       if (errors != 0) events.slot_problem(clock->cycle(), slot, channel, static_cast<SlotStatus>(errors), at);
     }
 }

@@ -9,6 +9,7 @@
 
 #include "report/axes.h"
 #include "report/names.h"
+#include "schedules/dynamic_load.h"
 #include "schedules/minislots.h"
 
 namespace ttf::report {
@@ -162,23 +163,32 @@ class Painter {
       }
     }
     double at = g.gNumberOfStaticSlots * static_cast<double>(g.gdStaticSlot);
-    const auto segment = [&](double length, const char* name, std::string_view fill) {
+    // Its name stands in the middle of what is free of it.
+    const auto segment = [&](double length, const char* name, std::string_view fill, double taken = 0) {
       if (length <= 0) return;
       const double left = x(at), width = x(at + length) - left;
       svg_->rect({left, top, width, kSlotLane}, {.fill = fill, .stroke = "#666666", .width = 0.5},
                  fmt::format("{}: {} MT", name, number(length)), "segment");
-      if (width > text_width(name, 10) + 6)
-        svg_->text({left + width / 2, top + kSlotLane / 2 + 4}, name,
+      const double free = x(at + taken), room = left + width - free;
+      if (room > text_width(name, 10) + 6)
+        svg_->text({free + room / 2, top + kSlotLane / 2 + 4}, name,
                    {.size = 10, .anchor = Anchor::kMiddle});
-      else if (width > 11)
-        svg_->text({left + width / 2 + 4, top + kSlotLane / 2}, name,
+      else if (room > 11)
+        svg_->text({free + room / 2 + 4, top + kSlotLane / 2}, name,
                    {.size = 9, .anchor = Anchor::kMiddle, .rotate = -90});
       at += length;
     };
-    segment(static_cast<double>(g.gNumberOfMinislots) * g.gdMinislot, "dynamic segment", "#e6f0f7");
+    segment(static_cast<double>(g.gNumberOfMinislots) * g.gdMinislot, "dynamic segment", "#e6f0f7",
+            static_cast<double>(taken_minislots(channel)) * g.gdMinislot);
     draw_dynamic(channel, top);
     segment(g.gdSymbolWindow, "symbol window", "#f5eeda");
     segment(g.gMacroPerCycle - at, "network idle time", "#eeeeee");
+  }
+
+  std::int64_t taken_minislots(Channel channel) const {
+    for (const schedules::DynamicLoad& load : schedules::dynamic_load(c_))
+      if (load.channel == channel) return std::min<std::int64_t>(load.minislots, c_.flexray.gNumberOfMinislots);
+    return 0;
   }
 
   // One row per dynamic frame: from its turn at the earliest to its end at the latest.

@@ -2,9 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <map>
 
 #include "schedules/ages.h"
+#include "schedules/checker.h"
 #include "tests/sim/drive_fixture.h"
 
 namespace ttf {
@@ -42,6 +45,35 @@ TEST(DynamicAges, ListsInTheDynamicSegmentAreFusedWithinTheirBounds) {
       EXPECT_GT(*worst, bound - Duration::milliseconds(20));
     }
   }
+}
+
+struct Problems final : records::Sink {
+  using records::Sink::on;
+  std::size_t slots = 0, lists = 0;
+  void on(const records::SlotProblem&) override { ++slots; }
+  void on(const records::ListFused&) override { ++lists; }
+};
+
+// The camera's device on B only, in its key slot only; its lists on A only, the laser's behind a message id.
+TEST(DynamicAges, OneChannelMessageIdsAndKeySlotOnlyGoThroughADrive) {
+  std::ifstream file(testing_support::shipped("schedules/flexray_demo.yaml"));
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  const auto change = [&](const std::string& from, const std::string& to) {
+    const auto at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    text.replace(at, from.size(), to);
+  };
+  change("\n  camera:\n    flexray: {", "\n  camera:\n    flexray: {pChannels: B, pWakeupChannel: B, pKeySlotOnlyEnabled: true, ");
+  change("slot: 6, channels: AB", "slot: 6, channels: B");
+  change("slot: 23, channels: AB", "slot: 23, channels: A");
+  change("pdu: laser_objects, fragments: 2", "pdu: laser_objects, fragments: 2, message_id: 7");
+  testing_support::Drive drive("scenarios/paper_scenario1.yaml", StrategyKind::kAdva);
+  drive.cluster = schedules::parse_cluster(text, "cluster.yaml");
+  ASSERT_TRUE(schedules::check(drive.cluster).empty());
+  Problems problems;
+  drive.run(problems);
+  EXPECT_EQ(problems.slots, 0u);
+  EXPECT_EQ(problems.lists, 108u);
 }
 
 }  // namespace
