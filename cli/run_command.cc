@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "cli/commands.h"
+#include "cli/fault_tables.h"
 #include "cli/output.h"
 #include "cli/run_outputs.h"
 #include "cli/startup_outputs.h"
@@ -105,7 +106,9 @@ StrategyResult run_strategy(const Options& options, const nodes::Scenario& scena
   sim::check_recording(scenario, result.cluster, recording.rows != nullptr);
   experiments::DriveMeasures measures(sim::evaluation_start(scenario));
   experiments::StartupAccount startup(result.cluster.cycle());
+  experiments::FaultReport faults(result.cluster, true);
   std::vector<records::Sink*> sinks{&measures, &startup};
+  if (!scenario.faults.empty()) sinks.push_back(&faults);
   std::unique_ptr<recording::LogWriter> log;
   if (!options.no_log) {
     result.log_path = fmt::format("{}/{}.mcap", folder, nodes::name_of(strategy));
@@ -122,6 +125,7 @@ StrategyResult run_strategy(const Options& options, const nodes::Scenario& scena
   result.outcome = sim::run_drive(config, tee);
   result.summary = measures.finish();
   result.startup = startup.nodes();
+  result.faults = faults.faults();
   if (log) {
     log->close();
     result.content_hash = log->content_hash_text();
@@ -163,10 +167,14 @@ int run(const Options& options) {
   if (!options.no_pictures && !options.no_log) write_pictures(scenario, results, folder);
   const nlohmann::ordered_json json = to_json(scenario, seed, results);
   write_file(folder + "/summary.json", json.dump(2) + '\n');
-  if (options.json)
+  if (options.json) {
     fmt::print("{}\n", json.dump(2));
-  else
+  } else {
     fmt::print("{}\n{}{}", scenario.description, startup_text(results), comparison_table(results));
+    if (!scenario.faults.empty())
+      for (const StrategyResult& result : results)
+        fmt::print("\n{}", faults_text(nodes::name_of(result.strategy), result.faults, result.cluster));
+  }
   fmt::print(stderr, "written to {}\n", folder);
   return 0;
 }

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "cli/fault_tables.h"
 #include "cli/startup_outputs.h"
 #include "recording/log_reader.h"
 #include "recording/records/tee.h"
@@ -79,6 +80,13 @@ const Row kRows[] = {
     {"content hash of the log", [](const StrategyResult& r) { return r.content_hash.empty() ? std::string("-") : r.content_hash; }},
 };
 
+// What a drive without faults has none of; a row is shown where some strategy has some.
+const Row kRareRows[] = {
+    {"images refused for their age", [](const StrategyResult& r) { return number(r.summary.stale_uses); }},
+    {"CAN frames refused", [](const StrategyResult& r) { return number(r.outcome.counts.refused_can_frames); }},
+    {"fates of lists that no record tells", [](const StrategyResult& r) { return number(r.outcome.counts.unlisted_fates); }},
+};
+
 nlohmann::ordered_json ages(const experiments::AgeStatistics& statistics) {
   if (statistics.count == 0) return {{"count", 0}, {"mean_ms", nullptr}, {"worst_ms", nullptr}};
   return {{"count", statistics.count}, {"mean_ms", ms(statistics.mean())}, {"worst_ms", ms(statistics.worst)}};
@@ -100,11 +108,17 @@ std::string comparison_table(const std::vector<StrategyResult>& results) {
   std::vector<std::string> header{"measure"};
   for (const StrategyResult& result : results) header.emplace_back(nodes::name_of(result.strategy));
   report::Table table(header);
-  for (const Row& row : kRows) {
+  const auto add = [&](const Row& row, bool only_if_any) {
     std::vector<std::string> cells{row.name};
-    for (const StrategyResult& result : results) cells.push_back(row.value(result));
-    table.add(std::move(cells));
-  }
+    bool any = false;
+    for (const StrategyResult& result : results) {
+      cells.push_back(row.value(result));
+      any = any || cells.back() != "0";
+    }
+    if (any || !only_if_any) table.add(std::move(cells));
+  };
+  for (const Row& row : kRows) add(row, false);
+  for (const Row& row : kRareRows) add(row, true);
   for (std::size_t b = 0; !results.empty() && b < results.front().cluster.can_buses.size(); ++b) {
     std::vector<std::string> cells{fmt::format("{} load [%]", results.front().cluster.can_buses[b].name)};
     for (const StrategyResult& result : results)
@@ -146,18 +160,22 @@ nlohmann::ordered_json to_json(const nodes::Scenario& scenario, std::uint64_t se
     one["uses"] = s.uses;
     one["uses_with_warning"] = s.warnings;
     if (!result.startup.empty()) one["startup"] = startup_json(result);
+    one["uses_refused_as_stale"] = s.stale_uses;
     one["precision_us"] = us(result.outcome.precision);
     one["slot_problems"] = result.outcome.counts.slot_problems;
     one["deadlines_missed"] = result.outcome.counts.deadlines_missed;
     one["overruns"] = result.outcome.counts.overruns;
     one["saturated_signals"] = result.outcome.counts.saturated_signals;
     one["refused_fragments"] = result.outcome.counts.refused_fragments;
+    one["refused_can_frames"] = result.outcome.counts.refused_can_frames;
+    one["unlisted_fates"] = result.outcome.counts.unlisted_fates;
     one["frames_sent"] = result.outcome.frames_sent;
     one["flexray_load"] = result.outcome.flexray_load;
     for (std::size_t b = 0; b < result.outcome.can_load.size(); ++b)
       one["can_load"][result.cluster.can_buses[b].name] = result.outcome.can_load[b];
     one["content_hash"] = result.content_hash;
     one["log"] = result.log_path;
+    if (!scenario.faults.empty()) one["faults"] = faults_json(result.faults, result.cluster);
     json["strategies"].push_back(std::move(one));
   }
   return json;

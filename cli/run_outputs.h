@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/fault_report.h"
 #include "experiments/measures.h"
 #include "experiments/startup_account.h"
 #include "fusion/strategy.h"
@@ -20,6 +21,7 @@ struct StrategyResult {
   sim::DriveOutcome outcome;
   experiments::DriveSummary summary;
   std::vector<experiments::NodeStartup> startup;   // nodes that started up or changed their state
+  std::vector<experiments::FaultSeen> faults;   // as many of the plan's as began
   std::string log_path;
   std::string content_hash;
 };

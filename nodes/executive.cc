@@ -275,6 +275,7 @@ void Executive::start_next(Microticks now) {
     context.strobes = strobes_;
     context.sink = &sink_;
     state.step->run(context);
+    counts_.unlisted_fates += context.unlisted;
     for (std::size_t i = 0; i < state.inputs.size(); ++i) {
       const Input& input = state.inputs[i];
       if (!input.discarded) continue;
@@ -346,6 +347,8 @@ void Executive::receive_can(std::size_t can_bus, const bus::CanFrame& frame, Mic
   if (!cans_[can_bus] || asleep_) return;
   if (const auto arrival = cans_[can_bus]->receive(frame))
     arrived(arrival->pdu, static_cast<int>(can_bus), arrival->effect, arrival->sequence, arrival->torn, now);
+  else
+    ++counts_.refused_can_frames;
 }
 
 void Executive::list_arrived(PduId pdu, bus::ArrivalEffect effect, std::uint32_t sequence,

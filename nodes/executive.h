@@ -61,6 +61,8 @@ struct ExecutiveCounts {
   std::uint64_t slot_problems = 0;
   std::uint64_t saturated_signals = 0;
   std::uint64_t refused_fragments = 0;     // stale or malformed (bus/list_buffer.h), on any bus
+  std::uint64_t refused_can_frames = 0;    // not of the schedule (bus/can_controller.h)
+  std::uint64_t unlisted_fates = 0;        // of lists that no record tells of (fusion/strategy.h)
 };
 
 class Executive final : private bus::ControllerEvents {

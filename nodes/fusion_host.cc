@@ -84,6 +84,8 @@ void FusionStep::run(StepContext& context) {
     host_->strategy->accept({{input.layout->sensor, input.list->sequence}, measured, observations_});
   }
   host_->strategy->fuse(now);
+  context.unlisted = host_->strategy->unlisted() - host_->unlisted;
+  host_->unlisted += context.unlisted;
   record_result(context);
 }
 

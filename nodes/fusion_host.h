@@ -25,6 +25,7 @@ struct FusionHost {
   std::unique_ptr<fusion::Strategy> strategy;
   std::size_t most_objects;        // confirmed tracks there can be
   std::uint32_t step = 0;          // numbered fusion instants, from 1
+  std::uint64_t unlisted = 0;      // of the strategy's, up to the last one
 };
 
 // Ports: one per sensor list, any number.

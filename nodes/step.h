@@ -89,6 +89,7 @@ struct StepContext {
   std::span<Input> inputs;                 // in the order of the task's `reads`
   std::span<Output> outputs;               // in the order of the task's `writes`
   std::span<const StrobeLatch> strobes;    // by SensorId
+  std::uint64_t unlisted = 0;              // set by a step that had more to record than it has room for; counted
   records::Sink* sink = nullptr;
 };
 

@@ -44,6 +44,8 @@ void add(nodes::ExecutiveCounts& sum, const nodes::ExecutiveCounts& one) {
   sum.slot_problems += one.slot_problems;
   sum.saturated_signals += one.saturated_signals;
   sum.refused_fragments += one.refused_fragments;
+  sum.refused_can_frames += one.refused_can_frames;
+  sum.unlisted_fates += one.unlisted_fates;
 }
 
 }  // namespace

@@ -1,0 +1,21 @@
+// What `ttfusion run` says of a fault plan: what was injected, which check saw it and in how many cycles, which nodes changed
+// state, and whether a node without a fault was harmed.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "experiments/fault_report.h"
+#include "schedules/cluster.h"
+
+namespace ttf::cli {
+
+// `run`: what the tables are of, in their first line.
+std::string faults_text(std::string_view run, const std::vector<experiments::FaultSeen>& faults,
+                        const schedules::Cluster& cluster);
+// The same, times in seconds from the start of the run; null where there is none.
+nlohmann::ordered_json faults_json(const std::vector<experiments::FaultSeen>& faults, const schedules::Cluster& cluster);
+
+}  // namespace ttf::cli
