@@ -125,7 +125,7 @@ class StartSpoiler final : public Disturbance {
         case 2: frame(channel, now, static_cast<int>(draw_.integer(1, 5)), static_cast<int>(draw_.integer(0, 63))); break;
         default: frame(channel, now, static_cast<int>(draw_.integer(1, 5)), static_cast<int>(draw_.integer(0, 63)), false);
       }
-    next_ = now + Duration{draw_.integer(5'000, 30'000)};
+    next_ = now + Duration{draw_.integer(1'000, 15'000)};
   }
   // A symbol, a cycle's worth of frames at a time, then a pause.
   void lead(TrueTime now, int most) {
