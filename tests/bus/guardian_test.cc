@@ -160,12 +160,13 @@ TEST(Guardian, G2_AFrameBeginsWithinHalfAnActionPointOffset) {
                                                          Bench::at(cycle, 43 * (slot.slot - 1) + 7, off), &frame});
           const bool within = off >= -140 && off <= 140;   // 3.5 us
           const bool in_slot = off >= -280;                // 7 us before lies in the slot before
-          if (within)
+          if (within) {
             ASSERT_EQ(answer.reason, GuardianReason::kForwarded) << "slot " << slot.slot << " off by " << off;
-          else if (in_slot)
+          } else if (in_slot) {
             ASSERT_EQ(answer.reason, GuardianReason::kOutsideWindow) << "slot " << slot.slot << " off by " << off;
-          else
+          } else {
             ASSERT_FALSE(answer.forwards()) << "slot " << slot.slot << " off by " << off;
+          }
         }
       }
 }
@@ -234,7 +235,9 @@ TEST(Guardian, G4_AMediaAccessTestSymbolInTheSymbolWindowOnly) {
         const auto answer = bench.ask(channel, 2, {static_cast<NodeId>(n), Signal::kCas, Bench::at(2, macrotick), nullptr});
         const bool in_window = macrotick >= window && macrotick < window + 30;
         ASSERT_EQ(answer.reason, in_window ? GuardianReason::kForwarded : GuardianReason::kNoSymbolNow) << macrotick;
-        if (in_window) ASSERT_LE(answer.until, Bench::at(2, window + 30));
+        if (in_window) {
+          ASSERT_LE(answer.until, Bench::at(2, window + 30));
+        }
         ASSERT_FALSE(bench.ask(channel, 2, {static_cast<NodeId>(n), Signal::kWakeup, Bench::at(2, macrotick), nullptr}).forwards());
       }
 }
