@@ -11,7 +11,8 @@
 //       within that of one another, no fault-free node's frame is refused, and one that passes lies within its slot for
 //       every receiver: there is nothing slightly off that some accept and some do not
 //   G3  in the dynamic segment the guardian counts slots as every node does, and lets through the frame of that slot's node, not
-//       later than its pLatestTx and not longer than its PDU
+//       later than its pLatestTx and not longer than its PDU, and only if it begins within half a minislot action point offset of
+//       the minislot's action point: no receiver counts another minislot then
 //   G4  in the symbol window a media access test symbol, of any node
 //   G5  else nothing; and nothing that it cannot make out
 // Without a schedule (the rules of turns are bus/guardian_startup.h's S1 to S6):
