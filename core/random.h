@@ -27,6 +27,7 @@ enum class Purpose : std::uint16_t {
   kTest = 10,
   kFault = 11,
   kPowerOn = 12,
+  kCampaign = 13,
 };
 
 struct StreamKey {

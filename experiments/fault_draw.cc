@@ -1,0 +1,282 @@
+#include "experiments/fault_draw.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/check.h"
+#include "core/random.h"
+
+namespace ttf::experiments {
+namespace {
+
+using nodes::Fault;
+using nodes::FaultKind;
+using schedules::Channels;
+
+class Drawing {
+ public:
+  Drawing(const CampaignFile& campaign, const schedules::Cluster& cluster, std::uint32_t index)
+      : campaign_(campaign),
+        cluster_(cluster),
+        g_(cluster.flexray),
+        cycle_(cluster.cycle()),
+        draw_({campaign.seed, index, Purpose::kCampaign, 0, 0}) {}
+
+  DrawnFault fault() {
+    Fault fault;
+    fault.kind = kind();
+    const bool starts_up = draw_.uniform() < campaign_.startup_share || fault.kind == FaultKind::kLoneColdstart;
+    if (nodes::has_node(fault.kind)) fault.node = node(needs_coldstart(fault.kind));
+    when(fault, starts_up);
+    parameters(fault);
+    return {fault, starts_up};
+  }
+
+ private:
+  static bool needs_coldstart(FaultKind kind) {
+    return kind == FaultKind::kLoneColdstart || kind == FaultKind::kDuplicateColdstart;
+  }
+  FaultKind kind() {
+    std::int64_t sum = 0;
+    for (const std::int64_t weight : campaign_.weights) sum += weight;
+    std::int64_t left = draw_.integer(0, sum - 1);
+    for (std::size_t k = 0; k < campaign_.weights.size(); ++k) {
+      if (left < campaign_.weights[k]) return nodes::kAllFaultKinds[k];
+      left -= campaign_.weights[k];
+    }
+    TTF_CHECK(false, "{} beyond all weights", left);
+  }
+  NodeId node(bool coldstart) {
+    std::vector<NodeId> candidates;
+    for (std::size_t n = 0; n < cluster_.nodes.size(); ++n)
+      if (!coldstart || cluster_.nodes[n].flexray->pKeySlotUsedForStartup) candidates.push_back(static_cast<NodeId>(n));
+    TTF_CHECK(!candidates.empty(), "no coldstart node in {}", cluster_.name);
+    return one_of(candidates);
+  }
+  // A running cluster has had cycles without a fault, a start-up none. One in three stays to the end.
+  void when(Fault& fault, bool starts_up) {
+    fault.from = starts_up ? between(Duration{}, cycle_ * 12) : between(cycle_ * 4, cycle_ * 8);
+    if (fault.kind == FaultKind::kLoneColdstart) fault.from = Duration{};
+    if (draw_.uniform() < 2.0 / 3.0) fault.duration = between(Duration{cycle_.ns / 5}, cycle_ * 10);
+    if (fault.kind == FaultKind::kDrift) fault.duration = Fault::kToTheEnd;
+    if (fault.kind == FaultKind::kTransient && fault.duration == Fault::kToTheEnd)
+      fault.duration = between(Duration::microseconds(1), cycle_);
+  }
+
+  void parameters(Fault& fault) {
+    switch (fault.kind) {
+      case FaultKind::kCrash: return;
+      case FaultKind::kOmission:
+        fault.direction = one_of(std::vector{nodes::FaultDirection::kSend, nodes::FaultDirection::kReceive,
+                                             nodes::FaultDirection::kBoth});
+        return occasions(fault);
+      case FaultKind::kBabblingIdiot:
+        fault.signal = one_of(std::vector{nodes::FaultSignal::kNoise, nodes::FaultSignal::kFrame});
+        return bursts(fault);
+      case FaultKind::kMasquerading:
+        fault.masquerade = one_of(std::vector{nodes::MasqueradeMode::kInSlot, nodes::MasqueradeMode::kOwnSlot});
+        fault.slot = anothers_slot(fault.node, false);
+        return occasions(fault);
+      case FaultKind::kSosTiming:
+        // Up to twice the room before the action point: what leaves the slot, and what just does not.
+        fault.shift = signed_up_to(Duration{2 * g_.gdActionPointOffset * g_.gdMacrotick_ps / 1000});
+        receivers(fault);
+        return occasions(fault);
+      case FaultKind::kSosValue:
+        receivers(fault);
+        return occasions(fault);
+      case FaultKind::kBitFlipHeader:
+      case FaultKind::kBitFlipPayload:
+      case FaultKind::kBitFlipTrailer:
+        // The frame CRC finds up to five in any frame; more it misses once in 2^24.
+        fault.flips = static_cast<int>(draw_.uniform() < 0.75 ? draw_.integer(1, 5) : draw_.integer(6, 24));
+        receivers(fault);
+        return occasions(fault);
+      case FaultKind::kChannelSwap: return chosen(fault);
+      case FaultKind::kByzantineClock:
+        fault.shift = between(Duration{100}, Duration{g_.gdActionPointOffset * g_.gdMacrotick_ps / 1000});
+        fault.pattern = one_of(std::vector{nodes::ByzantinePattern::kRandom, nodes::ByzantinePattern::kPullApart,
+                                           nodes::ByzantinePattern::kPullRates});
+        return;
+      case FaultKind::kDrift: {
+        // From what no clock notices to what none can follow: 10 ppm to 50000 ppm, evenly in the logarithm.
+        const double ppb = 1e4 * std::pow(5'000.0, draw_.uniform());
+        fault.drift_ppb = static_cast<std::int64_t>(ppb) * (draw_.uniform() < 0.5 ? -1 : 1);
+        return;
+      }
+      case FaultKind::kLoneColdstart: fault.all_others = draw_.uniform() < 0.5; return;
+      case FaultKind::kDuplicateColdstart:
+        fault.duplicate = one_of(std::vector{nodes::DuplicateMode::kCas, nodes::DuplicateMode::kStartupFrames,
+                                             nodes::DuplicateMode::kSameKeySlot});
+        if (fault.duplicate == nodes::DuplicateMode::kSameKeySlot) {
+          fault.slot = anothers_slot(fault.node, true);
+          return always(fault);
+        }
+        fault.channels = channels();
+        if (fault.duplicate == nodes::DuplicateMode::kCas) bursts(fault);
+        return;
+      case FaultKind::kWrongSchedule: wrong_schedule(fault); return always(fault);
+      case FaultKind::kNoise: return bursts(fault);
+      case FaultKind::kTransient: fault.channels = channels(); return;
+    }
+  }
+  // What a node believes in, it believes in from the beginning to the end.
+  static void always(Fault& fault) {
+    fault.from = Duration{};
+    fault.duration = Fault::kToTheEnd;
+  }
+  void wrong_schedule(Fault& fault) {
+    fault.wrong = one_of(std::vector{nodes::WrongSchedule::kShiftedSlots, nodes::WrongSchedule::kCycleLength,
+                                     nodes::WrongSchedule::kStaticSlot, nodes::WrongSchedule::kPayloadLength,
+                                     nodes::WrongSchedule::kKeySlot});
+    switch (fault.wrong) {
+      case nodes::WrongSchedule::kShiftedSlots: fault.by = number(1, g_.gNumberOfStaticSlots - 1); return;
+      case nodes::WrongSchedule::kCycleLength: fault.by = number(1, 100); return;
+      case nodes::WrongSchedule::kStaticSlot: {
+        const int room = std::min(g_.gdNIT - 2, g_.gOffsetCorrectionStart - (g_.gMacroPerCycle - g_.gdNIT));
+        fault.by = number(1, std::max(1, room / g_.gNumberOfStaticSlots));
+        return;
+      }
+      case nodes::WrongSchedule::kPayloadLength: fault.by = number(1, 127 - g_.gPayloadLengthStatic); return;
+      case nodes::WrongSchedule::kKeySlot: fault.slot = anothers_slot(fault.node, false); return;
+    }
+  }
+  void chosen(Fault& fault) {
+    if (draw_.uniform() < 0.5) fault.probability = draw_.uniform(0.05, 1.0);
+    if (draw_.uniform() < 0.25) fault.every = number(2, 8);
+  }
+  void occasions(Fault& fault) {
+    chosen(fault);
+    fault.channels = channels();
+  }
+  void bursts(Fault& fault) {
+    fault.length = between(Duration::microseconds(1), Duration::microseconds(300));
+    // From back to back to once in some cycles, evenly in the logarithm.
+    const double ns = 1e4 * std::pow(static_cast<double>(cycle_.ns) * 3e-4, draw_.uniform());
+    fault.interval = Duration{static_cast<std::int64_t>(ns)};
+    fault.jitter = draw_.uniform() < 0.5 ? Duration{} : between(Duration{}, fault.interval);
+    fault.channels = channels();
+  }
+  void receivers(Fault& fault) {
+    if (draw_.uniform() < 0.5) return;
+    for (std::size_t n = 0; n < cluster_.nodes.size(); ++n)
+      if (static_cast<NodeId>(n) != fault.node && draw_.uniform() < 0.5) fault.receivers.push_back(static_cast<NodeId>(n));
+  }
+  int anothers_slot(NodeId node, bool coldstart) {
+    std::vector<int> slots;
+    for (const schedules::FrameSlot& frame : cluster_.frames) {
+      const schedules::NodeParameters& p = *cluster_.node(frame.sender).flexray;
+      if (frame.sender == node || frame.slot > g_.gNumberOfStaticSlots) continue;
+      if (!coldstart || (p.pKeySlotUsedForStartup && p.pKeySlotId == frame.slot)) slots.push_back(frame.slot);
+    }
+    TTF_CHECK(!slots.empty(), "no slot of another node than {}", cluster_.node(node).name);
+    return one_of(slots);
+  }
+  Channels channels() {
+    return one_of(std::vector{Channels::kAB, Channels::kAB, Channels::kA, Channels::kB});
+  }
+
+  Duration between(Duration low, Duration high) { return {draw_.integer(low.ns, high.ns)}; }
+  Duration signed_up_to(Duration most) { return draw_.uniform() < 0.5 ? between({100}, most) : -between({100}, most); }
+  int number(int low, int high) { return static_cast<int>(draw_.integer(low, high)); }
+  template <class T>
+  T one_of(const std::vector<T>& choices) {
+    return choices[static_cast<std::size_t>(draw_.integer(0, static_cast<std::int64_t>(choices.size()) - 1))];
+  }
+
+  const CampaignFile& campaign_;
+  const schedules::Cluster& cluster_;
+  const schedules::GlobalParameters& g_;
+  Duration cycle_;
+  RandomStream draw_;
+};
+
+std::string_view text(Channels channels) { return schedules::channels_text(channels); }
+
+std::string_view text(nodes::DuplicateMode mode) {
+  switch (mode) {
+    case nodes::DuplicateMode::kCas: return "cas";
+    case nodes::DuplicateMode::kStartupFrames: return "startup_frames";
+    case nodes::DuplicateMode::kSameKeySlot: return "same_key_slot";
+  }
+  return "";
+}
+
+std::string_view text(nodes::WrongSchedule wrong) {
+  switch (wrong) {
+    case nodes::WrongSchedule::kShiftedSlots: return "shifted_slots";
+    case nodes::WrongSchedule::kCycleLength: return "cycle_length";
+    case nodes::WrongSchedule::kStaticSlot: return "static_slot";
+    case nodes::WrongSchedule::kPayloadLength: return "payload_length";
+    case nodes::WrongSchedule::kKeySlot: return "key_slot";
+  }
+  return "";
+}
+
+}  // namespace
+
+bool in_hypothesis(const Fault& fault) {
+  if (fault.kind == FaultKind::kLoneColdstart) return false;
+  return nodes::has_node(fault.kind) || fault.channels != Channels::kAB;
+}
+
+DrawnFault draw_fault(const CampaignFile& campaign, const schedules::Cluster& cluster, std::uint32_t index) {
+  return Drawing(campaign, cluster, index).fault();
+}
+
+std::string parameters_text(const Fault& fault, const schedules::Cluster& cluster) {
+  std::string out = fmt::format("from={}us", fault.from.ns / 1000);
+  const auto add = [&out](std::string_view key, const auto& value) { out += fmt::format(" {}={}", key, value); };
+  if (fault.duration != Fault::kToTheEnd) out += fmt::format(" duration={}us", fault.duration.ns / 1000);
+  switch (fault.kind) {
+    case FaultKind::kOmission:
+      add("direction", fault.direction == nodes::FaultDirection::kSend      ? "send"
+                       : fault.direction == nodes::FaultDirection::kReceive ? "receive"
+                                                                            : "both");
+      break;
+    case FaultKind::kBabblingIdiot: add("signal", fault.signal == nodes::FaultSignal::kNoise ? "noise" : "frame"); break;
+    case FaultKind::kMasquerading:
+      add("mode", fault.masquerade == nodes::MasqueradeMode::kInSlot ? "in_slot" : "own_slot");
+      break;
+    case FaultKind::kByzantineClock:
+      add("pattern", fault.pattern == nodes::ByzantinePattern::kRandom      ? "random"
+                     : fault.pattern == nodes::ByzantinePattern::kPullApart ? "pull_apart"
+                                                                            : "pull_rates");
+      break;
+    case FaultKind::kBitFlipHeader:
+    case FaultKind::kBitFlipPayload:
+    case FaultKind::kBitFlipTrailer: add("flips", fault.flips); break;
+    case FaultKind::kLoneColdstart: add("others", fault.all_others ? "all" : "coldstart"); break;
+    case FaultKind::kDuplicateColdstart: add("mode", text(fault.duplicate)); break;
+    case FaultKind::kWrongSchedule: add("mode", text(fault.wrong)); break;
+    case FaultKind::kCrash:
+    case FaultKind::kSosTiming:
+    case FaultKind::kSosValue:
+    case FaultKind::kChannelSwap:
+    case FaultKind::kDrift:
+    case FaultKind::kNoise:
+    case FaultKind::kTransient: break;
+  }
+  const bool bursts = fault.kind == FaultKind::kBabblingIdiot || fault.kind == FaultKind::kNoise ||
+                      (fault.kind == FaultKind::kDuplicateColdstart && fault.duplicate == nodes::DuplicateMode::kCas);
+  if (bursts)
+    out += fmt::format(" length={}ns interval={}ns jitter={}ns", fault.length.ns, fault.interval.ns, fault.jitter.ns);
+  if (fault.slot != 0) add("slot", fault.slot);
+  if (fault.by != 0) add("by", fault.by);
+  if (fault.shift.ns != 0) out += fmt::format(" shift={}ns", fault.shift.ns);
+  if (fault.drift_ppb != 0) out += fmt::format(" drift={}ppb", fault.drift_ppb);
+  if (fault.probability < 1.0) out += fmt::format(" probability={:.3f}", fault.probability);
+  if (fault.every != 1) add("every", fault.every);
+  if (!fault.receivers.empty()) {
+    out += " receivers=";
+    for (std::size_t r = 0; r < fault.receivers.size(); ++r)
+      out += fmt::format("{}{}", r == 0 ? "" : "+", cluster.node(fault.receivers[r]).name);
+  }
+  add("channels", text(fault.channels));
+  return out;
+}
+
+}  // namespace ttf::experiments
