@@ -14,5 +14,6 @@ void add_run(CLI::App& app, Action& action);
 void add_diagram(CLI::App& app, Action& action);
 void add_export(CLI::App& app, Action& action);
 void add_schedule(CLI::App& app, Action& action);
+void add_experiment(CLI::App& app, Action& action);
 
 }  // namespace ttf::cli

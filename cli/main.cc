@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
   ttf::cli::add_diagram(app, action);
   ttf::cli::add_export(app, action);
   ttf::cli::add_schedule(app, action);
+  ttf::cli::add_experiment(app, action);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -186,6 +186,31 @@ expect 2 'absent.pcapng: cannot be read' schedule check "$schedule" --against "$
 expect 2 'no FlexRay frame' schedule check "$schedule" --against "$work/drive.pcapng" --from 1000
 expect 2 '--against' schedule check "$schedule" --channels A
 
+# A fault campaign: the table, the same from shards put together; a replay in words; what is refused.
+campaign=$work/schedules/campaign.yaml
+sed -e 's#^cluster: .*#cluster: flexray_demo.yaml#' -e 's/^faults: .*/faults: 24/' "$source/experiments/fault_campaign.yaml" >"$campaign"
+expect 0 'Example' experiment --help
+expect 0 'variant guardian \(guardian and two channels\)' experiment "$campaign" --jobs 2 --out "$work/campaign"
+expect 0 '"holds": true' experiment "$campaign" --jobs 1 --json
+expect 0 '' experiment "$campaign" --shard 1/2 --out "$work/shard1"
+expect 0 '' experiment "$campaign" --shard 2/2 --out "$work/shard2"
+expect 0 'holds' experiment "$campaign" --merge "$work/shard1" "$work/shard2" --out "$work/merged"
+cmp -s "$work/campaign/results.csv" "$work/merged/results.csv" || fail "shards put together give other results"
+awk -F, -v OFS=, '$2 == "guardian" && $7 == "yes" && !done { $12 = "frame_lost"; done = 1 } 1' \
+  "$work/merged/results.csv" >"$work/campaign/results.csv"
+expect 1 'does not hold' experiment "$campaign" --merge "$work/campaign"
+expect 1 'ttfusion experiment .*campaign.yaml --replay [0-9]+' experiment "$campaign" --merge "$work/campaign"
+expect 2 'is a fault that is missing' experiment "$campaign" --merge "$work/shard1"
+expect 0 'fault 3: [a-z_]+ ' experiment "$campaign" --replay 3
+expect 2 '--replay = 24: must be 0..23' experiment "$campaign" --replay 24
+expect 2 '--shard = 3/2: must be i/n' experiment "$campaign" --shard 3/2
+sed -e 's/guardian: true/guardian: true, why: not/' "$campaign" >"$work/schedules/broken.yaml"
+expect 2 'broken.yaml:[0-9]+: variants.guardian.why: is not a known key' experiment "$work/schedules/broken.yaml"
+sed -e 's/^kind: .*/kind: sweep/' "$campaign" >"$work/schedules/broken.yaml"
+expect 2 'kind = sweep: must be fault_campaign' experiment "$work/schedules/broken.yaml"
+sed -e 's/^expect:/classes: {crash: 1}\nexpect:/' "$campaign" >"$work/schedules/crashes.yaml"
+expect 0 'crash +24 ' experiment "$work/schedules/crashes.yaml"
+
 # Recorded input, and a broken line in it.
 printf 'L\t1.0\t0.1\t1000000\t1.0\t0.1\t5.0\t0.0\t0.0\t0.0\n' >"$work/short.txt"
 expect 2 'paper_scenario1.yaml: clusters = .*: takes no recording, so --input would be ignored' \

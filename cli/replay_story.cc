@@ -1,0 +1,63 @@
+#include "cli/replay_story.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "bus/poc_reason.h"
+
+namespace ttf::cli {
+namespace {
+
+std::string_view text(bus::Signal signal) {
+  switch (signal) {
+    case bus::Signal::kFrame: return "a frame";
+    case bus::Signal::kCas: return "a collision avoidance symbol";
+    case bus::Signal::kWakeup: return "a wake-up pattern";
+    case bus::Signal::kUndecodable: return "something undecodable";
+  }
+  return "";
+}
+
+}  // namespace
+
+void ReplayStory::say(TrueTime at, const std::string& text) const {
+  fmt::print("  {:>10.3f} ms  cycle {:>6.2f}  {}\n", static_cast<double>(at.ns) * 1e-6,
+             static_cast<double>(at.ns) / static_cast<double>(cluster_.cycle().ns), text);
+}
+
+void ReplayStory::state_changed(NodeId node, bus::PocKind from, const bus::PocStep& step, TrueTime at) {
+  const std::string_view consequence = bus::to_text(step.consequence);
+  say(at, fmt::format("{}: {} -> {}: {}{}{}", cluster_.node(node).name, bus::to_text(from), bus::to_text(step.next.kind),
+                      bus::to_text(step.reason), consequence.empty() ? "" : "; ", consequence));
+}
+
+void ReplayStory::fault_acts(const records::FaultActivity& activity) {
+  if (activity.what == records::kFaultActs && ++acts_ > kShown) return;
+  say(activity.at, fmt::format("fault {}: {}", activity.kind, activity.text));
+}
+
+void ReplayStory::guardian_intervened(const sim::StarCoupler::Intervention& intervention) {
+  if (++interventions_ > kShown) return;
+  const bool cut = intervention.reason == bus::GuardianReason::kForwarded;
+  say(intervention.at, fmt::format("guardian of {} {} {} of {}{}{}",
+                                   intervention.channel == schedules::Channel::kA ? 'A' : 'B', cut ? "cuts off" : "blocks",
+                                   text(intervention.signal),
+                                   intervention.branch == kNoNode ? "nobody" : cluster_.node(intervention.branch).name,
+                                   cut ? "" : ": ", cut ? "" : bus::to_text(intervention.reason)));
+}
+
+void ReplayStory::judged(const experiments::Judgement& judgement) {
+  for (const experiments::Check check : experiments::kAllChecks) {
+    const auto c = static_cast<std::size_t>(check);
+    if (judgement.seen_by_others[c]) say(*judgement.seen_by_others[c], fmt::format("noticed by others: {}", name_of(check)));
+    if (judgement.seen_by_itself[c]) say(*judgement.seen_by_itself[c], fmt::format("noticed by itself: {}", name_of(check)));
+  }
+}
+
+void ReplayStory::finish() {
+  if (acts_ > kShown) fmt::print("  the fault acts {} times more\n", acts_ - kShown);
+  if (interventions_ > kShown) fmt::print("  the guardians intervene {} times more\n", interventions_ - kShown);
+}
+
+}  // namespace ttf::cli
