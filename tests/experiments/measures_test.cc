@@ -133,6 +133,7 @@ void fuse(records::Sink& sink, std::uint8_t sensor, std::uint32_t sequence, std:
   records::ListFused fused;
   fused.id = {SensorId{sensor}, sequence};
   fused.measured = global(measured_ms);
+  fused.stamp.true_time = at(measured_ms + 30);
   fused.stamp.global = global(measured_ms + 30);
   sink.on(fused);
 }
