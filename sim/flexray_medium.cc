@@ -134,7 +134,6 @@ void FlexRayMedium::to_coupler(const Leaving& signal, NodeId sender, TrueTime no
   if (disturbance_ != nullptr && !disturbance_->arriving(last)) return;
   Pending made{{last.start, last.end, 0, signal.channel, last.signal}, next_id_++, sender, false};
   if (last.signal == Signal::kFrame) made.arrival.frame = pool_.put_frame(signal.channel, last.bytes, 1);
-  TTF_CHECK(to_coupler_.size() < kLaneRoom, "{} signals on their way to the couplers", to_coupler_.size());
   to_coupler_.push_back(made);
   MediumEvent event;
   event.kind = MediumEvent::Kind::kFlexRayArrival;

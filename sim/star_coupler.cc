@@ -12,7 +12,7 @@ using bus::GuardianReason;
 using bus::PocKind;
 using bus::Signal;
 
-// Something is forwarded, and what comes out of nothing may be many things at once.
+// One signal is forwarded; what comes out of nothing may be many. What is more than this is worked off at once.
 constexpr std::size_t kHearingRoom = 16;
 // A leading coldstart node is alone in its first cycles (bus/poc.h).
 constexpr std::int64_t kLeaderAlone = 4;
@@ -148,7 +148,6 @@ void StarCoupler::hear(NodeId branch, const Leaving& signal, const wire::Decoded
     hearing_.pop_back();
     i = 0;
   }
-  TTF_CHECK(hearing_.size() < kHearingRoom, "{} signals at one coupler", hearing_.size());
   hearing_.push_back(heard);
 }
 
@@ -196,7 +195,7 @@ bool StarCoupler::pass(Leaving& signal, const wire::DecodedFrame* frame) {
 
 void StarCoupler::disturbed(const Leaving& signal) {
   if (failure_ != Failure::kNone) return;
-  catch_up(signal.start);
+  if (hearing_.size() >= kHearingRoom) catch_up(signal.start);
   Leaving noise = signal;
   noise.signal = signal.signal == Signal::kFrame ? Signal::kUndecodable : signal.signal;
   hear(kNoNode, noise, nullptr);
