@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <optional>
 #include <vector>
 
-#include "schedules/checker.h"
+#include "recording/log_reader.h"
+#include "recording/log_writer.h"
 #include "sim/disturbance.h"
 #include "tests/sim/living_drive.h"
 
@@ -155,6 +157,87 @@ TEST(FaultReport, ClocksThatPartAreHarmUnlessTheOneThatPartsIsFaulty) {
     run.drive.run_to(0.8);
     EXPECT_EQ(run.harm(Harm::kPrecision).has_value(), !named);
   }
+}
+
+// What the injector does to a drive, by a plan.
+struct Planned {
+  testing_support::Drive drive{"scenarios/paper_scenario1.yaml", StrategyKind::kTt};
+  FaultReport report{drive.cluster, true};
+
+  nodes::Fault& add(nodes::FaultKind kind, const char* node, std::int64_t from_ms, std::int64_t duration_ms) {
+    nodes::Fault& fault = drive.scenario.faults.faults.emplace_back();
+    fault.kind = kind;
+    fault.node_name = node;
+    fault.from = Duration::milliseconds(from_ms);
+    fault.duration = Duration::milliseconds(duration_ms);
+    return fault;
+  }
+  const FaultSeen& fault(std::size_t index = 0) const { return report.faults().at(index); }
+  std::uint64_t cycles(Check check) const { return fault().by_others[static_cast<std::size_t>(check)].cycles; }
+};
+
+TEST(FaultReport, ATransientOnBothChannelsHarmsOnOneItDoesNot) {
+  for (const bool both : {true, false}) {
+    Planned run;
+    run.add(nodes::FaultKind::kTransient, "", 1'000, 20).channels = both ? schedules::Channels::kAB : schedules::Channels::kA;
+    run.drive.run(run.report);
+    ASSERT_EQ(run.report.faults().size(), 1u);
+    EXPECT_EQ(run.fault().kind, "transient");
+    EXPECT_EQ(run.fault().node, kNoNode);
+    EXPECT_GE(run.fault().acts, 4u);
+    EXPECT_GE(run.cycles(Check::kSyntax), 3u);
+    EXPECT_LE(run.cycles(Check::kSyntax), 5u);
+    EXPECT_EQ(run.fault().harms[static_cast<std::size_t>(Harm::kFrameLost)].has_value(), both);
+    EXPECT_EQ(run.report.harmed(), both);
+  }
+}
+
+TEST(FaultReport, ACrashOfOneHarmsNoOther) {
+  Planned run;
+  run.add(nodes::FaultKind::kCrash, "gateway", 1'000, 500);
+  run.drive.run(run.report);
+  EXPECT_EQ(run.fault().node, *run.drive.cluster.find_node("gateway"));
+  ASSERT_TRUE(run.fault().ends);
+  EXPECT_EQ(*run.fault().ends - run.fault().begins, Duration::milliseconds(500));
+  EXPECT_GE(run.cycles(Check::kNoFrame), 100u);
+  EXPECT_FALSE(run.report.harmed());
+  EXPECT_TRUE(std::any_of(run.fault().states.begin(), run.fault().states.end(),
+                          [](const auto& state) { return state.to == "normal active"; }))
+      << "it came back";
+}
+
+// A log tells what the run told.
+TEST(FaultReport, IsTheSameFromTheLog) {
+  testing_support::Drive drive("scenarios/faulty_bus.yaml", StrategyKind::kTt);
+  FaultReport live(drive.cluster, true), logged(drive.cluster, true);
+  const std::string path = testing::TempDir() + "/faulty_bus.mcap";
+  recording::LogWriter log(path, {});
+  records::Tee tee({&live, &log});
+  drive.run(tee);
+  log.close();
+  recording::read_log(path, logged);
+  std::filesystem::remove(path);
+  ASSERT_EQ(live.faults().size(), drive.scenario.faults.faults.size());
+  ASSERT_EQ(logged.faults().size(), live.faults().size());
+  std::uint64_t cycles = 0;
+  for (std::size_t f = 0; f < live.faults().size(); ++f) {
+    const FaultSeen &a = live.faults()[f], &b = logged.faults()[f];
+    EXPECT_EQ(a.kind, b.kind);
+    EXPECT_EQ(a.text, b.text);
+    EXPECT_EQ(a.acts, b.acts);
+    EXPECT_EQ(a.begins, b.begins);
+    EXPECT_EQ(a.ends, b.ends);
+    EXPECT_EQ(a.harmed(), b.harmed());
+    ASSERT_EQ(a.states.size(), b.states.size());
+    for (std::size_t s = 0; s < a.states.size(); ++s) EXPECT_EQ(a.states[s].why, b.states[s].why);
+    for (std::size_t c = 0; c < a.by_others.size(); ++c) {
+      EXPECT_EQ(a.by_others[c].cycles, b.by_others[c].cycles);
+      EXPECT_EQ(a.by_others[c].nodes, b.by_others[c].nodes);
+      EXPECT_EQ(a.by_faulty[c].cycles, b.by_faulty[c].cycles);
+      cycles += a.by_others[c].cycles;
+    }
+  }
+  EXPECT_GT(cycles, 100u);
 }
 
 // The distance of the clocks as frames tell it, against the simulator's own, which looks at all of a double cycle.
