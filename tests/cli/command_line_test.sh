@@ -104,6 +104,18 @@ done
   python3 -c 'import json,sys; s=json.load(sys.stdin)["strategies"][0]; assert s["rmse_truth"]["position_m"] < 0.5, s; assert s["precision_us"] > 0' ||
   fail "--json is not the documented JSON"
 
+# A drive with faults says what they did, in words and as JSON; one without says nothing of faults.
+expect 0 'byzantine_clock +laser_pre' run "$source/scenarios/faulty_bus.yaml" --strategy tt --no-log --out "$work/f"
+expect 0 'No fault-free node was harmed' run "$source/scenarios/faulty_bus.yaml" --strategy tt --no-log --out "$work/f"
+python3 - "$work/f/summary.json" "$work/a/summary.json" <<'PY' || fail "the JSON does not say what the faults did"
+import json, sys
+faults = json.load(open(sys.argv[1]))["strategies"][0]["faults"]
+assert [f["kind"] for f in faults][3] == "crash" and faults[3]["node"] == "camera_pre" and faults[3]["ends_s"] > 1.7, faults
+assert all(f["acts"] > 0 and not f["harmed"] and f["harms"] == [] for f in faults), faults
+assert any(c["check"] == "boundary" and c["cycles"] > 0 for c in faults[4]["checks"]), faults[4]
+assert "faults" not in json.load(open(sys.argv[2]))["strategies"][0]
+PY
+
 # Where nothing was compared (nothing is judged before the end) there is a dash and a null, and no perfect zero.
 sed -e 's/^evaluate_from: .*/evaluate_from: 3 s/' "$source/scenarios/paper_scenario1.yaml" >"$work/scenarios/unjudged.yaml"
 expect 0 'position RMSE against truth \[m\] +-$' run "$work/scenarios/unjudged.yaml" --strategy tt --no-log --out "$work/u"
