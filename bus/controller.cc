@@ -74,6 +74,7 @@ void FlexRayController::State::drop_schedule() {
 void FlexRayController::State::begin_schedule(Microticks start, int rate, std::int64_t cycle) {
   clock.emplace(geometry, start, rate, cycle);
   next_rate = rate;
+  slot_at = {};
   sync.reset();
   sync_status = {};
   std::fill(seen_last.begin(), seen_last.end(), Seen{});
@@ -144,6 +145,7 @@ void FlexRayController::State::handle(Microticks at) {
 
 void FlexRayController::State::start_cycle() {
   std::fill(seen.begin(), seen.end(), Seen{});
+  slot_at = {};
   sync.start_cycle(counter());
   segment = Segment::kStatic;
   next_static = 0;
@@ -160,15 +162,17 @@ void FlexRayController::State::enter_cycle(const StartupFramesSeen& ended, Micro
 
 void FlexRayController::State::tell_slot_problems(Microticks at) {
   const int now = counter();
-  for (int slot = 1; slot <= g.gNumberOfStaticSlots; ++slot)
+  for (int slot = 1; slot <= g.gNumberOfStaticSlots; ++slot) {
+    const Seen& status = seen[static_cast<std::size_t>(slot - 1)];
+    if (status.errors == std::array<std::uint8_t, 2>{} && !slots.others_send_in(slot)) continue;
     for (const schedules::Channel channel : kChannels) {
       const auto c = index_of(channel);
-      const Seen& status = seen[static_cast<std::size_t>(slot - 1)];
       std::uint8_t errors = status.errors[c];
       if (errors == 0 && !status.valid[c] && includes(p.pChannels, channel) && slots.expected(slot, now, channel) != nullptr)
         errors = kNoFrame;
       if (errors != 0) events.slot_problem(clock->cycle(), slot, channel, static_cast<SlotStatus>(errors), at);
     }
+  }
 }
 
 // All static frames of the cycle have been heard: what is missing is reported, and in odd cycles the corrections are

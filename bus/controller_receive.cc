@@ -97,7 +97,8 @@ void FlexRayController::State::hear(const Reception& reception) {
   }
 }
 
-int FlexRayController::State::static_slot_at(Microticks at) const {
+int FlexRayController::State::static_slot_at(Microticks at) {
+  if (at >= slot_at.from && at < slot_at.to) return slot_at.slot;
   if (at < clock->cycle_start()) return 0;
   if (at >= clock->start_of(static_end())) return g.gNumberOfStaticSlots + 1;
   // An estimate on the nominal grid, put right by a slot at most.
@@ -106,6 +107,7 @@ int FlexRayController::State::static_slot_at(Microticks at) const {
   if (slot > g.gNumberOfStaticSlots) slot = g.gNumberOfStaticSlots;
   while (slot > 1 && clock->start_of(slot_start(slot)) > at) --slot;
   while (slot < g.gNumberOfStaticSlots && clock->start_of(slot_start(slot + 1)) <= at) ++slot;
+  slot_at = {slot, clock->start_of(slot_start(slot)), clock->start_of(slot_start(slot + 1))};
   return slot;
 }
 
@@ -136,9 +138,7 @@ void FlexRayController::State::judge_static(const Reception& reception, int slot
   // A frame that outlasts the segment is judged when that has been closed without it.
   std::vector<Seen>& slots_seen = segment == Segment::kStatic ? seen : seen_last;
   Seen& status = slots_seen[static_cast<std::size_t>(slot - 1)];
-  // One division and two comparisons less where it ends in the slot, as it should.
-  const bool within = reception.end <= clock->start_of(slot_start(slot + 1));
-  const int last = within ? slot : static_slot_at(reception.end - Microticks{1});
+  const int last = static_slot_at(reception.end - Microticks{1});
   if (last != slot) {
     errors |= kBoundaryViolation;
     if (last <= g.gNumberOfStaticSlots) slots_seen[static_cast<std::size_t>(last - 1)].errors[c] |= kBoundaryViolation;

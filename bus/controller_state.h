@@ -56,6 +56,13 @@ struct FlexRayController::State {
   std::vector<Seen> seen_last;             // ... in the one that is over
   SyncStatus sync_status;                  // without its counter, which is protocol operation control's
 
+  // The static slot of this cycle that was looked up last: the other channel's frame of it comes next.
+  struct SlotAt {
+    int slot = 0;
+    Microticks from{}, to{};               // [from, to): none
+  };
+  SlotAt slot_at;
+
   // How far the cycle is.
   // kBefore: the first cycle is to start; kDynamic: with the symbol window.
   enum class Segment : std::uint8_t { kBefore, kStatic, kDynamic, kRest };
@@ -131,7 +138,7 @@ struct FlexRayController::State {
   void judge_static(const Reception& reception, int slot, std::uint8_t errors);
   void judge_dynamic(const Reception& reception, std::uint8_t errors);
   bool store(const schedules::FrameSlot& slot, const Reception& reception);
-  int static_slot_at(Microticks at) const;                 // 0 before, gNumberOfStaticSlots + 1 after the segment
+  int static_slot_at(Microticks at);                 // 0 before, gNumberOfStaticSlots + 1 after the segment
 };
 
 }  // namespace ttf::bus

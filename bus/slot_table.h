@@ -21,6 +21,8 @@ class SlotTable {
   std::span<const schedules::FrameSlot* const> own_dynamic(schedules::Channel channel) const {
     return own_dynamic_[index_of(channel)];
   }
+  // Whether another node ever sends in the slot.
+  bool others_send_in(int slot) const { return !others_in(slot).empty(); }
   // The frame that another node sends there; null where nobody does. `counter`: cycle counter, 0..63.
   const schedules::FrameSlot* expected(int slot, int counter, schedules::Channel channel) const;
   // The same in the dynamic segment, where several may share a slot, told apart by message id: the one with that id (or

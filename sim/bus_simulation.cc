@@ -10,7 +10,7 @@ namespace ttf::sim {
 BusSimulation::BusSimulation(const schedules::Cluster& cluster, std::vector<BusNode> nodes,
                              std::vector<bus::ControllerEvents*> events,
                              const std::vector<timebase::Oscillator>& guardians)
-    : Crank(cluster), events_(std::move(events)) {
+    : Crank(cluster, 0), events_(std::move(events)) {
   TTF_CHECK(nodes.size() == cluster.nodes.size() && events_.size() == nodes.size(), "{} nodes, {} events for {}",
             nodes.size(), events_.size(), cluster.nodes.size());
   controllers_.resize(nodes.size());

@@ -12,6 +12,7 @@ namespace ttf::sim {
 namespace {
 
 constexpr std::int64_t kNoCycle = -1;
+constexpr std::size_t kPendingEvents = 4096;   // on the private CANs, beside observations and strobes
 
 timebase::Oscillator make_oscillator(const schedules::Node& node, std::size_t index, const SimulationConfig& config) {
   const auto entity = static_cast<std::uint16_t>(index);
@@ -99,7 +100,7 @@ struct ClusterSimulation::CanLog final : records::Sink {
 };
 
 ClusterSimulation::ClusterSimulation(const SimulationConfig& config, records::Sink& sink)
-    : Crank(*config.cluster),
+    : Crank(*config.cluster, kPendingEvents),
       config_(config),
       sink_(sink),
       can_ports_(cluster_.nodes.size(), std::vector<bus::CanPort*>(cluster_.can_buses.size())),

@@ -9,13 +9,15 @@ namespace ttf::sim {
 namespace {
 
 constexpr TrueTime kNever{std::numeric_limits<std::int64_t>::max()};
-constexpr std::size_t kPendingEvents = 4096;
 constexpr Microticks kUnknown{std::numeric_limits<std::int64_t>::min()};
 
 }  // namespace
 
-Crank::Crank(const schedules::Cluster& cluster)
-    : cluster_(cluster), queue_(kPendingEvents), pool_(kPendingEvents), medium_(cluster, queue_, pool_) {
+Crank::Crank(const schedules::Cluster& cluster, std::size_t others)
+    : cluster_(cluster),
+      queue_(FlexRayMedium::kMostPending + others),
+      pool_(FlexRayMedium::kMostPending + others),
+      medium_(cluster, queue_, pool_) {
   seats_.reserve(cluster.nodes.size());
   next_.reserve(cluster.nodes.size());
 }

@@ -47,7 +47,8 @@ class Crank : public Plant {
   void set_disturbance(Disturbance* disturbance);
 
  protected:
-  explicit Crank(const schedules::Cluster& cluster);
+  // `others`: frames and events that are pending beside FlexRay's, at most.
+  Crank(const schedules::Cluster& cluster, std::size_t others);
 
   // The next node's clock, to be called once per node in the order of their ids. Nothing: it has its supply already, and
   // start() has been or will be called by who derives; refresh() when it can say what is next.

@@ -11,10 +11,6 @@ namespace {
 using bus::Signal;
 using schedules::Channel;
 
-// More than can ever be on its way to a node at once, were all others to babble.
-constexpr std::size_t kLaneRoom = 64;
-// Signals on their way at once, whoever they are for.
-constexpr std::size_t kFlights = 1024;
 
 bool overlap(const FlexRayMedium::Arrival& a, const FlexRayMedium::Arrival& b) {
   return a.start < b.end && b.start < a.end;
@@ -40,7 +36,6 @@ FlexRayMedium::FlexRayMedium(const schedules::Cluster& cluster, MediumQueue& que
         attached_[index_of(channel)].push_back(static_cast<NodeId>(n));
   }
   ends_ = on_bus - 1;
-  for (Lane& lane : lanes_) lane.reserve(kLaneRoom);
   to_coupler_.reserve(kLaneRoom);
   for (const Channel channel : {Channel::kA, Channel::kB}) {
     from_nowhere_[index_of(channel)] = make_way(channel, std::nullopt, false);
@@ -50,8 +45,11 @@ FlexRayMedium::FlexRayMedium(const schedules::Cluster& cluster, MediumQueue& que
     for (const Channel channel : {Channel::kA, Channel::kB})
       ways_.push_back(position_[n] < 0 ? Way{} : make_way(channel, static_cast<NodeId>(n), false));
   flights_.resize(kFlights);
+  free_flights_.reserve(kFlights);
+  const auto most = static_cast<std::size_t>(on_bus);
+  stops_.resize(kFlights * most);
   for (std::size_t f = kFlights; f-- > 0;) {
-    flights_[f].stops.reserve(static_cast<std::size_t>(on_bus));
+    flights_[f].room = std::span(stops_).subspan(f * most, most);
     free_flights_.push_back(static_cast<std::uint32_t>(f));
   }
 }
@@ -165,8 +163,7 @@ FlexRayMedium::Flight& FlexRayMedium::take_off(NodeId sender, Channel channel) {
   TTF_CHECK(!free_flights_.empty(), "{} signals are on their way", kFlights);
   Flight& flight = flights_[free_flights_.back()];
   free_flights_.pop_back();
-  flight.stops.clear();
-  flight.next = 0;
+  flight.size = flight.next = 0;
   flight.sender = sender;
   flight.channel = channel;
   return flight;
@@ -190,12 +187,12 @@ void FlexRayMedium::put(Flight& flight, NodeId receiver, const Arrival& arrival)
     made.arrival.start = std::min(made.arrival.start, other.start);
     made.arrival.end = std::max(made.arrival.end, other.end);
     made.merged = true;
-    take_out(pending, i);
+    pending.take_out(i);   // its stop will find nothing
     i = 0;   // grown, it may reach what it did not reach before
   }
   TTF_CHECK(pending.size() < kLaneRoom, "{} signals on their way to one node", pending.size());
-  pending.push_back(made);
-  flight.stops.push_back({made.arrival.end, receiver, made.id});
+  pending.add(made);
+  flight.room[flight.size++] = {made.arrival.end, receiver, made.id};
 }
 
 void FlexRayMedium::depart(Flight& flight) {
@@ -203,14 +200,12 @@ void FlexRayMedium::depart(Flight& flight) {
     return a.end != b.end ? a.end < b.end : a.receiver < b.receiver;
   };
   // As the way is, unless something has changed a signal on its last metre.
-  if (!std::is_sorted(flight.stops.begin(), flight.stops.end(), by_end))
-    std::sort(flight.stops.begin(), flight.stops.end(), by_end);
-  if (flight.stops.empty())
-    free_flights_.push_back(event_of(flight).frame);
-  else
-    flight.sequence = queue_.schedule(flight.stops.front().end, Phase::kArrival,
-                                      static_cast<std::uint8_t>(flight.stops.front().receiver), event_of(flight),
-                                      order_of(flight).rank);
+  const std::span<Stop> stops = flight.room.first(flight.size);
+  if (!std::is_sorted(stops.begin(), stops.end(), by_end)) std::sort(stops.begin(), stops.end(), by_end);
+  const MediumEvent event = event_of(flight);
+  if (stops.empty()) return free_flights_.push_back(event.frame);
+  const EventOrder first = order_of(flight);
+  flight.sequence = queue_.schedule(first.time, first.phase, first.node, event, first.rank);
 }
 
 MediumEvent FlexRayMedium::event_of(const Flight& flight) const {
@@ -218,12 +213,12 @@ MediumEvent FlexRayMedium::event_of(const Flight& flight) const {
   event.kind = MediumEvent::Kind::kFlexRayArrival;
   event.channel_or_bus = static_cast<std::uint8_t>(flight.channel);
   event.frame = static_cast<std::uint32_t>(&flight - flights_.data());
-  if (flight.next < flight.stops.size()) event.node = static_cast<std::uint8_t>(flight.stops[flight.next].receiver);
+  if (flight.next < flight.size) event.node = static_cast<std::uint8_t>(flight.room[flight.next].receiver);
   return event;
 }
 
 EventOrder FlexRayMedium::order_of(const Flight& flight) const {
-  const Stop& stop = flight.stops[flight.next];
+  const Stop& stop = flight.room[flight.next];
   const auto rank = static_cast<std::uint16_t>((index_of(flight.channel) << 8) | index_of(flight.sender));
   return {stop.end, Phase::kArrival, static_cast<std::uint8_t>(stop.receiver), rank, flight.sequence};
 }
@@ -234,8 +229,8 @@ std::optional<FlexRayMedium::Arrival> FlexRayMedium::arrive(const MediumEvent& e
     return std::nullopt;
   }
   Flight& flight = flights_[event.frame];
-  const Stop stop = flight.stops[flight.next++];
-  if (flight.next < flight.stops.size())
+  const Stop stop = flight.room[flight.next++];
+  if (flight.next < flight.size)
     queue_.go_on(order_of(flight), event_of(flight));
   else
     free_flights_.push_back(event.frame);
@@ -245,14 +240,8 @@ std::optional<FlexRayMedium::Arrival> FlexRayMedium::arrive(const MediumEvent& e
   if (found == pending.end()) return std::nullopt;
   const Arrival arrival = found->arrival;
   TTF_CHECK(arrival.end == now, "an arrival of {} ns at {} ns", arrival.end.ns, now.ns);
-  take_out(pending, static_cast<std::size_t>(found - pending.begin()));
+  pending.take_out(static_cast<std::size_t>(found - pending.begin()));
   return arrival;
-}
-
-// The stop of what is taken out finds nothing any more.
-void FlexRayMedium::take_out(Lane& pending, std::size_t index) {
-  pending[index] = pending.back();
-  pending.pop_back();
 }
 
 void FlexRayMedium::power_off(NodeId node, TrueTime now) {
@@ -283,7 +272,7 @@ void FlexRayMedium::power_off(NodeId node, TrueTime now) {
           continue;
         }
         release(one.arrival);
-        take_out(pending, i);
+        pending.take_out(i);
         if (one.arrival.start >= cut) continue;
         Arrival rest = one.arrival;
         rest.signal = Signal::kUndecodable;

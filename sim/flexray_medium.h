@@ -14,6 +14,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "bus/flexray_port.h"
@@ -29,6 +30,11 @@ namespace ttf::sim {
 
 class FlexRayMedium {
  public:
+  // Signals that can be on their way at once, whoever they are for, beside those that have not reached a coupler yet.
+  static constexpr std::size_t kFlights = 512;
+  // The frames and the events of the queue that it may need.
+  static constexpr std::size_t kMostPending = kFlights + 64;
+
   FlexRayMedium(const schedules::Cluster& cluster, MediumQueue& queue, FramePool& pool);
 
   // Null: nothing goes wrong.
@@ -76,7 +82,26 @@ class FlexRayMedium {
     NodeId sender{};
     bool merged = false;              // of several signals
   };
-  using Lane = std::vector<Pending>;
+  // More than can ever be on its way to a node at once, were all others to babble.
+  static constexpr std::size_t kLaneRoom = 64;
+  // Those on their way to one node on one channel, in no order: one at a time, as a rule.
+  class Lane {
+   public:
+    Lane() : room_(kLaneRoom) {}
+    std::size_t size() const { return size_; }
+    Pending* begin() { return room_.data(); }
+    Pending* end() { return room_.data() + size_; }
+    const Pending* begin() const { return room_.data(); }
+    const Pending* end() const { return room_.data() + size_; }
+    Pending& operator[](std::size_t index) { return room_[index]; }
+    void add(const Pending& pending) { room_[size_++] = pending; }
+    void take_out(std::size_t index) { room_[index] = room_[--size_]; }
+    void clear() { size_ = 0; }
+
+   private:
+    std::vector<Pending> room_;
+    std::size_t size_ = 0;
+  };
   // One signal on its way to all its receivers: a single event of the queue, which goes on from one stop to the next.
   struct Stop {
     TrueTime end{};
@@ -84,8 +109,8 @@ class FlexRayMedium {
     std::uint32_t id = 0;
   };
   struct Flight {
-    std::vector<Stop> stops;          // by (end, receiver)
-    std::size_t next = 0;
+    std::span<Stop> room;             // in stops_, for every node
+    std::size_t size = 0, next = 0;   // stops, by (end, receiver) once it has departed
     std::uint64_t sequence = 0;       // in the queue
     NodeId sender{};
     schedules::Channel channel{};
@@ -108,7 +133,6 @@ class FlexRayMedium {
   void depart(Flight& flight);
   MediumEvent event_of(const Flight& flight) const;
   EventOrder order_of(const Flight& flight) const;
-  void take_out(Lane& pending, std::size_t index);
   static std::size_t lane_of(NodeId node, schedules::Channel channel) { return 2 * index_of(node) + index_of(channel); }
   Lane& lane(NodeId node, schedules::Channel channel) { return lanes_[lane_of(node, channel)]; }
 
@@ -119,6 +143,7 @@ class FlexRayMedium {
   std::vector<Lane> lanes_;                       // by NodeId and channel
   std::vector<Way> ways_;                         // by sender and channel
   std::array<Way, 2> from_nowhere_, from_coupler_;   // by channel
+  std::vector<Stop> stops_;
   std::vector<Flight> flights_;
   std::vector<std::uint32_t> free_flights_;
   std::array<Duration, 2> busy_{};                // by channel

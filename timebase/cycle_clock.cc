@@ -36,12 +36,11 @@ std::int64_t CycleClock::correction_phase() const {
   return rest;
 }
 
-Microticks CycleClock::start_of(Macroticks m) const {
-  TTF_CHECK(m.value >= 0 && m.value <= geometry_.macro_per_cycle, "macrotick {}", m.value);
-  const std::int64_t correction_start = geometry_.offset_correction_start;
-  if (m.value <= correction_start) return start_ + Microticks{macroticks_.ceil(m.value * length_)};
-  // The rest of the cycle absorbs the offset correction evenly.
-  return start_ + Microticks{before_ + late_macroticks_.ceil((m.value - correction_start) * correction_phase())};
+// The rest of the cycle absorbs the offset correction evenly.
+Microticks CycleClock::late_start_of(Macroticks m) const {
+  TTF_CHECK(m.value <= geometry_.macro_per_cycle, "macrotick {}", m.value);
+  const std::int64_t late = m.value - geometry_.offset_correction_start;
+  return start_ + Microticks{before_ + late_macroticks_.ceil(late * correction_phase())};
 }
 
 GlobalTime CycleClock::global_time(Microticks t) const {

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 
+#include "core/check.h"
 #include "core/time.h"
 #include "timebase/divisor.h"
 
@@ -30,7 +31,12 @@ class CycleClock {
   std::int64_t cycle() const { return cycle_; }           // running number, never wraps
   Microticks cycle_start() const { return start_; }
   Microticks cycle_end() const;                           // start of the next cycle, offset correction included
-  Microticks start_of(Macroticks m) const;                // microtick at which macrotick m (0..gMacroPerCycle) starts
+  // Microtick at which macrotick m (0..gMacroPerCycle) starts.
+  Microticks start_of(Macroticks m) const {
+    TTF_CHECK(m.value >= 0, "macrotick {}", m.value);
+    if (m.value > geometry_.offset_correction_start) return late_start_of(m);
+    return start_ + Microticks{macroticks_.ceil(m.value * length_)};
+  }
   int rate_correction() const { return rate_; }
   int offset_correction() const { return offset_; }
 
@@ -48,6 +54,7 @@ class CycleClock {
 
  private:
   void set_rate(int rate);
+  Microticks late_start_of(Macroticks m) const;   // behind gOffsetCorrectionStart
   std::int64_t correction_phase() const;   // its microticks, the correction included
 
   CycleGeometry geometry_;
