@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "cli/commands.h"
 #include "cli/output.h"
@@ -150,7 +149,7 @@ std::vector<FaultResult> results_of(const Options& options, const CampaignFile& 
     return experiments::merged(campaign, std::move(shards));
   }
   const experiments::Shard shard = shard_of(options.shard);
-  const unsigned jobs = options.jobs > 0 ? options.jobs : std::max(1u, std::thread::hardware_concurrency());
+  const unsigned jobs = options.jobs > 0 ? options.jobs : experiments::workers_here();
   const auto all = (static_cast<std::uint64_t>(campaign.faults) + shard.count - 1 - shard.part) / shard.count;
   fmt::print(stderr, "{}: {} faults in {} variants, {} workers ...\n", campaign.name, all, campaign.variants.size(), jobs);
   const Progress progress(all);

@@ -22,6 +22,8 @@ CampaignClusters::CampaignClusters(const CampaignFile& campaign) : base(cluster_
   for (const Variant& variant : campaign.variants) variants.push_back(cluster_of(campaign, variant));
 }
 
+unsigned workers_here() { return std::max(1u, std::thread::hardware_concurrency()); }
+
 std::vector<FaultResult> run_campaign(const CampaignFile& campaign, const CampaignClusters& clusters, Shard shard,
                                       unsigned workers, const std::function<void(std::uint64_t)>& progress) {
   std::vector<FaultResult> results;

@@ -28,6 +28,9 @@ struct CampaignClusters {
   std::vector<schedules::Cluster> variants;       // in the file's order
 };
 
+// As many as there are processors.
+unsigned workers_here();
+
 // `progress`: called now and then by the calling thread, with how many faults are done.
 std::vector<FaultResult> run_campaign(const CampaignFile& campaign, const CampaignClusters& clusters, Shard shard,
                                       unsigned workers, const std::function<void(std::uint64_t)>& progress);

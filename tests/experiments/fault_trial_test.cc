@@ -27,22 +27,21 @@ class FaultTrial : public testing::Test {
   CampaignClusters clusters_{campaign_};
 };
 
-// The fault comes when the run is over.
+// A fault that begins with the run and never does anything.
 TEST_F(FaultTrial, WithoutAFaultNobodyNoticesAnythingOrIsHarmed) {
-  nodes::Fault never = fault(nodes::FaultKind::kCrash, kFusion);
-  never.from = kCycle * 10'000;
+  nodes::Fault nothing = fault(nodes::FaultKind::kOmission, kCamera);
+  nothing.from = Duration{};
+  nothing.probability = 0.0;
   for (const std::size_t variant : {kGuardian, kBus})
     for (std::uint32_t index = 0; index < 40; ++index)
       for (const bool starts_up : {false, true}) {
-        // What is noticed from the beginning on, not from the fault on.
-        nodes::Fault harmless = fault(nodes::FaultKind::kDrift, kNoNode);
-        harmless.node = kCamera;
-        harmless.from = Duration{};
-        harmless.drift_ppb = 0;
-        const FaultOutcome outcome = run(variant, starts_up ? never : harmless, starts_up, index);
+        const FaultOutcome outcome = run(variant, nothing, starts_up, index);
+        EXPECT_FALSE(outcome.activated);
         EXPECT_TRUE(outcome.starts_without);
         EXPECT_EQ(outcome.harms, 0) << "index " << index;
         EXPECT_EQ(outcome.seen_by_others, 0) << "index " << index;
+        EXPECT_EQ(outcome.seen_by_itself, 0) << "index " << index;
+        EXPECT_EQ(outcome.still_out, 0) << "index " << index;
       }
 }
 
