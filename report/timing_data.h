@@ -30,6 +30,7 @@ struct TimingData {
     PduId pdu;
     std::uint32_t sequence;
     std::uint8_t fragment;
+    bool by_the_cluster = true;   // else its sender had no global time yet (records::Stamp)
   };
   struct HopAt {
     TrueTime at;

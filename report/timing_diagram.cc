@@ -41,7 +41,8 @@ void TimingDiagram::on(const records::SlotFrameSent& r) {
   const bool in_a_run = possible(r.stamp.global.ns) && r.cycle >= -kMostCycles && r.cycle <= kMostCycles;
   if (in_a_run && near(r.stamp.true_time, r.end.true_time))
     data_.slot_frames.push_back({r.stamp.true_time, r.end.true_time, r.stamp.global, r.stamp.node, r.cycle, r.slot,
-                                 r.channel, r.null_frame, r.pdu, r.sequence, r.fragment});
+                                 r.channel, r.null_frame, r.pdu, r.sequence, r.fragment,
+                                 r.stamp.global.ns != r.stamp.local.ns});
 }
 void TimingDiagram::on(const records::ListHop& r) {
   if (near(r.stamp.true_time, r.stamp.true_time))

@@ -104,7 +104,7 @@ class Painter {
     std::map<std::int64_t, TrueTime> known;
     if (cycle_.ns <= 0 || (to_ - from_).ns / cycle_.ns > kMostCycles) return known;
     for (const auto& f : data_.slot_frames)
-      known.try_emplace(f.cycle, f.start - Duration{f.global.ns - f.cycle * cycle_.ns});
+      if (f.by_the_cluster) known.try_emplace(f.cycle, f.start - Duration{f.global.ns - f.cycle * cycle_.ns});
     std::map<std::int64_t, TrueTime> all;
     const std::pair<std::int64_t, TrueTime> anchor = known.empty()
                                                          ? std::pair<std::int64_t, TrueTime>{}

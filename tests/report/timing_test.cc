@@ -49,6 +49,22 @@ TEST(TimingDiagram, NumbersTheCyclesOfTheWindow) {
   EXPECT_EQ(count(svg, ">70</text>"), 0u);
 }
 
+// A startup frame of cycle 3, sent at 202 ms by a node that has no global time yet: its own once more.
+TEST(TimingDiagram, FramesSentWithoutGlobalTimeSayNothingOfTheCycles) {
+  TimingDiagram d(synthetic_names(), Duration::milliseconds(5), at_us(200'000), at_us(350'000));
+  records::SlotFrameSent early;
+  early.stamp = {at_us(202'000), {202'000'000}, {202'000'000}, NodeId{5}};
+  early.end = {at_us(202'074), {202'074'000}, {202'074'000}, NodeId{5}};
+  early.cycle = 3;
+  early.slot = 1;
+  d.on(early);
+  SyntheticRun{}.drive(d, 1'500'000);
+  const std::string svg = d.svg();
+  for (int cycle = 40; cycle < 70; ++cycle)
+    EXPECT_EQ(count(svg, fmt::format("fill=\"#444444\">{}</text>", cycle)), 1u) << cycle;
+  EXPECT_EQ(count(svg, ">3</text>"), 0u);
+}
+
 TEST(TimingDiagram, NoLabelsOverlapInAnyWindow) {
   for (const auto& [from, to] : {std::pair{200, 350}, std::pair{0, 150}, std::pair{100, 110},
                                  std::pair{0, 1500}, std::pair{640, 1000}}) {
