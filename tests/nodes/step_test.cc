@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/random.h"
+#include "nodes/fusion_host.h"
 #include "schedules/loader.h"
 #include "tests/bus/layouts.h"
 
@@ -139,6 +140,14 @@ TEST(Output, HoldsWhatWasSetAndNothingOfTheListBefore) {
   for (int i = 0; i < 4; ++i) EXPECT_EQ(element_value(layout, out.view(), i, 0), 0.0);
   out.begin(3, 0, GlobalTime{});
   EXPECT_EQ(out.view().fragments, 1) << "an empty list is a message too";
+}
+
+// Counts of rounds as lists come: which of them are of a known age.
+TEST(RoundsBelieved, AnotherCountTakesTwoListsInARow) {
+  RoundsBelieved rounds;
+  for (const auto& [count, believed] : {std::pair{0, true}, {0, true}, {5, false}, {0, true}, {5, false}, {5, true}, {5, true},
+                                        {-2, false}, {7, false}, {-2, false}, {-2, true}, {5, false}, {-2, true}})
+    EXPECT_EQ(rounds.believed(count), believed) << count;
 }
 
 TEST(Output, SaturatesAndCounts) {

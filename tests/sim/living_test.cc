@@ -178,5 +178,64 @@ TEST_P(Living, WithoutTheFusionNodeTheLastImageIsRefusedWhenItIsTooOld) {
       << "its age is what it is";
 }
 
+// It comes back empty, counting other rounds of the cycle counter than the rest, its images from 0.
+TEST_P(Living, AFusionNodeThatRestartsBeginsWithNothingAndIsBelievedAgain) {
+  LivingDrive drive(GetParam());
+  drive.off("fusion", 1.5);
+  drive.on("fusion", 1.9);
+  drive.run_to(4.0);
+  expect_nothing_invented(drive);
+  EXPECT_FALSE(std::any_of(drive.seen.images.begin(), drive.seen.images.end(), [](const SeenImage& image) {
+    return image.at > at_s(1.51) && image.at < at_s(1.9);
+  }));
+  int stale = 0, again = 0;
+  for (const SeenUse& use : drive.seen.uses) {
+    EXPECT_TRUE(use.stale || use.at < at_s(1.7) || use.at > at_s(1.9)) << use.at.ns;
+    stale += use.stale;
+    if (use.at < at_s(2.5)) continue;
+    EXPECT_TRUE(use.fresh && !use.stale) << use.at.ns;
+    EXPECT_EQ(use.objects, 1u);
+    ++again;
+  }
+  EXPECT_LT(stale, 25) << "start-up, and the third of its images is believed";
+  EXPECT_GT(again, 30);
+}
+
+// The gateway goes on sending the last list of a laser that is dead. For a fusion node that starts anew it is the first it hears,
+// of an age it cannot know: whole rounds of the cycle counter look alike.
+TEST_P(Living, AFusionNodeThatRestartsTakesNoOldListForANewOne) {
+  for (const char* dead : {"laser", "camera"}) {
+    LivingDrive drive(GetParam());
+    drive.off(dead, 1.0);
+    drive.off("fusion", 1.5);
+    drive.on("fusion", 1.9);
+    drive.run_to(4.0);
+    expect_nothing_invented(drive);
+    const SensorId sensor = drive.sensor(dead);
+    std::size_t others = 0;
+    for (const FusedList& list : drive.seen.fused) {
+      EXPECT_FALSE(list.id.sensor == sensor && list.at > at_s(1.3)) << dead << " at " << list.at.ns;
+      others += list.at > at_s(2.5);
+    }
+    EXPECT_GT(others, 15u);
+    EXPECT_EQ(drive.seen.images.back().objects.size(), 1u);
+  }
+}
+
+TEST_P(Living, AHostThatRestartsStampsWhatItMeansAgain) {
+  for (const auto& [host, name] : {std::pair{"laser_pre", "laser"}, {"camera_pre", "camera"}}) {
+    LivingDrive drive(GetParam());
+    drive.off(host, 1.5);
+    drive.on(host, 1.9);
+    drive.run_to(4.0);
+    expect_nothing_invented(drive);
+    const SensorId sensor = drive.sensor(name);
+    const auto again = std::count_if(drive.seen.fused.begin(), drive.seen.fused.end(), [&](const FusedList& list) {
+      return list.id.sensor == sensor && list.at > at_s(2.4);
+    });
+    EXPECT_GT(again, 15) << host;
+  }
+}
+
 }  // namespace
 }  // namespace ttf
