@@ -76,7 +76,8 @@ void FaultReport::on(const records::StateChanged& change) {
 void FaultReport::on(const records::PowerChanged& power) {
   const NodeId node = power.stamp.node;
   if (index_of(node) >= nodes_.size()) return;
-  changed(node, power.on ? "without supply" : "with supply", power.on ? "with supply" : "without supply", "", power.stamp.true_time);
+  const std::string_view off = "without supply", on = "with supply";
+  changed(node, power.on ? off : on, power.on ? on : off, "", power.stamp.true_time);
   if (power.on) return;
   left_active(node, power.stamp.true_time);
   nodes_[index_of(node)].active = false;
