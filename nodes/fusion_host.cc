@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -34,6 +35,14 @@ fusion::Settling settling(const schedules::Cluster& cluster, const schedules::Ag
   return {std::move(steps), round->round};
 }
 
+// By how many rounds the list's stamp, as its sender counts, was brought to `measured`.
+std::int64_t rounds_between(const schedules::PduLayout& layout, const bus::ListView& list, GlobalTime near,
+                            GlobalTime measured, Duration round) {
+  constexpr Duration kNoRounds{std::numeric_limits<std::int64_t>::max()};
+  const std::int64_t apart = (measured - time_stamp(layout, list, near, kNoRounds)).ns;
+  return (apart + (apart < 0 ? -round.ns : round.ns) / 2) / round.ns;
+}
+
 }  // namespace
 
 std::vector<fusion::SensorTiming> sensor_timings(const schedules::Cluster& cluster) {
@@ -54,6 +63,16 @@ FusionHost::FusionHost(const schedules::Cluster& cluster, fusion::StrategyKind k
     : strategy(fusion::make_strategy(kind, tracker, sensor_timings(cluster))),
       most_objects(static_cast<std::size_t>(tracker.max_objects)) {}
 
+bool RoundsBelieved::believed(std::int64_t rounds) {
+  if (rounds != rounds_ && claimed_ != rounds) {
+    claimed_ = rounds;
+    return false;
+  }
+  rounds_ = rounds;
+  claimed_.reset();
+  return true;
+}
+
 FusionStep::FusionStep(const schedules::Cluster& cluster, const schedules::Task& task,
                        std::shared_ptr<FusionHost> host)
     : host_(std::move(host)), round_(cluster.round()) {
@@ -68,6 +87,7 @@ FusionStep::FusionStep(const schedules::Cluster& cluster, const schedules::Task&
     most = std::max(most, static_cast<std::size_t>(cluster.pdu(binding.pdu).max_elements));
   }
   observations_.reserve(most);
+  rounds_.resize(task.reads.size());
 }
 
 void FusionStep::run(StepContext& context) {
@@ -76,9 +96,11 @@ void FusionStep::run(StepContext& context) {
   // Measurements lie behind: up to seven eighths of a round are their age, the rest is for clocks that are ahead of this one.
   const GlobalTime about = now - Duration{round_.ns / 8 * 3};
   for (std::size_t i = 0; i < context.inputs.size(); ++i) {
-    const Input& input = context.inputs[i];
+    Input& input = context.inputs[i];
     if (!input.fresh || !input.list) continue;   // each list is taken exactly once
     const GlobalTime measured = time_stamp(*input.layout, *input.list, about, round_);
+    input.discarded = !rounds_[i].believed(rounds_between(*input.layout, *input.list, about, measured, round_));
+    if (input.discarded) continue;
     codecs_[i].decode(*input.list, observations_);
     record(context, input, measured);
     host_->strategy->accept({{input.layout->sensor, input.list->sequence}, measured, observations_});

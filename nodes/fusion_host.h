@@ -5,7 +5,9 @@
 // service will use it, which the schedule says beforehand; predicting never touches the filter state.
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "fusion/strategy.h"
@@ -28,7 +30,20 @@ struct FusionHost {
   std::uint64_t unlisted = 0;      // of the strategy's, up to the last one
 };
 
-// Ports: one per sensor list, any number.
+// Whether a list's age is known. Its stamp counts the rounds of the cycle counter as its sender does; the reader brings it to
+// its own count by `rounds` (nodes/step.h). An old list, which a living gateway repeats for a dead sensor, would be brought as
+// well, and seem new. So another count is believed only when two lists in a row have it: a repeated list has no second one.
+class RoundsBelieved {
+ public:
+  // A list that was not heard before. Nodes that began together agree: 0.
+  bool believed(std::int64_t rounds);
+
+ private:
+  std::int64_t rounds_ = 0;
+  std::optional<std::int64_t> claimed_;
+};
+
+// Ports: one per sensor list, any number. A list whose age is not known is discarded.
 class FusionStep final : public Step {
  public:
   FusionStep(const schedules::Cluster& cluster, const schedules::Task& task, std::shared_ptr<FusionHost> host);
@@ -41,6 +56,7 @@ class FusionStep final : public Step {
   std::shared_ptr<FusionHost> host_;
   Duration round_;                               // of the schedule
   std::vector<ObservationCodec> codecs_;         // per port
+  std::vector<RoundsBelieved> rounds_;           // per port
   std::vector<fusion::Observation> observations_;
 };
 
