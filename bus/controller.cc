@@ -164,7 +164,7 @@ void FlexRayController::State::tell_slot_problems(Microticks at) {
   const int now = counter();
   for (int slot = 1; slot <= g.gNumberOfStaticSlots; ++slot) {
     const Seen& status = seen[static_cast<std::size_t>(slot - 1)];
-    if (status.errors == std::array<std::uint8_t, 2>{} && !slots.others_send_in(slot)) continue;
+    if ((status.errors[0] | status.errors[1]) == 0 && !slots.others_send_in(slot)) continue;
     for (const schedules::Channel channel : kChannels) {
       const auto c = index_of(channel);
       std::uint8_t errors = status.errors[c];
