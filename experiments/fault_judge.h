@@ -1,4 +1,5 @@
-// Whether a fault harmed those that have none, and who noticed it: from what controllers tell their hosts, and the clocks' spread.
+// Whether a fault harmed those that have none, and who noticed it: from what controllers tell their hosts, and the clocks'
+// spread.
 //
 // A fault-free node is one that the fault does not name. From the beginning of the fault on, it is harmed when
 //   H1  it leaves normal active
