@@ -72,6 +72,11 @@ INSTANTIATE_TEST_SUITE_P(Sizes, StartupConformance,
                                          Size{64, 5, 15, 60}),
                          [](const auto& name) { return std::to_string(name.param.nodes) + "Nodes"; });
 
+// The larger clusters as often as the small ones: half a minute, so it has a ctest entry of its own (startup_thousands).
+INSTANTIATE_TEST_SUITE_P(DISABLED_Thousands, StartupConformance,
+                         testing::Values(Size{16, 4, 8, 3000}, Size{64, 5, 15, 1000}),
+                         [](const auto& name) { return std::to_string(name.param.nodes) + "Nodes"; });
+
 TEST(StartupConformance, AllPoweredOnInTimeTheCyclesOfTheSpecification) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     // Before the first listen time-out is over.
