@@ -67,7 +67,7 @@ Outcome run(int sync, int traitors, TwoFaced::Plan plan, std::uint64_t seed, Dur
   std::vector<bus::ControllerEvents*> events;
   for (int n = 0; n < sync; ++n) {
     RandomStream draw({seed, 0, Purpose::kClockDrift, static_cast<std::uint16_t>(n), 0});
-    nodes.push_back({timebase::Oscillator(25'000, draw.integer(-1'500'000, 1'500'000), draw.integer(0, 24'999)),
+    nodes.push_back({timebase::Oscillator{25'000, draw.integer(-1'500'000, 1'500'000), draw.integer(0, 24'999)},
                      TrueTime{draw.integer(0, 9'000'000)}});
     logs.push_back(std::make_unique<StateLog>());
     events.push_back(logs.back().get());

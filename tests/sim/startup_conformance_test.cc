@@ -27,7 +27,7 @@ struct Started {
     std::vector<bus::ControllerEvents*> events;
     for (std::size_t n = 0; n < cluster.nodes.size(); ++n) {
       RandomStream draw({seed, 0, Purpose::kClockDrift, static_cast<std::uint16_t>(n), 0});
-      nodes.push_back({timebase::Oscillator(25'000, draw.integer(-1'500'000, 1'500'000), draw.integer(0, 24'999)),
+      nodes.push_back({timebase::Oscillator{25'000, draw.integer(-1'500'000, 1'500'000), draw.integer(0, 24'999)},
                        power_on[n]});
       logs.push_back(std::make_unique<StateLog>());
       events.push_back(logs.back().get());

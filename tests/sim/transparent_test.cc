@@ -114,7 +114,7 @@ Told run(std::uint64_t seed, bool troubled, bool transparent) {
   std::vector<BusNode> begin;
   std::vector<bus::ControllerEvents*> events;
   for (int n = 0; n < nodes; ++n) {
-    begin.push_back({timebase::Oscillator(25'000, draw.integer(-1'500'000, 1'500'000), draw.integer(0, 24'999)),
+    begin.push_back({timebase::Oscillator{25'000, draw.integer(-1'500'000, 1'500'000), draw.integer(0, 24'999)},
                      TrueTime{draw.integer(0, 20'000'000)}});
     events.push_back(&told.diaries[static_cast<std::size_t>(n)]);
   }

@@ -73,7 +73,8 @@ class FaultBus final : public records::Sink {
     std::vector<bus::ControllerEvents*> events;
     for (std::size_t n = 0; n < config_.cluster.nodes.size(); ++n) {
       RandomStream draw({config_.seed, 0, Purpose::kClockDrift, static_cast<std::uint16_t>(n), 0});
-      BusNode node{timebase::Oscillator(25'000, draw.integer(-config_.most_drift_ppb, config_.most_drift_ppb), draw.integer(0, 24'999))};
+      const std::int64_t phase = draw.integer(0, 24'999);
+      BusNode node{timebase::Oscillator(25'000, draw.integer(-config_.most_drift_ppb, config_.most_drift_ppb), phase)};
       if (!config_.cold) node.clock = integrated(node.oscillator);
       node.view = believed_.of(static_cast<NodeId>(n));
       nodes.push_back(node);
