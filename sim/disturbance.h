@@ -37,8 +37,8 @@ class Disturbance {
   static constexpr TrueTime kNever{std::numeric_limits<std::int64_t>::max()};
 
   virtual ~Disturbance() = default;
-  // Whether leaving() may look at the bytes, or change bytes or channel, of what the node sends now. Where a medium is transparent
-  // and this says no, leaving() gets no bytes.
+  // Whether leaving() or arriving() may look at the bytes, or change bytes or channel, of what the node sends now. Where a medium is
+  // transparent and this says no, they get no bytes.
   virtual bool touches(NodeId sender, schedules::Channel channel) const { return (void)sender, (void)channel, true; }
   // False: it does not leave.
   virtual bool leaving(Leaving& signal) { return (void)signal, true; }
