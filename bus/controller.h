@@ -44,8 +44,8 @@ enum SlotStatus : std::uint8_t {
   kNoFrame = 16,
 };
 
-// The same as a host reads it back, of one static slot on one channel in one cycle. Nothing set: nothing was heard, which is so
-// in the node's own slots, too. More than one may be set: a valid frame and noise behind it.
+// The same as a host reads it back, of one static slot on one channel in one cycle. Nothing set: nothing was heard,
+// which is so in the node's own slots, too. More than one may be set: a valid frame and noise behind it.
 struct SlotSeen {
   bool valid_frame = false;
   bool syntax_error = false;
@@ -56,8 +56,8 @@ struct SlotSeen {
   bool operator==(const SlotSeen&) const = default;
 };
 
-// The same of the symbol window (E-Ray SWNIT). A media access test symbol that is one of several is valid, and a syntax error
-// besides.
+// The same of the symbol window (E-Ray SWNIT). A media access test symbol that is one of several is valid, and a syntax
+// error besides.
 struct SymbolWindowSeen {
   bool valid_mts = false;
   bool syntax_error = false;             // anything else, and a second symbol
@@ -67,10 +67,11 @@ struct SymbolWindowSeen {
   bool operator==(const SymbolWindowSeen&) const = default;
 };
 
-// What clock synchronisation has had to go by since the schedule began, under E-Ray's names (SPNU563A: registers SFS and CCEV).
+// What clock synchronisation has had to go by since the schedule began, under E-Ray's names (SPNU563A: registers SFS
+// and CCEV).
 struct SyncStatus {
-  // Valid sync frames on channel A or B in the last even or odd cycle whose static segment is over, the node's own included;
-  // counted up to 15, whatever gSyncNodeMax says.
+  // Valid sync frames on channel A or B in the last even or odd cycle whose static segment is over, the node's own
+  // included; counted up to 15, whatever gSyncNodeMax says.
   int VSAE = 0, VSAO = 0, VSBE = 0, VSBO = 0;
   // Of the last double cycle: the offset or the rate term was missing, or was beyond its limit.
   bool MOCS = false, MRCS = false, OCLR = false, RCLR = false;
@@ -88,8 +89,8 @@ class ControllerEvents {
   virtual void slot_problem(std::int64_t cycle, int slot, schedules::Channel channel, SlotStatus status, Microticks at) {
     (void)cycle, (void)slot, (void)channel, (void)status, (void)at;
   }
-  // The static segment of a cycle is over, its slot problems have been told, and slot_status() is of it. During start-up
-  // too: what that is worth is the host's to judge by state().
+  // The static segment of a cycle is over, its slot problems have been told, and slot_status() is of it. During
+  // start-up too: what that is worth is the host's to judge by state().
   virtual void static_segment_ended(std::int64_t cycle, Microticks at) { (void)cycle, (void)at; }
   // A valid frame in the slot it says it is of; not during start-up. `frame` only during the call.
   virtual void frame_received(std::int64_t cycle, int slot, schedules::Channel channel, const wire::DecodedFrame& frame,
@@ -149,29 +150,29 @@ class FlexRayController {
   const PocState& state() const;
   // Whether the clock is the cluster's, which the host may rely on.
   bool synchronised() const;
-  // What was seen in a static slot (1..gNumberOfStaticSlots) of the cycle whose static segment ended last, until the next one
-  // ends. A frame that outlasts the segment is added when it is over.
+  // What was seen in a static slot (1..gNumberOfStaticSlots) of the cycle whose static segment ended last, until the
+  // next one ends. A frame that outlasts the segment is added when it is over.
   SlotSeen slot_status(int slot, schedules::Channel channel) const;
   SyncStatus sync_status() const;
   // Of the last symbol window that is over; nothing during start-up. Nothing is heard of the own symbol.
   SymbolWindowSeen symbol_window_status(schedules::Channel channel) const;
 
-  // A media access test symbol in the next symbol window whose action point is ahead, on those of the channels that this node
-  // is attached to. False, and nothing is sent: not in normal active with all slots (E-Ray SEND_MTS), one is pending, or
-  // the cycle has no symbol window.
+  // A media access test symbol in the next symbol window whose action point is ahead, on those of the channels that
+  // this node is attached to. False, and nothing is sent: not in normal active with all slots (E-Ray SEND_MTS), one is
+  // pending, or the cycle has no symbol window.
   bool send_media_test_symbol(schedules::Channels channels = schedules::Channels::kAB);
 
   // bus/network_management.h. Exactly gNetworkManagementVectorLength bytes.
   void set_network_management_vector(std::span<const std::byte> vector);
   std::span<const std::byte> network_management_vector() const;
 
-  // External clock correction [uT], by which hosts make a cluster follow another one's time or that of a standard: added to
-  // the offset correction of every odd cycle whose static segment has not ended yet, and to the rate correction that
-  // is computed then, until set anew; only in normal operation. Positive lengthens the cycle. The magnitudes end at
-  // pExternOffsetCorrection and pExternRateCorrection; the sum is not checked against pOffsetCorrectionOut and
-  // pRateCorrectionOut (SPNU563A 26.2.4.5). All nodes have to be given the same in the same double cycle.
-  // Reading taken: the rate in force, which the next correction goes on from, is the one with the external term in it, so that
-  // a term given once stays and one given again adds up, less damping.
+  // External clock correction [uT], by which hosts make a cluster follow another one's time or that of a standard:
+  // added to the offset correction of every odd cycle whose static segment has not ended yet, and to the rate
+  // correction that is computed then, until set anew; only in normal operation. Positive lengthens the cycle. The
+  // magnitudes end at pExternOffsetCorrection and pExternRateCorrection; the sum is not checked against
+  // pOffsetCorrectionOut and pRateCorrectionOut (SPNU563A 26.2.4.5). All nodes have to be given the same in the same
+  // double cycle. Reading taken: the rate in force, which the next correction goes on from, is the one with the
+  // external term in it, so that a term given once stays and one given again adds up, less damping.
   void set_external_correction(int offset, int rate);
   OutgoingList& outgoing(PduId pdu);            // must be a PDU this node sends
   IncomingList& incoming(PduId pdu);            // any other PDU on FlexRay

@@ -1,4 +1,5 @@
-// The symbol window: sending media access test symbols, and judging what is heard there (FlexRay 2.1A, chapters 5.1.4 and 6).
+// The symbol window: sending media access test symbols, and judging what is heard there (FlexRay 2.1A, chapters 5.1.4
+// and 6).
 #include "bus/controller_state.h"
 
 namespace ttf::bus {

@@ -11,8 +11,8 @@
 //   slot      41  42  42  42  42  42  43  44     point of 5), minislot 6 is idle (gdDynamicSlotIdlePhase 1)
 // clang-format on
 //
-// pLatestTx must be such that the longest frame ends within the segment: schedules/checker.h sees to it in cluster files, a
-// designer of frames by hand keeps schedules/minislots.h.
+// pLatestTx must be such that the longest frame ends within the segment: schedules/checker.h sees to it in cluster
+// files, a designer of frames by hand keeps schedules/minislots.h.
 #pragma once
 
 #include "core/time.h"

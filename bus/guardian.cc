@@ -134,7 +134,8 @@ GuardianAnswer Guardian::in_dynamic_segment(const timebase::CycleClock& clock, c
   const FrameSlot* frame = slots_.expected(counter.slot_in(minislot), cycle_count(clock), channel_);
   if (frame == nullptr || frame->sender != signal.branch) return no(GuardianReason::kNotItsSlot);
   if (minislot > cluster_.node(signal.branch).flexray->pLatestTx) return no(GuardianReason::kOutsideWindow);
-  // Near a minislot's boundary some receivers would count another minislot than others, and every slot behind it differently.
+  // Near a minislot's boundary some receivers would count another minislot than others, and every slot behind it
+  // differently.
   const Microticks tolerance =
       std::min(tolerance_, lengths_.time(g_.gdMinislotActionPointOffset * g_.gdMacrotick_ps / 2));
   if (std::abs((at - clock.start_of(minislots_.action_point(minislot))).value) > tolerance.value)

@@ -1,26 +1,29 @@
-// The central guardian: what the star coupler of one channel lets through. A pure judgement of a signal that begins at the coupler on
-// the branch of a node, on the guardian's own clock; its memory is bus/guardian_startup.h's, its place sim/star_coupler.h.
+// The central guardian: what the star coupler of one channel lets through. A pure judgement of a signal that begins at
+// the coupler on the branch of a node, on the guardian's own clock; its memory is bus/guardian_startup.h's, its place
+// sim/star_coupler.h.
 //
-// A coupler receives everything and sends it on afresh. So it may look at what it forwards: a frame's header is known before
-// the first bit leaves (what that delay means: sim/coupler.h). Frame CRCs come too late for it: a wrong one is wrong for all.
+// A coupler receives everything and sends it on afresh. So it may look at what it forwards: a frame's header is known
+// before the first bit leaves (what that delay means: sim/coupler.h). Frame CRCs come too late for it: a wrong one is
+// wrong for all.
 //
 // On a schedule (its controller's clock runs, integrated like any node's; bus/controller.h):
-//   G1  in a static slot only the frame passes that the cluster's schedule has there in this cycle on this channel: its node, id, cycle
-//       count, length, sync and startup indicators
-//   G2  and only if it begins within half an action point offset of the slot's action point. While the cluster's clocks are
-//       within that of one another, no fault-free node's frame is refused, and one that passes lies within its slot for
-//       every receiver: there is nothing slightly off that some accept and some do not
-//   G3  in the dynamic segment the guardian counts slots as every node does, and lets through the frame of that slot's node, not
-//       later than its pLatestTx and not longer than its PDU, and only if it begins within half a minislot action point offset of
-//       the minislot's action point: no receiver counts another minislot then
+//   G1  in a static slot only the frame passes that the cluster's schedule has there in this cycle on this channel: its
+//       node, id, cycle count, length, sync and startup indicators
+//   G2  and only if it begins within half an action point offset of the slot's action point. While the cluster's clocks
+//       are within that of one another, no fault-free node's frame is refused, and one that passes lies within its slot
+//       for every receiver: there is nothing slightly off that some accept and some do not
+//   G3  in the dynamic segment the guardian counts slots as every node does, and lets through the frame of that slot's
+//       node, not later than its pLatestTx and not longer than its PDU, and only if it begins within half a minislot
+//       action point offset of the minislot's action point: no receiver counts another minislot then
 //   G4  in the symbol window a media access test symbol, of any node
 //   G5  else nothing; and nothing that it cannot make out
 // Without a schedule (the rules of turns are bus/guardian_startup.h's S1 to S6):
-//   G6  of coldstart nodes the collision avoidance symbol and startup frames, of any node a wake-up pattern on its channel
+//   G6  of coldstart nodes the collision avoidance symbol and startup frames, of any node a wake-up pattern on its
+//       channel
 // Always:
 //   G7  one signal at a time: the first to come; and none for longer than one of its kind may last
-//   G8  while the guardian is integrating, in cycles 0 to 3 only the node that it integrates on: another's frame would make a
-//       leading coldstart node give way
+//   G8  while the guardian is integrating, in cycles 0 to 3 only the node that it integrates on: another's frame would
+//       make a leading coldstart node give way
 #pragma once
 
 #include <array>
@@ -121,8 +124,8 @@ class Guardian {
   Microticks compensation_, tolerance_;
 };
 
-// The cluster as the guardian's controller sees it: with one node more, the last, which is the guardian on that channel. It
-// sends nothing; its parameters are those of the first node on the channel, its branch has no length.
+// The cluster as the guardian's controller sees it: with one node more, the last, which is the guardian on that
+// channel. It sends nothing; its parameters are those of the first node on the channel, its branch has no length.
 schedules::Cluster guardian_cluster(const schedules::Cluster& cluster, schedules::Channel channel);
 
 // Whether the header of a frame could be made out.

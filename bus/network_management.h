@@ -1,13 +1,15 @@
 // The network management vector: bits by which the nodes of a cluster agree on what they need, for instance whether
 // anybody still needs the bus (FlexRay 2.1A, chapter 9.3; SPNU563A 26.2.7 and registers NMV1..3).
 //
-// A static frame whose schedule says so begins with its sender's vector, gNetworkManagementVectorLength bytes, and sets the
-// payload preamble indicator. A controller combines the vectors of all valid frames with that indicator, of both channels,
-// by bitwise OR; the host reads the result of the cycle before (MFR4200: "as presented in cycle x, of cycle x - 1").
+// A static frame whose schedule says so begins with its sender's vector, gNetworkManagementVectorLength bytes, and sets
+// the payload preamble indicator. A controller combines the vectors of all valid frames with that indicator, of both
+// channels, by bitwise OR; the host reads the result of the cycle before (MFR4200: "as presented in cycle x, of cycle x
+// - 1").
 //
-// Readings taken: What counts is the indicator, not what the receiver's schedule expects of the slot. The own vector counts
-// in the cycles it leaves in, so that all nodes read the same. Only cycles that end in normal operation are shown; in start-up
-// and halt the vector stays as it was. A null frame carries none; a status frame always does, a list's frame with its list.
+// Readings taken: What counts is the indicator, not what the receiver's schedule expects of the slot. The own vector
+// counts in the cycles it leaves in, so that all nodes read the same. Only cycles that end in normal operation are
+// shown; in start-up and halt the vector stays as it was. A null frame carries none; a status frame always does, a
+// list's frame with its list.
 #pragma once
 
 #include <array>

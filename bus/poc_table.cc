@@ -1,5 +1,5 @@
-// What protocol operation control answers: every pair of state and event, listed once. The compiler proves that there is
-// none without an answer and none with two.
+// What protocol operation control answers: every pair of state and event, listed once. The compiler proves that there
+// is none without an answer and none with two.
 #include <array>
 #include <cstdint>
 #include <initializer_list>
@@ -113,8 +113,8 @@ constexpr Rule kRules[] = {
     {K::kWakeupDetect, E::kHeaderReceived, ends_wakeup<WakeupStatus::kCollisionHeader, R::kCollisionWithHeader>},
     {K::kWakeupDetect, E::kListenTimeout, ends_wakeup<WakeupStatus::kCollisionUnknown, R::kCollisionUnexplained>},
 
-    // The leading coldstart node. A CAS or a header is no noise: somebody starts the cluster or runs it. Who leads and hears
-    // one gives way, so that one node remains that leads.
+    // The leading coldstart node. A CAS or a header is no noise: somebody starts the cluster or runs it. Who leads and
+    // hears one gives way, so that one node remains that leads.
     {K::kColdstartListen, E::kStartupFrame, derive_schedule},
     {K::kColdstartListen, E::kListenTimeout, does<attempt_coldstart, R::kColdstartAfterSilence>},
     {K::kColdstartListen, E::kNoiseTimeout, does<attempt_coldstart, R::kColdstartAfterNoise>},

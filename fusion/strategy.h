@@ -11,9 +11,9 @@
 //       misses its due instant is not waited for: the first fusion instant at which the schedule has it
 //       arrived (fusion/settling.h).
 //
-// A list that is lost, torn, or of a sensor that is dead was never there: no strategy waits for it longer than the schedule
-// says it could still come, and what is fused is what in-order processing of the lists that did come gives. A sensor that
-// restarts counts its lists anew: a list is known again by its number and its instant together.
+// A list that is lost, torn, or of a sensor that is dead was never there: no strategy waits for it longer than the
+// schedule says it could still come, and what is fused is what in-order processing of the lists that did come gives. A
+// sensor that restarts counts its lists anew: a list is known again by its number and its instant together.
 //
 // Whatever a strategy fused too early (a broken promise) is repaired as in ADVA and reported as late. Scans
 // older than the history are dropped and reported; one with a stamp from the future waits until its time.
@@ -80,10 +80,11 @@ class Strategy {
   // How many fates since construction last_fused() had no room for (kMaxListedArrivals).
   virtual std::uint64_t unlisted() const = 0;
   // Confirmed tracks predicted to `at`, into `out` (which keeps its capacity), without those that are given up by then
-  // (fusion/track.h). Never touches the filter state; where `at` is before the newest measurement, the tracks are shown as
-  // of that measurement.
+  // (fusion/track.h). Never touches the filter state; where `at` is before the newest measurement, the tracks are shown
+  // as of that measurement.
   virtual void image(GlobalTime at, std::vector<TrackView>& out) const = 0;
-  // Confirmed tracks at the instant of the newest fused measurement, without those that were given up by the last fuse().
+  // Confirmed tracks at the instant of the newest fused measurement, without those that were given up by the last
+  // fuse().
   virtual std::span<const TrackView> tracks() const = 0;
   // The newest fused measurement of each sensor that has one, and the newest of all.
   virtual std::span<const MeasurementId> newest() const = 0;

@@ -19,8 +19,8 @@ struct Scalar {
 };
 Scalar predicted(const Scalar& scalar, double noise, double dt);
 
-// One observation among all: the index-th of a measurement. A sensor that restarts counts its measurements anew; what was
-// measured at another instant is another one all the same.
+// One observation among all: the index-th of a measurement. A sensor that restarts counts its measurements anew; what
+// was measured at another instant is another one all the same.
 struct ObservationId {
   MeasurementId measurement;
   std::uint16_t index = 0;
@@ -67,10 +67,11 @@ struct TrackView {
   bool confirmed = false;
   bool coasting = false;  // not observed of late: predicted only
 };
-// Whether a track whose state is of `time` has ended at `at`, as it is without observations since its newest: by scans that
-// did not see it the tracker ends it itself (TrackerConfig::delete_misses); where none come,
+// Whether a track whose state is of `time` has ended at `at`, as it is without observations since its newest: by scans
+// that did not see it the tracker ends it itself (TrackerConfig::delete_misses); where none come,
 //   - when the newest is older than delete_after,
-//   - or older than coast_after, and the position predicted to `at` is less certain than delete_position_sigma on an axis.
+//   - or older than coast_after, and the position predicted to `at` is less certain than delete_position_sigma on an
+//     axis.
 // Such a track is in no image and takes no observation any more: what it might have been is born anew.
 bool given_up(const Track& track, GlobalTime time, GlobalTime at, const TrackerConfig& config);
 

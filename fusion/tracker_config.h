@@ -26,9 +26,9 @@ struct TrackerConfig {
   int coast_misses = 3;
   int delete_misses = 8;               // scans in a row without an observation end a confirmed track
   double delete_position_sigma = 5.0;  // [m] so does this much uncertainty
-  // Where scans fail to come nothing counts them: a track is coasting, and ends, this long after its newest observation,
-  // too (given_up() in fusion/track.h). Above what a fault-free image shows of an object that only the slowest sensor sees,
-  // every other time; and as far ahead as a constant velocity is worth anything in traffic.
+  // Where scans fail to come nothing counts them: a track is coasting, and ends, this long after its newest
+  // observation, too (given_up() in fusion/track.h). Above what a fault-free image shows of an object that only the
+  // slowest sensor sees, every other time; and as far ahead as a constant velocity is worth anything in traffic.
   Duration coast_after = Duration::milliseconds(300);
   Duration delete_after = Duration::milliseconds(1000);
   int max_objects = 25;                // confirmed tracks: what the image's list carries

@@ -1,5 +1,5 @@
-// The schedules that nodes believe in where faults make them another than the cluster's: wrong slots, wrong lengths, the key
-// slot of another node. Nodes, PDUs, tasks and sensors are the same; what differs is FlexRay's.
+// The schedules that nodes believe in where faults make them another than the cluster's: wrong slots, wrong lengths,
+// the key slot of another node. Nodes, PDUs, tasks and sensors are the same; what differs is FlexRay's.
 #pragma once
 
 #include <memory>
@@ -15,8 +15,8 @@ namespace ttf::nodes {
 // Whether the fault is one of belief: wrong_schedule, or a duplicate_coldstart by the same key slot.
 bool changes_schedule(const Fault& fault);
 
-// Changes `believed` as such a fault does. Empty, or what is wrong with it in this cluster, "must ..."; `believed` is not
-// changed then.
+// Changes `believed` as such a fault does. Empty, or what is wrong with it in this cluster, "must ..."; `believed` is
+// not changed then.
 std::string believe(const Fault& fault, schedules::Cluster& believed);
 
 class BelievedSchedules {

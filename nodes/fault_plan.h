@@ -100,7 +100,8 @@ struct Fault {
   Duration shift{};                      // sos_timing: late, or early; byzantine_clock: the most it is off
   ByzantinePattern pattern = ByzantinePattern::kRandom;
 
-  // What comes out of nothing: bursts, the first at `from`, from start to start `interval` and an evenly drawn 0..`jitter`.
+  // What comes out of nothing: bursts, the first at `from`, from start to start `interval` and an evenly drawn
+  // 0..`jitter`.
   FaultSignal signal = FaultSignal::kNoise;           // babbling_idiot
   Duration length = Duration::microseconds(30);       // of a burst of noise; frames last as long as they are
   Duration interval = Duration::milliseconds(1);      // shorter than what is sent: back to back

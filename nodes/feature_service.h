@@ -15,8 +15,9 @@ struct FeatureConfig {
   double own_speed_mps = 0.0;          // of the sensor car along x, over ground; it stands in the paper's drives
   double corridor_half_width_m = 1.8;  // objects farther off the line of travel do not warn: half a 3.6 m lane
   double warning_time_s = 2.7;         // time to collision below which it warns (ISO 15623 class forward collision warning)
-  // How far the instant an image is predicted to may be from the instant of use. An image is predicted to its first use; one
-  // that did not come is replaced by the one before, which is older by its period: two of 40 ms may be missed in a row.
+  // How far the instant an image is predicted to may be from the instant of use. An image is predicted to its first
+  // use; one that did not come is replaced by the one before, which is older by its period: two of 40 ms may be missed
+  // in a row.
   Duration max_image_age = Duration::milliseconds(100);
 };
 FeatureConfig load_feature(YamlMap& yaml);
@@ -30,9 +31,9 @@ FeatureConfig load_feature(YamlMap& yaml);
 // Infinite where the denominator is not positive (time to collision: not above what noise makes of zero).
 records::FeatureObject judge(const records::ImageObject& object, const FeatureConfig& config);
 
-// Port `image`. Where the newest image is older than max_image_age (its fusion node is dead, or starting anew and not yet
-// believed, bus/list_buffer.h L3), or that far from the future, it is refused: recorded as stale, its objects are not judged, and
-// nothing is put in their place.
+// Port `image`. Where the newest image is older than max_image_age (its fusion node is dead, or starting anew and not
+// yet believed, bus/list_buffer.h L3), or that far from the future, it is refused: recorded as stale, its objects are
+// not judged, and nothing is put in their place.
 class FeatureService final : public Step {
  public:
   FeatureService(const schedules::Cluster& cluster, const schedules::Task& task, const FeatureConfig& config);

@@ -93,7 +93,8 @@ FusionStep::FusionStep(const schedules::Cluster& cluster, const schedules::Task&
 void FusionStep::run(StepContext& context) {
   ++host_->step;
   const GlobalTime now = context.stamp.global;
-  // Measurements lie behind: up to seven eighths of a round are their age, the rest is for clocks that are ahead of this one.
+  // Measurements lie behind: up to seven eighths of a round are their age, the rest is for clocks that are ahead of
+  // this one.
   const GlobalTime about = now - Duration{round_.ns / 8 * 3};
   for (std::size_t i = 0; i < context.inputs.size(); ++i) {
     Input& input = context.inputs[i];

@@ -30,9 +30,10 @@ struct FusionHost {
   std::uint64_t unlisted = 0;      // of the strategy's, up to the last one
 };
 
-// Whether a list's age is known. Its stamp counts the rounds of the cycle counter as its sender does; the reader brings it to
-// its own count by `rounds` (nodes/step.h). An old list, which a living gateway repeats for a dead sensor, would be brought as
-// well, and seem new. So another count is believed only when two lists in a row have it: a repeated list has no second one.
+// Whether a list's age is known. Its stamp counts the rounds of the cycle counter as its sender does; the reader brings
+// it to its own count by `rounds` (nodes/step.h). An old list, which a living gateway repeats for a dead sensor, would
+// be brought as well, and seem new. So another count is believed only when two lists in a row have it: a repeated list
+// has no second one.
 class RoundsBelieved {
  public:
   // A list that was not heard before. Nodes that began together agree: 0.

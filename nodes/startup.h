@@ -7,10 +7,10 @@
 //     power_on: {fusion: 0 ms, gateway: 12 ms}   # or when it says here
 //     wake_up: fusion                       # this node wakes the cluster first (left out: nobody needs to be woken)
 //
-// With `wake_up`, the named node sends a wake-up pattern on its wake-up channel before it starts up. Every other node on that
-// channel sleeps: its supply is there from the start of the drive on, but its controller and host are off until it hears the
-// pattern, and its power-on time counts from then. Nodes on the other channel only, or off FlexRay, nobody can wake: their
-// power-on times count from the start of the drive.
+// With `wake_up`, the named node sends a wake-up pattern on its wake-up channel before it starts up. Every other node
+// on that channel sleeps: its supply is there from the start of the drive on, but its controller and host are off until
+// it hears the pattern, and its power-on time counts from then. Nodes on the other channel only, or off FlexRay, nobody
+// can wake: their power-on times count from the start of the drive.
 #pragma once
 
 #include <cstdint>
@@ -39,7 +39,8 @@ struct Startup {
   int wake_up_line = 0;
 };
 
-// The key `startup` of a scenario, and what goes without it; nothing comes later than `latest`. Findings are the mapping's.
+// The key `startup` of a scenario, and what goes without it; nothing comes later than `latest`. Findings are the
+// mapping's.
 Startup load_startup(YamlMap& scenario, Duration latest);
 
 // What a node that is powered on cold begins with.
@@ -54,8 +55,8 @@ struct NodeStart {
   Duration after{};                  // power-on: from the start of the drive, of who sleeps from the wake-up pattern on
 };
 
-// Of every node of the cluster, drawn where the scenario leaves it open. Throws InputError with every finding: names nobody has,
-// a node that wakes without FlexRay, or whose wake-up channel it is not attached to.
+// Of every node of the cluster, drawn where the scenario leaves it open. Throws InputError with every finding: names
+// nobody has, a node that wakes without FlexRay, or whose wake-up channel it is not attached to.
 std::vector<NodeStart> node_starts(const Startup& startup, const schedules::Cluster& cluster, std::uint64_t seed,
                                    std::uint32_t replication);
 

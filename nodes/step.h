@@ -72,8 +72,8 @@ struct Strobe {
 class StrobeLatch {
  public:
   void strobe(std::uint32_t sequence, GlobalTime at);
-  // The newest whose number has these low `bits`: all that a list on the bus carries of it. Where device or host started
-  // anew, how often that field has wrapped is known to the one alone.
+  // The newest whose number has these low `bits`: all that a list on the bus carries of it. Where device or host
+  // started anew, how often that field has wrapped is known to the one alone.
   std::optional<Strobe> find(std::uint32_t sequence, int bits) const;
 
  private:
@@ -99,16 +99,18 @@ class Step {
   virtual void run(StepContext& context) = 0;
 };
 
-// The measurement whose raw list is new at the first input; a list whose strobe was not seen has no time and is discarded.
+// The measurement whose raw list is new at the first input; a list whose strobe was not seen has no time and is
+// discarded.
 std::optional<Strobe> measurement_of(StepContext& context, SensorId sensor);
 
 // A list's microsecond time stamp of the "timestamp" header signal, on the reader's own count of cycles.
 //
-// The signal holds the low bits of the sender's global time. Nodes agree on the cycle counter, 0..63: how often it has wrapped
-// each counts for itself, and one that integrates into a running cluster counts from the counter it finds. So what a stamp
-// says is known modulo a round, 64 cycles, and meant is the instant nearest to `near` that fits. Within half a round of `near`
-// that is the instant with these low bits itself; else the sender counts other rounds, and its stamp is brought here by whole
-// rounds. That takes a signal that has not wrapped on the sender's count: 32 bits hold 71 minutes.
+// The signal holds the low bits of the sender's global time. Nodes agree on the cycle counter, 0..63: how often it has
+// wrapped each counts for itself, and one that integrates into a running cluster counts from the counter it finds. So
+// what a stamp says is known modulo a round, 64 cycles, and meant is the instant nearest to `near` that fits. Within
+// half a round of `near` that is the instant with these low bits itself; else the sender counts other rounds, and its
+// stamp is brought here by whole rounds. That takes a signal that has not wrapped on the sender's count: 32 bits hold
+// 71 minutes.
 GlobalTime time_stamp(const schedules::PduLayout& layout, const bus::ListView& list, GlobalTime near, Duration round);
 // Elements in the list.
 int element_count(const schedules::PduLayout& layout, const bus::ListView& list);

@@ -28,8 +28,8 @@ struct BusNode {
 
 class BusSimulation final : public Crank {
  public:
-  // `events`: one per node, told what its controller tells a host. `guardians`: the oscillators of a star's two, else without
-  // drift. They begin integrated if some node does.
+  // `events`: one per node, told what its controller tells a host. `guardians`: the oscillators of a star's two, else
+  // without drift. They begin integrated if some node does.
   BusSimulation(const schedules::Cluster& cluster, std::vector<BusNode> nodes,
                 std::vector<bus::ControllerEvents*> events, const std::vector<timebase::Oscillator>& guardians = {});
   ~BusSimulation() override;

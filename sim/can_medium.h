@@ -23,8 +23,8 @@ class CanMedium {
   CanMedium(const schedules::Cluster& cluster, std::size_t bus, std::span<const NodeId> nodes, MediumQueue& queue,
             FramePool& pool, records::Sink& sink);
   void send(NodeId sender, TrueTime now, const bus::CanFrame& frame);
-  // The node has lost its supply: what waits there is gone. A frame of its that is on the bus goes on to its end, and it is for
-  // whoever takes arrivals from the queue to drop it.
+  // The node has lost its supply: what waits there is gone. A frame of its that is on the bus goes on to its end, and
+  // it is for whoever takes arrivals from the queue to drop it.
   void power_off(NodeId node);
   // The bus is idle: the pending frame that wins is sent.
   void arbitrate(TrueTime now);

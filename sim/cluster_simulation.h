@@ -1,9 +1,9 @@
 // The whole cluster in virtual time: one executive per node, the media between them, and true time, which only this
 // room knows. A run is a pure function of its configuration (sim/crank.h).
 //
-// A node that loses its supply loses everything: its executive is dropped, and at power-on a new one is made, with steps made
-// anew. A CAN frame whose sender or receiver was without supply at any time since it began does not arrive; the bus is taken to
-// its end all the same.
+// A node that loses its supply loses everything: its executive is dropped, and at power-on a new one is made, with
+// steps made anew. A CAN frame whose sender or receiver was without supply at any time since it began does not arrive;
+// the bus is taken to its end all the same.
 #pragma once
 
 #include <algorithm>
@@ -32,12 +32,14 @@ struct SimulationConfig {
   std::uint32_t replication = 0;
   // The code of a node's tasks, in file order. Asked at the start, and again at every power-on.
   std::function<std::vector<std::shared_ptr<nodes::Step>>(NodeId)> make_steps;
-  // When the node is powered on, cold. Nothing, or no function: it begins integrated, and off FlexRay as if powered on at
-  // kFirstCycle.
+  // When the node is powered on, cold. Nothing, or no function: it begins integrated, and off FlexRay as if powered on
+  // at kFirstCycle.
   std::function<std::optional<TrueTime>(NodeId)> power_on = {};
-  // How a node begins that is powered on for the first time. No function: it starts up at once, as it does every other time.
+  // How a node begins that is powered on for the first time. No function: it starts up at once, as it does every other
+  // time.
   std::function<nodes::NodeStart(NodeId)> cold = {};
-  // The schedule that the node believes in, with the same nodes, tasks, PDUs and CANs. Null, or no function: the cluster's.
+  // The schedule that the node believes in, with the same nodes, tasks, PDUs and CANs. Null, or no function: the
+  // cluster's.
   std::function<const schedules::Cluster*(NodeId)> view = {};
 };
 
@@ -47,7 +49,8 @@ class ClusterSimulation final : public Crank, private nodes::SensorLines {
   ~ClusterSimulation() override;
 
   // The achieved precision so far: the largest difference between any two nodes' global times at one true instant, but
-  // for whole rounds of the cycle counter (sim/precision.h). The difference is piecewise linear with corners at the nodes' cycle starts and correction starts; it is taken there.
+  // for whole rounds of the cycle counter (sim/precision.h). The difference is piecewise linear with corners at the
+  // nodes' cycle starts and correction starts; it is taken there.
   Duration precision() const { return precision_; }
   // Of a node with supply.
   const nodes::Executive& node(NodeId id) const;

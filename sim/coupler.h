@@ -1,6 +1,6 @@
-// What stands in the middle of a star and decides what goes through, one per channel. It hears a signal when its first bit
-// arrives there, and forwards it without delay: a coupler that looks at a frame's header first holds back all it forwards for
-// the same time, which would be part of gdMinPropagationDelay and gdMaxPropagationDelay.
+// What stands in the middle of a star and decides what goes through, one per channel. It hears a signal when its first
+// bit arrives there, and forwards it without delay: a coupler that looks at a frame's header first holds back all it
+// forwards for the same time, which would be part of gdMinPropagationDelay and gdMaxPropagationDelay.
 #pragma once
 
 #include "bus/wire/flexray_frame.h"
@@ -11,8 +11,8 @@ namespace ttf::sim {
 class Coupler {
  public:
   virtual ~Coupler() = default;
-  // A signal of node `signal.sender` begins at the coupler; its instants are the coupler's. `frame`: what a frame says. False:
-  // it goes nowhere. It may be cut: then it ends earlier, and is undecodable.
+  // A signal of node `signal.sender` begins at the coupler; its instants are the coupler's. `frame`: what a frame says.
+  // False: it goes nowhere. It may be cut: then it ends earlier, and is undecodable.
   // Called in the order of arrival.
   virtual bool pass(Leaving& signal, const wire::DecodedFrame* frame) = 0;
   // What comes out of nothing reaches everybody, and the coupler too.

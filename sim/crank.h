@@ -1,12 +1,12 @@
-// The crank in virtual time: the nodes' oscillators and supplies, the queue of what is to happen, and FlexRay between the
-// nodes. What a node is made of is the business of who derives from it: controllers alone (sim/bus_simulation.h) or whole
-// executives (sim/cluster_simulation.h).
+// The crank in virtual time: the nodes' oscillators and supplies, the queue of what is to happen, and FlexRay between
+// the nodes. What a node is made of is the business of who derives from it: controllers alone (sim/bus_simulation.h) or
+// whole executives (sim/cluster_simulation.h).
 //
-// Single-threaded; everything that happens is ordered by sim/event_queue.h, a disturbance's own acts coming after all else of
-// their instant, so a run is a pure function of its configuration.
+// Single-threaded; everything that happens is ordered by sim/event_queue.h, a disturbance's own acts coming after all
+// else of their instant, so a run is a pure function of its configuration.
 //
-// A node that is powered on while signals are on their way to it hears the rest of them as activity that it cannot make out,
-// from the instant of its power-on.
+// A node that is powered on while signals are on their way to it hears the rest of them as activity that it cannot make
+// out, from the instant of its power-on.
 #pragma once
 
 #include <array>
@@ -50,8 +50,8 @@ class Crank : public Plant {
   // `others`: frames and events that are pending beside FlexRay's, at most.
   Crank(const schedules::Cluster& cluster, std::size_t others);
 
-  // The next node's clock, to be called once per node in the order of their ids. Nothing: it has its supply already, and
-  // start() has been or will be called by who derives; refresh() when it can say what is next.
+  // The next node's clock, to be called once per node in the order of their ids. Nothing: it has its supply already,
+  // and start() has been or will be called by who derives; refresh() when it can say what is next.
   void seat(const timebase::Oscillator& oscillator, std::optional<TrueTime> power_on);
   // Of a cluster with guardians, the one of a channel somebody is on: powered on at once, to integrate like the nodes.
   void seat_guardian(schedules::Channel channel, const timebase::Oscillator& oscillator);

@@ -21,8 +21,9 @@ struct Leaving {
   std::span<const std::byte> bytes;     // may be pointed elsewhere; used before the call returns to the sender
 };
 
-// The same on its last metre. Through a guardian it has two: first to the coupler (receiver kNoNode), then from there to every
-// receiver; what was marginal about the signal, the coupler has made out one way or the other and sent on afresh.
+// The same on its last metre. Through a guardian it has two: first to the coupler (receiver kNoNode), then from there
+// to every receiver; what was marginal about the signal, the coupler has made out one way or the other and sent on
+// afresh.
 struct Arriving {
   NodeId sender{}, receiver{};
   schedules::Channel channel{};
@@ -37,8 +38,8 @@ class Disturbance {
   static constexpr TrueTime kNever{std::numeric_limits<std::int64_t>::max()};
 
   virtual ~Disturbance() = default;
-  // Whether leaving() or arriving() may look at the bytes, or change bytes or channel, of what the node sends now. Where a medium is
-  // transparent and this says no, they get no bytes.
+  // Whether leaving() or arriving() may look at the bytes, or change bytes or channel, of what the node sends now.
+  // Where a medium is transparent and this says no, they get no bytes.
   virtual bool touches(NodeId sender, schedules::Channel channel) const { return (void)sender, (void)channel, true; }
   // False: it does not leave.
   virtual bool leaving(Leaving& signal) { return (void)signal, true; }

@@ -53,9 +53,9 @@ class Observer final : public records::Sink {
   }
 
  private:
-  // GPS time is the reference's own. It is on the cluster's scale by its offset to cycle 0, known after the drive; where
-  // nobody knows beforehand when that is, and at which rate the cluster will count, by the reading of the fusion node's clock
-  // when it took the fix in.
+  // GPS time is the reference's own. It is on the cluster's scale by its offset to cycle 0, known after the drive;
+  // where nobody knows beforehand when that is, and at which rate the cluster will count, by the reading of the fusion
+  // node's clock when it took the fix in.
   GlobalTime global_of(TrueTime at, const records::Stamp& fused) const {
     return integrated_ ? GlobalTime{} + (at - kFirstCycle) : fused.global + (at - fused.true_time);
   }

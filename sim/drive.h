@@ -38,20 +38,21 @@ struct DriveOutcome {
   std::vector<Injector::Activation> faults;   // by Scenario::faults
 };
 
-// Whether scenario and cluster take what they are given: a cluster with recorded sources needs a recording and nodes that begin
-// integrated, and any other has no use for a recording. Throws InputError; run_drive() asks it, too.
+// Whether scenario and cluster take what they are given: a cluster with recorded sources needs a recording and nodes
+// that begin integrated, and any other has no use for a recording. Throws InputError; run_drive() asks it, too.
 void check_recording(const nodes::Scenario& scenario, const schedules::Cluster& cluster, bool given);
 
-// Runs the drive to its end, with the scenario's faults; their times count from kFirstCycle. Throws InputError where scenario, cluster and code do not fit together.
+// Runs the drive to its end, with the scenario's faults; their times count from kFirstCycle. Throws InputError where
+// scenario, cluster and code do not fit together.
 DriveOutcome run_drive(const DriveConfig& config, records::Sink& sink);
 
-// True time at which the drive (world or recording) starts in this cluster. In a cold one (nodes/startup.h) the world moves
-// while the nodes start up: it starts when the first supply may come.
+// True time at which the drive (world or recording) starts in this cluster. In a cold one (nodes/startup.h) the world
+// moves while the nodes start up: it starts when the first supply may come.
 TrueTime drive_start(const schedules::Cluster& cluster);
 
 // From `evaluation_start` to `drive_end` the drive is judged and drawn: both the scenario's evaluate_from and its duration
-// count from the start of cycle 0, whenever a recording begins; in a cold drive, whose cycles begin later, from the same
-// instant.
+// count from the start of cycle 0, whenever a recording begins; in a cold drive, whose cycles begin later, from the
+// same instant.
 TrueTime evaluation_start(const nodes::Scenario& scenario);
 TrueTime drive_end(const nodes::Scenario& scenario);
 

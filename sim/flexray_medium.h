@@ -4,11 +4,13 @@
 // gdMinPropagationDelay (neighbours at no distance) to gdMaxPropagationDelay (the two ends). What leaves reaches everybody who
 // is attached to the channel; what overlaps at a receiver arrives there as one signal that nobody can make out.
 //
-// Bit-true, it carries frames as bytes, which every frame is encoded to and decoded from, CRCs and all. Transparent, it carries
-// what they say, and bytes only where a disturbance or a coupler may look at them: all that anybody receives is the same.
+// Bit-true, it carries frames as bytes, which every frame is encoded to and decoded from, CRCs and all. Transparent, it
+// carries what they say, and bytes only where a disturbance or a coupler may look at them: all that anybody receives is
+// the same.
 //
-// Or a star: every node on a branch of its own, from half gdMinPropagationDelay for the first to half gdMaxPropagationDelay for the
-// last two. Without a coupler in its middle a star forwards everything, and is a bus but for the delays.
+// Or a star: every node on a branch of its own, from half gdMinPropagationDelay for the first to half
+// gdMaxPropagationDelay for the last two. Without a coupler in its middle a star forwards everything, and is a bus but
+// for the delays.
 #pragma once
 
 #include <array>
@@ -62,8 +64,8 @@ class FlexRayMedium {
   // How long the channel has been taken by what nodes sent so far.
   Duration busy(schedules::Channel channel) const { return busy_[index_of(channel)]; }
 
-  // What an arrival of the queue brings: nothing where it was drawn into another signal, or where it is one at a coupler. The
-  // frame stays valid until release() is called with the same arrival.
+  // What an arrival of the queue brings: nothing where it was drawn into another signal, or where it is one at a
+  // coupler. The frame stays valid until release() is called with the same arrival.
   struct Arrival {
     TrueTime start{}, end{};
     std::uint32_t frame = 0;          // in the pool, of a frame

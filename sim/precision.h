@@ -9,8 +9,8 @@
 
 namespace ttf::sim {
 
-// A node that joined a running cluster knows its cycle only modulo gCycleCountMax + 1 and counts on from there, so two clocks
-// that agree may differ by whole rounds of the cycle counter; only the rest counts.
+// A node that joined a running cluster knows its cycle only modulo gCycleCountMax + 1 and counts on from there, so two
+// clocks that agree may differ by whole rounds of the cycle counter; only the rest counts.
 class ClockSpread {
  public:
   explicit ClockSpread(const schedules::Cluster& cluster)

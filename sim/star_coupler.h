@@ -1,9 +1,10 @@
-// The star coupler of one channel with its central guardian (bus/guardian.h): an own oscillator, an own controller that integrates
-// into the cluster like any node without a key slot, and what they make of every signal that begins at the coupler. The couplers of two
-// channels know nothing of one another: one that fails takes its channel with it and nothing else.
+// The star coupler of one channel with its central guardian (bus/guardian.h): an own oscillator, an own controller that
+// integrates into the cluster like any node without a key slot, and what they make of every signal that begins at the
+// coupler. The couplers of two channels know nothing of one another: one that fails takes its channel with it and
+// nothing else.
 //
-// It costs nothing between signals: the controller, which sends nothing, is brought up to date when a signal comes. When
-// it has lost the cluster (passive or halted), it begins anew, and start-up is open again.
+// It costs nothing between signals: the controller, which sends nothing, is brought up to date when a signal comes.
+// When it has lost the cluster (passive or halted), it begins anew, and start-up is open again.
 #pragma once
 
 #include <array>

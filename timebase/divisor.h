@@ -14,8 +14,8 @@ class Divisor {
       : divisor_(static_cast<std::uint64_t>(divisor)), reciprocal_(~std::uint64_t{0} / divisor_) {}
 
   // floor(x / divisor) for x >= 0.
-  // With r = 2^64 / d - e, 0 < e <= 1, the product x r / 2^64 is more than x / d - 1: its whole part is the quotient or one
-  // less, which the remainder tells.
+  // With r = 2^64 / d - e, 0 < e <= 1, the product x r / 2^64 is more than x / d - 1: its whole part is the quotient or
+  // one less, which the remainder tells.
   constexpr std::int64_t floor(std::int64_t x) const {
     const auto u = static_cast<std::uint64_t>(x);
     auto quotient = static_cast<std::uint64_t>((static_cast<UInt128>(u) * reciprocal_) >> 64);

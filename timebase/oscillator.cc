@@ -61,7 +61,8 @@ Oscillator::Line::Line(std::int64_t period_as, Int128 phase_as)
       frequency_(static_cast<std::uint64_t>((static_cast<UInt128>(kAttosecondsPerNanosecond) << 64) /
                                             static_cast<UInt128>(period_as))) {}
 
-// The estimates are off by a few ticks or nanoseconds at most, so the remainders fit 64 bits, whatever is lost above them.
+// The estimates are off by a few ticks or nanoseconds at most, so the remainders fit 64 bits, whatever is lost above
+// them.
 Microticks Oscillator::Line::ticks_at(TrueTime t) const {
   const std::int64_t since = t.ns - phase_ns_;
   if (since < 0)

@@ -6,9 +6,9 @@
 //   L1  ticks_at(time_of(k)) == k            for periods above 1 ns
 //   L2  time_of is strictly increasing, ticks_at is non-decreasing
 //   L3  time_of(k) - (phase + k * period) is in [0, 1) ns for every k
-//   L4  after change_drift(t, ...) nothing of the past is different: ticks_at of instants up to t and time_of of ticks up to
-//       ticks_at(t) are what they were. The tick that was under way comes as much earlier or later as the rest of its
-//       period demands, rounded up to an attosecond; L1 to L3 hold on, with another phase and period from there on
+//   L4  after change_drift(t, ...) nothing of the past is different: ticks_at of instants up to t and time_of of ticks
+//       up to ticks_at(t) are what they were. The tick that was under way comes as much earlier or later as the rest of
+//       its period demands, rounded up to an attosecond; L1 to L3 hold on, with another phase and period from there on
 //
 // Of the past one change is remembered: what lies before the last but one is as if the clock had always run as between
 // the two.
@@ -39,8 +39,9 @@ class Oscillator {
   std::int64_t nominal_period_ps() const { return nominal_period_ps_; }
 
  private:
-  // phase + k * period, in attoseconds of true time. Both conversions estimate their result by a multiplication and put it
-  // right by the remainder, which is exact: a division of 128 bits per conversion is what a simulation would spend its time on.
+  // phase + k * period, in attoseconds of true time. Both conversions estimate their result by a multiplication and put
+  // it right by the remainder, which is exact: a division of 128 bits per conversion is what a simulation would spend
+  // its time on.
   class Line {
    public:
     Line() = default;

@@ -24,8 +24,8 @@ inline constexpr std::size_t kMaxPayloadBytes = 254;
 inline constexpr std::size_t kMaxFrameBytes = kHeaderBytes + kMaxPayloadBytes + kTrailerBytes;
 
 struct FrameHeader {
-  // The payload begins with a network management vector (static segment) or with a message id (dynamic segment); never in a
-  // null frame.
+  // The payload begins with a network management vector (static segment) or with a message id (dynamic segment); never
+  // in a null frame.
   bool payload_preamble = false;
   bool null_frame = false;      // on the wire the indicator is inverted
   bool sync = false;
@@ -60,7 +60,8 @@ struct DecodedFrame {
 // the cycle are the receiver's to judge: they depend on the slot.
 DecodedFrame decode_frame(schedules::Channel channel, std::span<const std::byte> frame);
 
-// Of a dynamic frame: with payload preamble it begins with kMessageIdBytes, the more significant first. Nothing where the indicator is not set or the payload is too short for it.
+// Of a dynamic frame: with payload preamble it begins with kMessageIdBytes, the more significant first. Nothing where
+// the indicator is not set or the payload is too short for it.
 std::optional<std::uint16_t> message_id(const DecodedFrame& frame);
 
 // Of a static frame on the wire (schedules::frame_bits), in picoseconds; and in whole nanoseconds, rounded up: a frame is

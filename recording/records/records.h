@@ -25,8 +25,9 @@ struct Stamp {
   NodeId node{};
 };
 
-// When the node's clock of the cluster showed or will show `at`, by what it showed at the stamp. Global times of different nodes,
-// or of one before and after a restart, may be whole rounds of the cycle counter apart; true times are comparable.
+// When the node's clock of the cluster showed or will show `at`, by what it showed at the stamp. Global times of
+// different nodes, or of one before and after a restart, may be whole rounds of the cycle counter apart; true times are
+// comparable.
 constexpr TrueTime true_time_of(const Stamp& stamp, GlobalTime at) { return stamp.true_time + (at - stamp.global); }
 
 // A sensor measured, as its device saw it (`stamp.node`). The time stamp that travels with the observations is its host's
@@ -119,8 +120,8 @@ struct ClockCorrected {
   bool offset_missing = false, rate_missing = false, offset_limited = false, rate_limited = false;
 };
 
-// Protocol operation control of a node's controller went from one state to another: numbers as E-Ray's CCSV.POCS, words as
-// bus/poc_text.cc. A node that begins integrated has not changed its state.
+// Protocol operation control of a node's controller went from one state to another: numbers as E-Ray's CCSV.POCS, words
+// as bus/poc_text.cc. A node that begins integrated has not changed its state.
 struct StateChanged {
   Stamp stamp;                       // global time as the node has it in the new state
   std::uint8_t from = 0, to = 0;
@@ -146,8 +147,8 @@ struct PowerChanged {
   bool on = true;
 };
 
-// What a fault of the run's fault plan does: known to who injects it, not to any node. It acts once or many times, between its
-// begin and its end.
+// What a fault of the run's fault plan does: known to who injects it, not to any node. It acts once or many times,
+// between its begin and its end.
 inline constexpr std::uint8_t kFaultBegins = 1;
 inline constexpr std::uint8_t kFaultActs = 2;
 inline constexpr std::uint8_t kFaultEnds = 3;

@@ -1,5 +1,5 @@
-// One fault of a plan at work: what it does to signals and to the machinery of a run. Every family of faults derives its own
-// from this (families.h); the injector asks them in the plan's order.
+// One fault of a plan at work: what it does to signals and to the machinery of a run. Every family of faults derives
+// its own from this (families.h); the injector asks them in the plan's order.
 #pragma once
 
 #include <fmt/format.h>

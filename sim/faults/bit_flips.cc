@@ -1,4 +1,5 @@
-// Bits of a frame that are inverted on its way: in the header, the payload or the trailer; for all receivers, or for some.
+// Bits of a frame that are inverted on its way: in the header, the payload or the trailer; for all receivers, or for
+// some.
 #include <array>
 
 #include "sim/faults/families.h"

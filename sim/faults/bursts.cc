@@ -1,5 +1,5 @@
-// What appears on the channels out of nothing, again and again: noise that nobody sends, a node that babbles, a coldstart node
-// that never stops beginning.
+// What appears on the channels out of nothing, again and again: noise that nobody sends, a node that babbles, a
+// coldstart node that never stops beginning.
 #include <algorithm>
 #include <array>
 

@@ -1,5 +1,5 @@
-// The families of faults. One function for each makes what is at work of a fault of the plan; what it does, and how, is in the
-// source file of its name. docs/faults.md has the whole table.
+// The families of faults. One function for each makes what is at work of a fault of the plan; what it does, and how, is
+// in the source file of its name. docs/faults.md has the whole table.
 #pragma once
 
 #include <memory>

@@ -24,8 +24,8 @@ class FrameFault : public ActiveFault {
                occasions_.chosen(plant().now(), signal.sender, [this](std::uint32_t index) { return draws(index); });
     return befallen;
   }
-  // The same of what arrives of it. A guardian's coupler sends on what it has heard after a while, but before the node sends
-  // anything else on that channel.
+  // The same of what arrives of it. A guardian's coupler sends on what it has heard after a while, but before the node
+  // sends anything else on that channel.
   bool befallen(const Arriving& signal, bool emitted) {
     if (signal.sender != fault().node) return false;
     bool& befallen = befallen_[index_of(signal.channel)];

@@ -1,11 +1,13 @@
-// A plan of faults at work in a simulation: injects each of them in the medium, the clock or the supply, never in a node.
+// A plan of faults at work in a simulation: injects each of them in the medium, the clock or the supply, never in a
+// node.
 //
 //   L1  the same plan, seed, replication and simulation give the same signals and the same records
 //   L2  what a fault draws does not depend on the other faults of the plan
 //   L3  without faults the simulation is bit for bit what it is without an injector
 //   L4  nothing here allocates after construction, and nothing throws
-// Faults are asked in the plan's order; each sees what those before it have made of a signal. What a fault sends is not changed
-// by what befalls its sender's frames; a receiver that is deaf and a transient do not tell it from other signals.
+// Faults are asked in the plan's order; each sees what those before it have made of a signal. What a fault sends is not
+// changed by what befalls its sender's frames; a receiver that is deaf and a transient do not tell it from other
+// signals.
 #pragma once
 
 #include <cstdint>
@@ -24,14 +26,15 @@ namespace ttf::sim {
 
 class Injector final : public Disturbance, private FaultLog {
  public:
-  // `plan`: resolved for the cluster. `origin`: what its times count from. Everything but the plan must outlive the injector;
-  // the simulation is told of it by set_disturbance(), and gets the schedules its nodes believe in where it is made
-  // (nodes/believed_schedule.h).
+  // `plan`: resolved for the cluster. `origin`: what its times count from. Everything but the plan must outlive the
+  // injector; the simulation is told of it by set_disturbance(), and gets the schedules its nodes believe in where it
+  // is made (nodes/believed_schedule.h).
   Injector(nodes::FaultPlan plan, const schedules::Cluster& cluster, Plant& plant, std::uint64_t seed,
            std::uint32_t replication, records::Sink& sink, TrueTime origin = {});
   ~Injector() override;
 
-  // How often a fault did something, by its index in the plan: a signal changed, made or withheld, a supply or a clock changed.
+  // How often a fault did something, by its index in the plan: a signal changed, made or withheld, a supply or a clock
+  // changed.
   struct Activation {
     std::uint64_t times = 0;
     TrueTime first{}, last{};       // where times > 0

@@ -106,7 +106,8 @@ class InAnothersSlot final : public FrameFault {
   std::array<std::byte, wire::kMaxFrameBytes> frame_{};
 };
 
-// The node's controller runs on the schedule that it believes in (nodes/believed_schedule.h): what it sends is what comes of it.
+// The node's controller runs on the schedule that it believes in (nodes/believed_schedule.h): what it sends is what
+// comes of it.
 class WrongBelief final : public ActiveFault {
  public:
   using ActiveFault::ActiveFault;

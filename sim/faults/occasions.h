@@ -1,5 +1,5 @@
-// Which frames a fault befalls: every n-th, with a probability. The signals that one node sends at one instant, on both channels,
-// are one occasion, and so are what all receivers make of them.
+// Which frames a fault befalls: every n-th, with a probability. The signals that one node sends at one instant, on both
+// channels, are one occasion, and so are what all receivers make of them.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
-// Slightly off the specification: what is early, late or misshapen by so little that receivers disagree about it (H. Kopetz,
-// "A comparison of TTP/C and FlexRay", TU Wien report 10/2001); and a sync node whose clock says another time to everyone.
+// Slightly off the specification: what is early, late or misshapen by so little that receivers disagree about it (H.
+// Kopetz, "A comparison of TTP/C and FlexRay", TU Wien report 10/2001); and a sync node whose clock says another time
+// to everyone.
 #include <algorithm>
 
 #include "sim/faults/families.h"

@@ -7,7 +7,8 @@ namespace {
 
 using schedules::Channel;
 
-// What the node sends on A appears on B, and the other way round; the CRC says where it belongs. What it hears is in order.
+// What the node sends on A appears on B, and the other way round; the CRC says where it belongs. What it hears is in
+// order.
 class ChannelSwap final : public ActiveFault {
  public:
   explicit ChannelSwap(const FaultSetting& setting)
