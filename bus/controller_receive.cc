@@ -36,11 +36,6 @@ bool receiver_on(PocKind kind) {
   TTF_CHECK(false, "state {}", static_cast<int>(kind));
 }
 
-bool has_header(const Reception& reception) {
-  return reception.signal == Signal::kFrame && reception.frame.error != wire::FrameError::kTooShort &&
-         reception.frame.error != wire::FrameError::kHeaderCrc;
-}
-
 }  // namespace
 
 void FlexRayController::State::receive(const Reception& reception) {
@@ -56,7 +51,8 @@ void FlexRayController::State::receive(const Reception& reception) {
       if (reception.signal == Signal::kCas) tell({PocEventKind::kCasReceived}, reception.end);
       if (reception.signal == Signal::kWakeup && reception.channel == p.pWakeupChannel)
         tell({PocEventKind::kWakeupPatternReceived}, reception.end);
-      if (has_header(reception)) tell({PocEventKind::kHeaderReceived}, reception.end);
+      if (reception.signal == Signal::kFrame && wire::has_header(reception.frame))
+        tell({PocEventKind::kHeaderReceived}, reception.end);
     }
   }
   if (clock)

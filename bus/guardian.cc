@@ -11,8 +11,6 @@ namespace {
 using schedules::Channel;
 using schedules::FrameSlot;
 
-constexpr std::int64_t kDriftOfAPair_ppm = 3000;   // two clocks at cClockDeviationMax, one fast, one slow
-
 constexpr GuardianAnswer no(GuardianReason reason) { return {reason, {}}; }
 
 }  // namespace
@@ -35,10 +33,6 @@ std::string_view to_text(GuardianReason reason) {
     case GuardianReason::kNoWakeup: return "no wake-up pattern is due from the branch";
   }
   TTF_CHECK(false, "reason {}", static_cast<int>(reason));
-}
-
-bool has_header(const wire::DecodedFrame& frame) {
-  return frame.error != wire::FrameError::kTooShort && frame.error != wire::FrameError::kHeaderCrc;
 }
 
 SignalLengths::SignalLengths(const schedules::GlobalParameters& flexray, std::int64_t microtick_ps)
@@ -89,7 +83,7 @@ GuardianAnswer Guardian::judge(const timebase::CycleClock& clock, const DynamicS
                                const GuardianSignal& signal) const {
   const Microticks at = signal.start - compensation_;
   const std::int64_t static_end = static_cast<std::int64_t>(g_.gNumberOfStaticSlots) * g_.gdStaticSlot;
-  if (signal.signal == Signal::kUndecodable || (signal.signal == Signal::kFrame && !has_header(*signal.frame)))
+  if (signal.signal == Signal::kUndecodable || (signal.signal == Signal::kFrame && !wire::has_header(*signal.frame)))
     return no(GuardianReason::kUndecodable);
   if (signal.signal != Signal::kFrame) {
     const Macroticks window = minislots_.count() > 0 ? minislots_.start_of(minislots_.count() + 1) : Macroticks{static_end};

@@ -79,6 +79,9 @@ struct GuardianAnswer {
   bool forwards() const { return reason == GuardianReason::kForwarded; }
 };
 
+// Two clocks at cClockDeviationMax, one fast, one slow.
+inline constexpr std::int64_t kDriftOfAPair_ppm = 3000;
+
 // How long a signal of each kind may last in the guardian's microticks, a node's clock being off by what it may.
 class SignalLengths {
  public:
@@ -127,8 +130,5 @@ class Guardian {
 // The cluster as the guardian's controller sees it: with one node more, the last, which is the guardian on that
 // channel. It sends nothing; its parameters are those of the first node on the channel, its branch has no length.
 schedules::Cluster guardian_cluster(const schedules::Cluster& cluster, schedules::Channel channel);
-
-// Whether the header of a frame could be made out.
-bool has_header(const wire::DecodedFrame& frame);
 
 }  // namespace ttf::bus

@@ -7,8 +7,6 @@ namespace {
 
 constexpr GuardianAnswer no(GuardianReason reason) { return {reason, {}}; }
 
-constexpr std::int64_t kDriftOfAPair_ppm = 3000;
-
 }  // namespace
 
 StartupTurns::StartupTurns(const schedules::Cluster& cluster, schedules::Channel channel,
@@ -49,7 +47,7 @@ GuardianAnswer StartupTurns::judge(const GuardianSignal& signal) const {
       if (leading) return no(GuardianReason::kTooSoon);
       break;
     case Signal::kFrame: {
-      if (!has_header(*signal.frame)) return no(GuardianReason::kUndecodable);
+      if (!wire::has_header(*signal.frame)) return no(GuardianReason::kUndecodable);
       if (!p.pKeySlotUsedForStartup) return no(GuardianReason::kNoColdstartNode);
       const wire::FrameHeader& header = signal.frame->header;
       if (!header.startup || !header.sync || header.frame_id != p.pKeySlotId ||

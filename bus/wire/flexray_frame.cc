@@ -65,6 +65,10 @@ DecodedFrame decode_frame(schedules::Channel channel, std::span<const std::byte>
   return decoded;
 }
 
+bool has_header(const DecodedFrame& frame) {
+  return frame.error != FrameError::kTooShort && frame.error != FrameError::kHeaderCrc;
+}
+
 std::optional<std::uint16_t> message_id(const DecodedFrame& frame) {
   if (!frame.header.payload_preamble || frame.payload.size() < schedules::kMessageIdBytes) return std::nullopt;
   return static_cast<std::uint16_t>(static_cast<unsigned>(frame.payload[0]) << 8 |

@@ -60,6 +60,9 @@ struct DecodedFrame {
 // the cycle are the receiver's to judge: they depend on the slot.
 DecodedFrame decode_frame(schedules::Channel channel, std::span<const std::byte> frame);
 
+// Whether the header could be made out.
+bool has_header(const DecodedFrame& frame);
+
 // Of a dynamic frame: with payload preamble it begins with kMessageIdBytes, the more significant first. Nothing where
 // the indicator is not set or the payload is too short for it.
 std::optional<std::uint16_t> message_id(const DecodedFrame& frame);

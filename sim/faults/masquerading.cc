@@ -1,6 +1,7 @@
 // Frames that claim to be another's, with a right CRC, and the frames of a node that believes in another schedule.
 #include <array>
 
+#include "bus/slot_table.h"
 #include "sim/faults/families.h"
 #include "sim/faults/frame_fault.h"
 
@@ -60,7 +61,7 @@ class InAnothersSlot final : public FrameFault {
     due_ = Disturbance::kNever;
     const FrameSlot* owner = nullptr;
     for (const FrameSlot& slot : cluster().frames)
-      if (slot.slot == fault().slot && due_counter_ % slot.repetition == slot.base_cycle) owner = &slot;
+      if (slot.slot == fault().slot && bus::in_cycle(slot, due_counter_)) owner = &slot;
     wire::FrameHeader header;
     header.frame_id = static_cast<std::uint16_t>(fault().slot);
     header.cycle = static_cast<std::uint8_t>(due_counter_);
