@@ -24,7 +24,6 @@ class Divisor {
   }
   // The least whole number at or above x / divisor, for x >= 0; x + divisor must not overflow.
   constexpr std::int64_t ceil(std::int64_t x) const { return floor(x + static_cast<std::int64_t>(divisor_) - 1); }
-  constexpr std::int64_t value() const { return static_cast<std::int64_t>(divisor_); }
 
  private:
   std::uint64_t divisor_, reciprocal_;

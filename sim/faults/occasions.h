@@ -24,8 +24,6 @@ class Occasions {
     chosen_ = number % every_ == 0 && (probability_ >= 1.0 || draws(2 * number).uniform() < probability_);
     return chosen_;
   }
-  // The last one asked for, without asking.
-  bool chosen() const { return chosen_; }
   // A stream's index for what else this occasion draws.
   std::uint32_t content() const { return 2 * (count_ - 1) + 1; }
 
