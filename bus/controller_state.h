@@ -1,5 +1,5 @@
-// Inside the controller: its data, and the three things it does with them. controller.cc drives protocol operation
-// control and the cycle, controller_send.cc sends, controller_receive.cc receives and judges.
+// Inside the controller: its data, and what it does with them. controller.cc drives protocol operation control and the
+// cycle, controller_send.cc sends, controller_receive.cc receives and judges, controller_window.cc is the symbol window.
 #pragma once
 
 #include <array>

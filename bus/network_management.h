@@ -3,13 +3,13 @@
 //
 // A static frame whose schedule says so begins with its sender's vector, gNetworkManagementVectorLength bytes, and sets
 // the payload preamble indicator. A controller combines the vectors of all valid frames with that indicator, of both
-// channels, by bitwise OR; the host reads the result of the cycle before (MFR4200: "as presented in cycle x, of cycle x
-// - 1").
+// channels, by bitwise OR; the host reads the result of the cycle before (MFR4200: "as presented
+// in cycle x, of cycle x - 1").
 //
 // Readings taken: What counts is the indicator, not what the receiver's schedule expects of the slot. The own vector
 // counts in the cycles it leaves in, so that all nodes read the same. Only cycles that end in normal operation are
-// shown; in start-up and halt the vector stays as it was. A null frame carries none; a status frame always does, a
-// list's frame with its list.
+// shown: in halt the vector stays as it was, and with a new schedule it begins as zeros. A null frame carries none; a
+// status frame always does, a list's frame with its list.
 #pragma once
 
 #include <array>

@@ -57,7 +57,7 @@ struct ExecutiveCounts {
   std::uint64_t deadlines_missed = 0;
   std::uint64_t torn_lists = 0;            // displaced before they were complete
   std::uint64_t overwritten_lists = 0;
-  std::uint64_t discarded_lists = 0;       // read, but without a strobe there is no time of measuring
+  std::uint64_t discarded_lists = 0;       // read, but their time of measuring is not known
   std::uint64_t slot_problems = 0;
   std::uint64_t saturated_signals = 0;
   std::uint64_t refused_fragments = 0;     // stale or malformed (bus/list_buffer.h), on any bus

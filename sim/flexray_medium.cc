@@ -11,7 +11,6 @@ namespace {
 using bus::Signal;
 using schedules::Channel;
 
-
 bool overlap(const FlexRayMedium::Arrival& a, const FlexRayMedium::Arrival& b) {
   return a.start < b.end && b.start < a.end;
 }
