@@ -168,7 +168,8 @@ void FlexRayController::State::tell_slot_problems(Microticks at) {
     for (const schedules::Channel channel : kChannels) {
       const auto c = index_of(channel);
       std::uint8_t errors = status.errors[c];
-      if (errors == 0 && !status.valid[c] && includes(p.pChannels, channel) && slots.expected(slot, now, channel) != nullptr)
+      if (errors == 0 && !status.valid[c] && includes(p.pChannels, channel) &&
+          slots.expected(slot, now, channel) != nullptr)
         errors = kNoFrame;
       if (errors != 0) events.slot_problem(clock->cycle(), slot, channel, static_cast<SlotStatus>(errors), at);
     }

@@ -73,7 +73,8 @@ void FlexRayController::State::send_frame(const FrameSlot& slot, Channel channel
   const bool in_bytes = port.wants_bytes(channel) || events.wants_bytes();
   const std::size_t size = in_bytes ? wire::encode_frame(header, channel, words, frame) : 0;
   const Transmission transmission{channel, Signal::kFrame, at, end, slot.slot,
-                                  std::span<const std::byte>(frame).first(size), {wire::FrameError::kNone, header, words}};
+                                  std::span<const std::byte>(frame).first(size),
+                                  {wire::FrameError::kNone, header, words}};
   sending_from[index_of(channel)] = at;
   sending_to[index_of(channel)] = end;
   port.transmit(transmission);

@@ -86,7 +86,8 @@ GuardianAnswer Guardian::judge(const timebase::CycleClock& clock, const DynamicS
   if (signal.signal == Signal::kUndecodable || (signal.signal == Signal::kFrame && !wire::has_header(*signal.frame)))
     return no(GuardianReason::kUndecodable);
   if (signal.signal != Signal::kFrame) {
-    const Macroticks window = minislots_.count() > 0 ? minislots_.start_of(minislots_.count() + 1) : Macroticks{static_end};
+    const Macroticks window =
+        minislots_.count() > 0 ? minislots_.start_of(minislots_.count() + 1) : Macroticks{static_end};
     const bool due = signal.signal == Signal::kCas && g_.gdSymbolWindow > 0 && at >= clock.start_of(window);
     const Microticks window_end = due ? clock.start_of(window + Macroticks{g_.gdSymbolWindow}) : Microticks{};
     if (!due || at >= window_end) return no(GuardianReason::kNoSymbolNow);

@@ -109,7 +109,8 @@ constexpr Rule kRules[] = {
     {K::kWakeupListen, E::kNoiseTimeout, enters<K::kWakeupSend, R::kWakeupAfterNoise, A::kSendWakeupPattern>},
     {K::kWakeupSend, E::kWakeupSent, ends_wakeup<WakeupStatus::kTransmitted, R::kWakeupSent>},
     {K::kWakeupSend, E::kWakeupCollision, enters<K::kWakeupDetect, R::kWakeupCollision, A::kRestartListenTimer>},
-    {K::kWakeupDetect, E::kWakeupPatternReceived, ends_wakeup<WakeupStatus::kCollisionPattern, R::kCollisionWithPattern>},
+    {K::kWakeupDetect, E::kWakeupPatternReceived,
+     ends_wakeup<WakeupStatus::kCollisionPattern, R::kCollisionWithPattern>},
     {K::kWakeupDetect, E::kHeaderReceived, ends_wakeup<WakeupStatus::kCollisionHeader, R::kCollisionWithHeader>},
     {K::kWakeupDetect, E::kListenTimeout, ends_wakeup<WakeupStatus::kCollisionUnknown, R::kCollisionUnexplained>},
 
@@ -162,15 +163,19 @@ constexpr Rule kRules[] = {
 
     // What is heard without meaning anything. While it sends, a node makes out nothing but a collision.
     {kDeaf | K::kWakeupSend,
-     {E::kChannelActive, E::kChannelsIdle, E::kCasReceived, E::kWakeupPatternReceived, E::kHeaderReceived, E::kStartupFrame},
+     {E::kChannelActive, E::kChannelsIdle, E::kCasReceived, E::kWakeupPatternReceived, E::kHeaderReceived,
+      E::kStartupFrame},
      ignores<R::kReceiverOff>},
-    {States{K::kWakeupDetect, K::kIntegrationListen} | kLeading | kFollowing | kNormal, {E::kChannelActive, E::kChannelsIdle},
+    {States{K::kWakeupDetect, K::kIntegrationListen} | kLeading | kFollowing | kNormal,
+     {E::kChannelActive, E::kChannelsIdle},
      ignores<R::kNoTimerOnChannel>},
-    {States{K::kWakeupListen, K::kWakeupDetect, K::kColdstartConsistencyCheck, K::kIntegrationListen} | kFollowing | kNormal,
+    {States{K::kWakeupListen, K::kWakeupDetect, K::kColdstartConsistencyCheck, K::kIntegrationListen} | kFollowing |
+         kNormal,
      E::kCasReceived, ignores<R::kSymbolWithoutMeaning>},
     {kStarting | kNormal, E::kWakeupPatternReceived, ignores<R::kNoWakeupWanted>},
     {kChecking, {E::kHeaderReceived, E::kStartupFrame}, ignores<R::kJudgedAtCycleEnd>},
-    {States{K::kIntegrationListen, K::kInitialiseSchedule} | kNormal, E::kHeaderReceived, ignores<R::kHeaderWithoutMeaning>},
+    {States{K::kIntegrationListen, K::kInitialiseSchedule} | kNormal, E::kHeaderReceived,
+     ignores<R::kHeaderWithoutMeaning>},
     {kNormal, E::kStartupFrame, ignores<R::kHeaderWithoutMeaning>},
     {{K::kWakeupListen, K::kWakeupDetect, K::kColdstartCollisionResolution, K::kColdstartGap}, E::kStartupFrame,
      ignores<R::kHeaderCameFirst>},
@@ -218,7 +223,8 @@ constexpr Table made_of(const auto& rules) {
 
 constexpr Table kTable = made_of(kRules);
 static_assert(!kTable.twice, "a pair of state and event has two answers");
-static_assert(kTable.twice || kTable.pairs == int{kStateCount * kEventCount}, "a pair of state and event has no answer");
+static_assert(kTable.twice || kTable.pairs == int{kStateCount * kEventCount},
+              "a pair of state and event has no answer");
 
 // Where a state stands in the table, by its code.
 constexpr std::size_t kCodes = 64;

@@ -35,7 +35,8 @@ const FrameSlot* SlotTable::expected(int slot, int counter, Channel channel) con
 const FrameSlot* SlotTable::expected(int slot, int counter, Channel channel,
                                      std::optional<std::uint16_t> message_id) const {
   for (const FrameSlot* frame : others_in(slot))
-    if (in_cycle(*frame, counter) && includes(frame->channels, channel) && frame->message_id == message_id) return frame;
+    if (in_cycle(*frame, counter) && includes(frame->channels, channel) && frame->message_id == message_id)
+      return frame;
   return nullptr;
 }
 

@@ -150,7 +150,8 @@ class TimelineStrategy : public Strategy {
     if (known == newest_.end()) {
       newest_.push_back(scan.id);
       newest_stamps_.push_back(scan.measured);
-    } else if (GlobalTime& stamp = newest_stamps_[static_cast<std::size_t>(known - newest_.begin())]; scan.measured > stamp) {
+    } else if (GlobalTime& stamp = newest_stamps_[static_cast<std::size_t>(known - newest_.begin())];
+               scan.measured > stamp) {
       *known = scan.id;
       stamp = scan.measured;
     }

@@ -19,7 +19,9 @@ const TrackSet& Timeline::current() const { return order_.empty() ? base_ : entr
 
 bool Timeline::contains(const MeasurementId& id, GlobalTime measured) const {
   return std::any_of(order_.begin(), order_.end(),
-                     [&](std::size_t e) { return entries_[e].scan.id == id && entries_[e].scan.measured == measured; }) ||
+                     [&](std::size_t e) {
+                       return entries_[e].scan.id == id && entries_[e].scan.measured == measured;
+                     }) ||
          (base_is_scan_ && base_id_ == id && base_time_ == measured);
 }
 

@@ -63,8 +63,8 @@ std::string lengthen_slots(const Fault& fault, Cluster& believed) {
   // Both the network idle time and the instant of correction in it are behind the segments.
   const int room = std::min(g.gdNIT - kMinNit, before_correction);
   if (longer > room)
-    return fmt::format("must not make the network idle time shorter by more than {} macroticks: {} slots would take {}", room,
-                       g.gNumberOfStaticSlots, longer);
+    return fmt::format("must not make the network idle time shorter by more than {} macroticks: {} slots would take {}",
+                       room, g.gNumberOfStaticSlots, longer);
   g.gdStaticSlot += fault.by;
   g.gdNIT -= longer;
   return {};

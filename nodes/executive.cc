@@ -131,7 +131,8 @@ void Executive::rise(Microticks now) {
   if (!flexray_ || config_.clock) return;
   waking_ = config_.cold == ColdStart::kWakes;
   if (!waking_) return flexray_->start_cold(now);
-  for (const auto command : {bus::PocEventKind::kConfig, bus::PocEventKind::kConfigComplete, bus::PocEventKind::kWakeup})
+  for (const auto command :
+       {bus::PocEventKind::kConfig, bus::PocEventKind::kConfigComplete, bus::PocEventKind::kWakeup})
     flexray_->command(command, now);
 }
 
@@ -222,7 +223,8 @@ void Executive::trigger(SensorId sensor, Microticks now) {
 
 void Executive::strobe(SensorId sensor, std::uint32_t sequence, Microticks now) {
   // Without global time there is no time of measuring: as if the strobe had not been seen.
-  if (const timebase::CycleClock* global = clock()) strobes_[index_of(sensor)].strobe(sequence, global->global_time(now));
+  if (const timebase::CycleClock* global = clock())
+    strobes_[index_of(sensor)].strobe(sequence, global->global_time(now));
 }
 
 void Executive::activate(std::size_t task, Microticks now) {

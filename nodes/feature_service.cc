@@ -26,8 +26,8 @@ FeatureConfig load_feature(YamlMap& yaml) {
   config.own_speed_mps = yaml.number_or("own_speed", config.own_speed_mps, {0.0, 100.0}, "m/s");
   config.corridor_half_width_m = yaml.number_or("corridor_half_width", config.corridor_half_width_m, {0.1, 20.0}, "m");
   config.warning_time_s = yaml.number_or("warning_time", config.warning_time_s, {0.1, 10.0}, "s");
-  config.max_image_age =
-      yaml.duration_or("max_image_age", config.max_image_age, {Duration::milliseconds(1), Duration::milliseconds(10'000)});
+  config.max_image_age = yaml.duration_or("max_image_age", config.max_image_age,
+                                          {Duration::milliseconds(1), Duration::milliseconds(10'000)});
   return config;
 }
 

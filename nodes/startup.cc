@@ -24,7 +24,8 @@ Startup load_startup(YamlMap& scenario, Duration latest) {
       const auto names = yaml.named_texts("power_on");
       YamlMap times = yaml.map("power_on");
       for (const auto& entry : names)
-        startup.power_on.push_back({entry.first, times.duration(entry.first, {Duration{}, latest}), times.line(entry.first)});
+        startup.power_on.push_back(
+            {entry.first, times.duration(entry.first, {Duration{}, latest}), times.line(entry.first)});
     }
     startup.wake_up = yaml.text_or("wake_up", "");
     startup.wake_up_line = yaml.line("wake_up");

@@ -34,8 +34,10 @@ void BusSimulation::make_controller(std::size_t node) {
                                                                 *events_[node]);
 }
 
-void BusSimulation::make_guardians(const std::vector<BusNode>& nodes, const std::vector<timebase::Oscillator>& oscillators) {
-  const auto integrated = std::find_if(nodes.begin(), nodes.end(), [](const BusNode& node) { return node.clock.has_value(); });
+void BusSimulation::make_guardians(const std::vector<BusNode>& nodes,
+                                   const std::vector<timebase::Oscillator>& oscillators) {
+  const auto integrated =
+      std::find_if(nodes.begin(), nodes.end(), [](const BusNode& node) { return node.clock.has_value(); });
   for (const schedules::Channel channel : {schedules::Channel::kA, schedules::Channel::kB}) {
     if (!StarCoupler::needed(cluster_, channel)) continue;
     seat_guardian(channel, index_of(channel) < oscillators.size()
@@ -46,8 +48,8 @@ void BusSimulation::make_guardians(const std::vector<BusNode>& nodes, const std:
     const auto& p = *cluster_.nodes[static_cast<std::size_t>(integrated - nodes.begin())].flexray;
     const Microticks start = integrated->clock->cycle_start;
     const Microticks cycle{p.pMicroPerCycle + integrated->clock->rate};
-    coupler(channel)->start_integrated(integrated->oscillator.time_of(start),
-                                       integrated->oscillator.time_of(start + cycle) - integrated->oscillator.time_of(start));
+    const TrueTime first = integrated->oscillator.time_of(start);
+    coupler(channel)->start_integrated(first, integrated->oscillator.time_of(start + cycle) - first);
   }
 }
 
@@ -55,7 +57,9 @@ void BusSimulation::start(std::size_t node, Microticks now) { controllers_[node]
 void BusSimulation::stop(std::size_t node) { make_controller(node); }
 Microticks BusSimulation::next_event(std::size_t node) const { return controllers_[node]->next_event(); }
 void BusSimulation::advance(std::size_t node, Microticks now) { controllers_[node]->advance(now); }
-void BusSimulation::receive(std::size_t node, const bus::Reception& reception) { controllers_[node]->receive(reception); }
+void BusSimulation::receive(std::size_t node, const bus::Reception& reception) {
+  controllers_[node]->receive(reception);
+}
 void BusSimulation::obey(std::size_t node, bus::PocEventKind command, Microticks now) {
   controllers_[node]->command(command, now);
 }

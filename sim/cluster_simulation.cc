@@ -205,7 +205,8 @@ bool ClusterSimulation::arrives(const MediumEvent& event) const {
   const bool on_can = event.kind == MediumEvent::Kind::kCanArrival || event.kind == MediumEvent::Kind::kCanSent;
   if (!is_powered(event.node)) return false;
   if (!on_can) return true;
-  return is_powered(event.sender) && powered_since(event.sender) <= event.start && powered_since(event.node) <= event.start;
+  return is_powered(event.sender) && powered_since(event.sender) <= event.start &&
+         powered_since(event.node) <= event.start;
 }
 
 void ClusterSimulation::happen(const MediumEvent& event) {

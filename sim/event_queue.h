@@ -39,7 +39,8 @@ class EventQueue {
   // The queue takes room for `capacity` pending events once.
   explicit EventQueue(std::size_t capacity) { heap_.reserve(capacity); }
   // Returns the event's place in the order of being scheduled.
-  std::uint64_t schedule(TrueTime time, Phase phase, std::uint8_t node, const Payload& payload, std::uint16_t rank = 0) {
+  std::uint64_t schedule(TrueTime time, Phase phase, std::uint8_t node, const Payload& payload,
+                         std::uint16_t rank = 0) {
     push({{time, phase, node, rank, next_sequence_}, payload});
     return next_sequence_++;
   }

@@ -63,8 +63,8 @@ FlexRayMedium::Way FlexRayMedium::make_way(Channel channel, std::optional<NodeId
 
 std::int64_t FlexRayMedium::branch_ps(NodeId node) const {
   const int steps = ends_ - 1;   // to the two longest
-  const std::int64_t longer = steps <= 0 ? max_delay_ps_ - min_delay_ps_
-                                         : (max_delay_ps_ - min_delay_ps_) * std::min(position_[index_of(node)], steps) / steps;
+  const std::int64_t range = max_delay_ps_ - min_delay_ps_;
+  const std::int64_t longer = steps <= 0 ? range : range * std::min(position_[index_of(node)], steps) / steps;
   return (min_delay_ps_ + longer) / 2;
 }
 
@@ -101,7 +101,8 @@ void FlexRayMedium::spread(const Leaving& signal, std::optional<NodeId> sender, 
                            const wire::DecodedFrame* content) {
   const auto c = index_of(signal.channel);
   const Way& way = regenerated ? from_coupler_[c] : sender ? ways_[lane_of(*sender, signal.channel)] : from_nowhere_[c];
-  const bool itself = regenerated && std::any_of(way.begin(), way.end(), [&](const Leg& leg) { return leg.receiver == sender; });
+  const bool itself =
+      regenerated && std::any_of(way.begin(), way.end(), [&](const Leg& leg) { return leg.receiver == sender; });
   const int receivers = static_cast<int>(way.size()) - (itself ? 1 : 0);
   if (receivers == 0) return;
   std::uint32_t frame = 0;
@@ -126,8 +127,8 @@ void FlexRayMedium::spread(const Leaving& signal, std::optional<NodeId> sender, 
 
 void FlexRayMedium::to_coupler(const Leaving& signal, NodeId sender, TrueTime now) {
   const Duration on_the_way = branch(sender);
-  Arriving last{sender, kNoNode, signal.channel, signal.signal, signal.start + on_the_way, signal.end + on_the_way, false,
-                signal.bytes};
+  Arriving last{sender, kNoNode, signal.channel, signal.signal, signal.start + on_the_way, signal.end + on_the_way,
+                false, signal.bytes};
   if (disturbance_ != nullptr && !disturbance_->arriving(last)) return;
   Pending made{{last.start, last.end, 0, signal.channel, last.signal}, next_id_++, sender, false};
   if (last.signal == Signal::kFrame) made.arrival.frame = pool_.put_frame(signal.channel, last.bytes, 1);

@@ -28,7 +28,9 @@ struct StarCoupler::Watch final : bus::ControllerEvents, bus::FlexRayPort {
   StarCoupler& coupler;
   TrueTime now{};
   explicit Watch(StarCoupler& c) : coupler(c) {}
-  void transmit(const bus::Transmission& sent) override { TTF_CHECK(false, "the guardian sends in slot {}", sent.slot); }
+  void transmit(const bus::Transmission& sent) override {
+    TTF_CHECK(false, "the guardian sends in slot {}", sent.slot);
+  }
   bool carrier(schedules::Channel channel) const override {
     return channel == coupler.channel_ && std::any_of(coupler.hearing_.begin(), coupler.hearing_.end(),
                                                       [&](const Hearing& heard) { return heard.start <= now; });
@@ -101,7 +103,8 @@ void StarCoupler::advance(Microticks to) {
 }
 
 void StarCoupler::deliver(const Hearing& heard) {
-  bus::Reception reception{channel_, heard.signal, oscillator_.ticks_at(heard.start), oscillator_.ticks_at(heard.end), {}};
+  bus::Reception reception{channel_, heard.signal, oscillator_.ticks_at(heard.start), oscillator_.ticks_at(heard.end),
+                           {}};
   if (heard.signal == Signal::kFrame) {
     reception.frame = heard.frame;
     reception.frame.payload = std::span(heard.bytes).subspan(wire::kHeaderBytes, heard.frame.payload.size());

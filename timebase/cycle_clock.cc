@@ -32,7 +32,8 @@ Microticks CycleClock::cycle_end() const { return start_ + Microticks{length_ + 
 
 std::int64_t CycleClock::correction_phase() const {
   const std::int64_t rest = length_ + offset_ - before_;
-  TTF_CHECK(rest > 0, "a correction by {} leaves {} of {} microticks behind the first {}", offset_, rest, length_, before_);
+  TTF_CHECK(rest > 0, "a correction by {} leaves {} of {} microticks behind the first {}", offset_, rest, length_,
+            before_);
   return rest;
 }
 

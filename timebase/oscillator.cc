@@ -14,7 +14,8 @@ constexpr std::int64_t kLongAgo = std::numeric_limits<std::int64_t>::min();
 
 // A clock that is fast by d has the period nominal / (1 + d): rounded once, to the nearest attosecond.
 std::int64_t period_as(std::int64_t nominal_period_ps, std::int64_t drift_ppb) {
-  TTF_CHECK(drift_ppb >= -Oscillator::kMaxDrift_ppb && drift_ppb <= Oscillator::kMaxDrift_ppb, "drift {} ppb", drift_ppb);
+  TTF_CHECK(drift_ppb >= -Oscillator::kMaxDrift_ppb && drift_ppb <= Oscillator::kMaxDrift_ppb, "drift {} ppb",
+            drift_ppb);
   constexpr std::int64_t kBillion = 1'000'000'000;
   const Int128 numerator = static_cast<Int128>(nominal_period_ps) * kAttosecondsPerPicosecond * kBillion;
   const Int128 denominator = kBillion + drift_ppb;
@@ -65,8 +66,10 @@ Oscillator::Line::Line(std::int64_t period_as, Int128 phase_as)
 // them.
 Microticks Oscillator::Line::ticks_at(TrueTime t) const {
   const std::int64_t since = t.ns - phase_ns_;
-  if (since < 0)
-    return {static_cast<std::int64_t>(floor_div(static_cast<Int128>(t.ns) * kAttosecondsPerNanosecond - phase_as_, period_as_))};
+  if (since < 0) {
+    const Int128 at = static_cast<Int128>(t.ns) * kAttosecondsPerNanosecond;
+    return {static_cast<std::int64_t>(floor_div(at - phase_as_, period_as_))};
+  }
   auto k = static_cast<std::int64_t>((static_cast<UInt128>(since) * frequency_) >> 64);
   auto rest = static_cast<std::int64_t>(static_cast<std::uint64_t>(t.ns) * kAttosecondsPerNanosecond -
                                         static_cast<std::uint64_t>(phase_as_) -

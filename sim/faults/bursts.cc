@@ -88,7 +88,8 @@ class BabblingIdiot final : public NodeBursts {
     header.null_frame = true;
     header.frame_id = static_cast<std::uint16_t>(parameters().pKeySlotId);
     const std::array<std::byte, wire::kMaxPayloadBytes> nothing{};
-    const auto payload = std::span<const std::byte>(nothing).first(2 * static_cast<std::size_t>(flexray().gPayloadLengthStatic));
+    const auto payload =
+        std::span<const std::byte>(nothing).first(2 * static_cast<std::size_t>(flexray().gPayloadLengthStatic));
     for (const Channel channel : kBothChannels) {
       Frame& frame = last_[index_of(channel)];
       frame.size = wire::encode_frame(header, channel, payload, frame.bytes);
@@ -109,7 +110,8 @@ class BabblingIdiot final : public NodeBursts {
     std::size_t size = 0;
   };
   TrueTime burst(TrueTime now, Channel channel) override {
-    if (fault().signal == nodes::FaultSignal::kNoise) return send(now, channel, Signal::kUndecodable, fault().length, {});
+    if (fault().signal == nodes::FaultSignal::kNoise)
+      return send(now, channel, Signal::kUndecodable, fault().length, {});
     const Frame& frame = last_[index_of(channel)];
     return send(now, channel, Signal::kFrame, wire::frame_duration(flexray(), wire::words_in_frame(frame.size)),
                 std::span<const std::byte>(frame.bytes).first(frame.size));
@@ -142,14 +144,16 @@ class RogueStartup final : public ActiveFault {
     header.frame_id = static_cast<std::uint16_t>(p.pKeySlotId);
     header.cycle = static_cast<std::uint8_t>(count_ % static_cast<std::uint32_t>(flexray().gCycleCountMax + 1));
     const std::array<std::byte, wire::kMaxPayloadBytes> nothing{};
-    const auto payload = std::span<const std::byte>(nothing).first(2 * static_cast<std::size_t>(flexray().gPayloadLengthStatic));
+    const auto payload =
+        std::span<const std::byte>(nothing).first(2 * static_cast<std::size_t>(flexray().gPayloadLengthStatic));
     const TrueTime end = now + wire::frame_duration(flexray(), flexray().gPayloadLengthStatic);
     for (const Channel channel : kBothChannels) {
       if (!on(channel) || !includes(p.pChannels, channel)) continue;
       const std::size_t size = wire::encode_frame(header, channel, payload, frame_);
       acted("{} sends a startup frame of cycle {} on {}, on a grid of its own", name(fault().node), header.cycle,
             letter(channel));
-      emit({fault().node, channel, Signal::kFrame, now, end, std::span<const std::byte>(frame_).first(size)}, fault().node);
+      emit({fault().node, channel, Signal::kFrame, now, end, std::span<const std::byte>(frame_).first(size)},
+           fault().node);
     }
     ++count_;
     next_ = from() + cluster().cycle() * count_;

@@ -33,7 +33,9 @@ class FrameFault : public ActiveFault {
     return befallen && signal.signal == bus::Signal::kFrame;
   }
   // And of what is marginal about it, which ends at the coupler: that makes it out one way or the other.
-  bool befallen_as_sent(const Arriving& signal, bool emitted) { return !signal.regenerated && befallen(signal, emitted); }
+  bool befallen_as_sent(const Arriving& signal, bool emitted) {
+    return !signal.regenerated && befallen(signal, emitted);
+  }
   bool at_receiver(NodeId node) const {
     const auto& receivers = fault().receivers;
     return receivers.empty() || std::find(receivers.begin(), receivers.end(), node) != receivers.end();

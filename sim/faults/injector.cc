@@ -18,8 +18,8 @@ Injector::Injector(nodes::FaultPlan plan, const schedules::Cluster& cluster, Pla
     const bool always = nodes::changes_schedule(fault);   // what a node believes in, it always does
     const TrueTime from = always ? origin : origin + fault.from;
     const TrueTime until = always || fault.duration == nodes::Fault::kToTheEnd ? kNever : from + fault.duration;
-    entries_.push_back({make_active_fault({fault, static_cast<std::uint32_t>(i), cluster_, plant_, *this, from, until, seed,
-                                           replication}),
+    entries_.push_back({make_active_fault({fault, static_cast<std::uint32_t>(i), cluster_, plant_, *this, from, until,
+                                           seed, replication}),
                         from, until});
   }
   plan_next();
@@ -75,7 +75,8 @@ void Injector::emit(const Leaving& signal, std::optional<NodeId> source) {
 
 void Injector::report(std::size_t fault, std::uint8_t what, TrueTime at, std::string_view text) {
   const nodes::Fault& one = plan_.faults[fault];
-  sink_.on(records::FaultActivity{at, static_cast<std::uint32_t>(fault), what, one.node, nodes::name_of(one.kind), text});
+  sink_.on(records::FaultActivity{at, static_cast<std::uint32_t>(fault), what, one.node, nodes::name_of(one.kind),
+                                  text});
 }
 
 void Injector::plan_next() {

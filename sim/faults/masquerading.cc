@@ -77,7 +77,8 @@ class InAnothersSlot final : public FrameFault {
     for (const Channel channel : kBothChannels) {
       if (!on(channel) || !includes(cluster().node(fault().node).flexray->pChannels, channel)) continue;
       const std::size_t size = wire::encode_frame(header, channel, payload, frame_);
-      acted("{} sends a frame of slot {}, which is not its own, on {}", name(fault().node), fault().slot, letter(channel));
+      acted("{} sends a frame of slot {}, which is not its own, on {}", name(fault().node), fault().slot,
+            letter(channel));
       emit({fault().node, channel, bus::Signal::kFrame, now, now + wire::frame_duration(flexray(), words),
             std::span<const std::byte>(frame_).first(size)},
            fault().node);

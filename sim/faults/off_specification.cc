@@ -52,7 +52,8 @@ class SosValue final : public FrameFault {
   }
   bool arriving(Arriving& signal, bool emitted) override {
     if (!befallen_as_sent(signal, emitted)) return true;
-    const bool lost = fault().receivers.empty() ? frame_draws(part(signal)).uniform() < 0.5 : at_receiver(signal.receiver);
+    const bool lost =
+        fault().receivers.empty() ? frame_draws(part(signal)).uniform() < 0.5 : at_receiver(signal.receiver);
     if (lost) signal.signal = bus::Signal::kUndecodable;
     return true;
   }

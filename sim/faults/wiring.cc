@@ -57,6 +57,8 @@ class Transient final : public ActiveFault {
 std::unique_ptr<ActiveFault> make_channel_swap(const FaultSetting& setting) {
   return std::make_unique<ChannelSwap>(setting);
 }
-std::unique_ptr<ActiveFault> make_transient(const FaultSetting& setting) { return std::make_unique<Transient>(setting); }
+std::unique_ptr<ActiveFault> make_transient(const FaultSetting& setting) {
+  return std::make_unique<Transient>(setting);
+}
 
 }  // namespace ttf::sim
