@@ -106,7 +106,7 @@ StrategyResult run_strategy(const Options& options, const nodes::Scenario& scena
   sim::check_recording(scenario, result.cluster, recording.rows != nullptr);
   experiments::DriveMeasures measures(sim::evaluation_start(scenario));
   experiments::StartupAccount startup(result.cluster.cycle());
-  experiments::FaultReport faults(result.cluster, true);
+  experiments::FaultReport faults(result.cluster, !scenario.startup.cold);
   std::vector<records::Sink*> sinks{&measures, &startup};
   if (!scenario.faults.empty()) sinks.push_back(&faults);
   std::unique_ptr<recording::LogWriter> log;

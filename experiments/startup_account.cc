@@ -1,9 +1,11 @@
 #include "experiments/startup_account.h"
 
+#include "bus/poc.h"
+
 namespace ttf::experiments {
 namespace {
 
-constexpr std::uint8_t kNormalActive = 0x02;   // E-Ray CCSV.POCS
+constexpr auto kNormalActive = static_cast<std::uint8_t>(bus::PocKind::kNormalActive);
 
 }  // namespace
 

@@ -198,6 +198,11 @@ expect 2 'absent.pcapng: cannot be read' schedule check "$schedule" --against "$
 expect 2 'no FlexRay frame' schedule check "$schedule" --against "$work/drive.pcapng" --from 1000
 expect 2 '--against' schedule check "$schedule" --channels A
 
+# In a cold drive nobody is active at first: that is no harm.
+sed "s#\.\./schedules#$source/schedules#" "$source/scenarios/cold_start.yaml" >"$work/cold_faulty.yaml"
+printf 'faults:\n  - {kind: noise, channels: A, length: 1 us, interval: 500 ms}\n' >>"$work/cold_faulty.yaml"
+expect 0 'No fault-free node was harmed' run "$work/cold_faulty.yaml" --strategy tt --no-log --out "$work/cold_faulty"
+
 # A fault campaign: the table, the same from shards put together; a replay in words; what is refused.
 campaign=$work/schedules/campaign.yaml
 sed -e 's#^cluster: .*#cluster: flexray_demo.yaml#' -e 's/^faults: .*/faults: 24/' "$source/experiments/fault_campaign.yaml" >"$campaign"
