@@ -125,6 +125,7 @@ StrategyResult run_strategy(const Options& options, const nodes::Scenario& scena
   result.outcome = sim::run_drive(config, tee);
   result.summary = measures.finish();
   result.startup = startup.nodes();
+  faults.finish(sim::kFirstCycle + scenario.duration);
   result.faults = faults.faults();
   if (log) {
     log->close();

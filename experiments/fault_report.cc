@@ -23,7 +23,12 @@ FaultReport::FaultReport(const schedules::Cluster& cluster, bool begins_integrat
             harm(loss.forged ? Harm::kFrameForged : Harm::kFrameLost, loss.at, loss.receiver, loss.sender, loss.slot);
           }) {
   for (std::size_t n = 0; n < nodes_.size(); ++n)
-    nodes_[n].active = begins_integrated && cluster.nodes[n].flexray.has_value();
+    (begins_integrated ? nodes_[n].active : nodes_[n].has_to_start) = cluster.nodes[n].flexray.has_value();
+}
+
+void FaultReport::finish(TrueTime at) {
+  for (std::size_t n = 0; n < nodes_.size(); ++n)
+    if (nodes_[n].has_to_start && !nodes_[n].faulty) harm(Harm::kNotStarted, at, static_cast<NodeId>(n));
 }
 
 bool FaultReport::harmed() const {
@@ -71,6 +76,7 @@ void FaultReport::on(const records::StateChanged& change) {
   if (change.to == static_cast<std::uint8_t>(bus::PocKind::kHalt)) notice(Check::kHalt, node, cycle, at);
   if (change.to != kActive) left_active(node, at);
   nodes_[index_of(node)].active = change.to == kActive;
+  if (change.to == kActive) nodes_[index_of(node)].has_to_start = false;
 }
 
 void FaultReport::on(const records::PowerChanged& power) {

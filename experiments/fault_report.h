@@ -58,6 +58,8 @@ class FaultReport final : public records::Sink {
   // `begins_integrated`: the nodes are in normal operation from the start; else they have no supply until they say so.
   FaultReport(const schedules::Cluster& cluster, bool begins_integrated);
 
+  // The run is over: who has not become normal active since the beginning is harmed (H2), if the run began with start-up.
+  void finish(TrueTime at);
   // In the order in which they began.
   const std::vector<FaultSeen>& faults() const { return faults_; }
   bool harmed() const;
@@ -73,6 +75,7 @@ class FaultReport final : public records::Sink {
  private:
   struct Node {
     bool active = false, faulty = false;
+    bool has_to_start = false;             // and has not yet
   };
   // A cycle is counted once however many nodes and slots it is about: by its counter, where that comes again after a round.
   using Counted = std::array<std::array<std::optional<TrueTime>, 64>, 2 * kAllChecks.size()>;

@@ -198,10 +198,13 @@ expect 2 'absent.pcapng: cannot be read' schedule check "$schedule" --against "$
 expect 2 'no FlexRay frame' schedule check "$schedule" --against "$work/drive.pcapng" --from 1000
 expect 2 '--against' schedule check "$schedule" --channels A
 
-# In a cold drive nobody is active at first: that is no harm.
+# In a cold drive nobody is active at first: that is no harm. Who never becomes active is harmed.
 sed "s#\.\./schedules#$source/schedules#" "$source/scenarios/cold_start.yaml" >"$work/cold_faulty.yaml"
 printf 'faults:\n  - {kind: noise, channels: A, length: 1 us, interval: 500 ms}\n' >>"$work/cold_faulty.yaml"
 expect 0 'No fault-free node was harmed' run "$work/cold_faulty.yaml" --strategy tt --no-log --out "$work/cold_faulty"
+sed -i 's/channels: A, length: 1 us, interval: 500 ms/length: 1 ms, interval: 0 ms/' "$work/cold_faulty.yaml"
+expect 0 'HARMED by fault 0, .*never became normal active' \
+  run "$work/cold_faulty.yaml" --strategy tt --no-log --out "$work/cold_faulty"
 
 # A fault campaign: the table, the same from shards put together; a replay in words; what is refused.
 campaign=$work/schedules/campaign.yaml
