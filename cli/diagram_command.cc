@@ -152,12 +152,27 @@ int run(const Options& options) {
 
 void add_diagram(CLI::App& app, Action& action) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("diagram", "Timing diagram and position plots from logs");
-  command->footer("Example: ttfusion diagram out/drive/tt.mcap --from 1.5 --to 1.65 -o timing.svg");
-  command->add_option("logs", options->logs, "Logs; several are drawn side by side (with --kind boxes: a recording of laser scans)")->required();
-  command->add_option("--from", options->from_s, "Start of the window, true time in seconds (default: 0)")->check(CLI::NonNegativeNumber);
-  command->add_option("--to", options->to_s, "End of the window, true time in seconds (default: the end; of a timing diagram 160 ms after its start)")->check(CLI::NonNegativeNumber);
-  command->add_option("--kind", options->kind, "timing, startup (states and what was sent), position (x and y over time), plane (y over x), or boxes (of a recorded laser scan)")
+  CLI::App* command = app.add_subcommand("diagram", "Timing and start-up diagrams and position plots from logs");
+  command->footer(
+      "Examples: ttfusion diagram out/drive/tt.mcap --from 1.5 --to 1.65 -o timing.svg\n"
+      "          ttfusion diagram out/cold_start/tt.mcap --kind startup -o startup.svg");
+  command
+      ->add_option("logs", options->logs,
+                   "Logs; several are drawn side by side (with --kind startup: one; boxes: a recording of laser scans)")
+      ->required();
+  command
+      ->add_option("--from", options->from_s,
+                   "Start of the window, true time in seconds (default: 0; of a start-up diagram: of the start-up)")
+      ->check(CLI::NonNegativeNumber);
+  command
+      ->add_option("--to", options->to_s,
+                   "End of the window, true time in seconds (default: the end; of a timing diagram 160 ms after its start; "
+                   "of a start-up diagram two cycles after the start-up)")
+      ->check(CLI::NonNegativeNumber);
+  command
+      ->add_option("--kind", options->kind,
+                   "timing, startup (states and what was sent), position (x and y over time), plane (y over x), or boxes "
+                   "(of a recorded laser scan)")
       ->check(CLI::IsMember({"timing", "startup", "position", "plane", "boxes"}))->capture_default_str();
   command->add_option("--frame", options->frame, "Which scan of a recording, with --kind boxes")
       ->check(CLI::NonNegativeNumber);
