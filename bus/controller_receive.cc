@@ -1,4 +1,5 @@
 // Frame and symbol processing: what arrives, where it belongs, and whether it may be there (FlexRay 2.1A, chapter 6).
+#include <algorithm>
 #include <cstdlib>
 
 #include "bus/controller_state.h"
@@ -134,7 +135,8 @@ void FlexRayController::State::judge_static(const Reception& reception, int slot
   // A frame that outlasts the segment is judged when that has been closed without it.
   std::vector<Seen>& slots_seen = segment == Segment::kStatic ? seen : seen_last;
   Seen& status = slots_seen[static_cast<std::size_t>(slot - 1)];
-  const int last = static_slot_at(reception.end - Microticks{1});
+  // What ends in the microtick it began in lies in one slot.
+  const int last = static_slot_at(std::max(reception.start, reception.end - Microticks{1}));
   if (last != slot) {
     errors |= kBoundaryViolation;
     if (last <= g.gNumberOfStaticSlots) slots_seen[static_cast<std::size_t>(last - 1)].errors[c] |= kBoundaryViolation;
