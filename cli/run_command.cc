@@ -103,7 +103,6 @@ StrategyResult run_strategy(const Options& options, const nodes::Scenario& scena
   StrategyResult result;
   result.strategy = strategy;
   result.cluster = checked_cluster(scenario.cluster_files[static_cast<std::size_t>(strategy)]);
-  sim::check_recording(scenario, result.cluster, recording.rows != nullptr);
   experiments::DriveMeasures measures(sim::evaluation_start(scenario));
   experiments::StartupAccount startup(result.cluster.cycle());
   experiments::FaultReport faults(result.cluster, !scenario.startup.cold);
@@ -156,6 +155,10 @@ int run(const Options& options) {
   const std::uint64_t seed = options.seed ? seed_of(*options.seed) : scenario.seed;
   const Recording recording = read_recording(options.input);
   const std::string folder = options.out.empty() ? folder_of(scenario) : options.out;
+  // Before anything is simulated or an earlier run's log is written over.
+  for (const fusion::StrategyKind strategy : chosen(options.strategy))
+    sim::check_fits(scenario, checked_cluster(scenario.cluster_files[static_cast<std::size_t>(strategy)]),
+                    recording.rows != nullptr);
   std::error_code failure;
   std::filesystem::create_directories(folder, failure);
   if (failure) throw InputError({folder, 0, "--out", "", "cannot be created: " + failure.message()});
@@ -176,6 +179,7 @@ int run(const Options& options) {
       for (const StrategyResult& result : results)
         fmt::print("\n{}", faults_text(nodes::name_of(result.strategy), result.faults, result.cluster));
   }
+  std::fflush(stdout);   // both may go to one file
   fmt::print(stderr, "written to {}\n", folder);
   return 0;
 }

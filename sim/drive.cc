@@ -108,6 +108,13 @@ void check_recording(const nodes::Scenario& scenario, const schedules::Cluster& 
                       "must be integrated: a recording begins with cycle 0, and nobody knows when that will be"});
 }
 
+void check_fits(const nodes::Scenario& scenario, const schedules::Cluster& cluster, bool recording_given) {
+  check_recording(scenario, cluster, recording_given);
+  const nodes::FaultPlan faults = nodes::resolve(scenario.faults, cluster);
+  const nodes::BelievedSchedules believed(faults, cluster);
+  if (scenario.startup.cold) (void)nodes::node_starts(scenario.startup, cluster, scenario.seed, 0);
+}
+
 DriveOutcome run_drive(const DriveConfig& config, records::Sink& sink) {
   const schedules::Cluster& cluster = *config.cluster;
   const nodes::Scenario& scenario = *config.scenario;

@@ -206,6 +206,12 @@ sed -i 's/channels: A, length: 1 us, interval: 500 ms/length: 1 ms, interval: 0 
 expect 0 'HARMED by fault 0, .*never became normal active' \
   run "$work/cold_faulty.yaml" --strategy tt --no-log --out "$work/cold_faulty"
 
+# What is wrong with a scenario is found before an earlier run's log is written over.
+mkdir "$work/kept" && echo "an earlier log" >"$work/kept/tt.mcap"
+sed "s#\.\./schedules#$source/schedules#; 0,/node: camera_pre/s//node: camera_per/" "$source/scenarios/faulty_bus.yaml" >"$work/typo.yaml"
+expect 2 'camera_per: must be a node' run "$work/typo.yaml" --strategy tt --out "$work/kept"
+[[ $(cat "$work/kept/tt.mcap") == "an earlier log" ]] || fail "a run that was refused has written over a log"
+
 # A fault campaign: the table, the same from shards put together; a replay in words; what is refused.
 campaign=$work/schedules/campaign.yaml
 sed -e 's#^cluster: .*#cluster: flexray_demo.yaml#' -e 's/^faults: .*/faults: 24/' "$source/experiments/fault_campaign.yaml" >"$campaign"
