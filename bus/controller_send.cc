@@ -5,14 +5,9 @@
 #include "core/check.h"
 
 namespace ttf::bus {
-namespace {
 
 using schedules::Channel;
 using schedules::FrameSlot;
-
-constexpr int kCasBits = 30;   // cdCAS
-
-}  // namespace
 
 bool FlexRayController::State::may_send(const FrameSlot& slot) const {
   switch (mac_mode(poc)) {
@@ -129,7 +124,7 @@ void FlexRayController::State::send_symbol(Signal signal, Channel channel, Micro
   events.symbol_sent(signal, channel, at, end);
 }
 
-Microticks FlexRayController::State::cas_length() const { return bits(g.gdTSSTransmitter + kCasBits); }
+Microticks FlexRayController::State::cas_length() const { return bits(g.gdTSSTransmitter + schedules::kCasBits); }
 
 void FlexRayController::State::send_cas(Microticks at) {
   const Microticks end = at + cas_length();

@@ -4,19 +4,14 @@
 #include <utility>
 
 #include "report/axes.h"
+#include "report/log_limits.h"
 #include "report/startup_painter.h"
 
 namespace ttf::report {
 namespace {
 
-// A damaged or foreign log may say anything: see report/timing_diagram.cc.
-constexpr std::int64_t kFarthest_ns = std::int64_t{1} << 60, kMostCycles = std::int64_t{1} << 36;
-constexpr Duration kLongestCycle = Duration::milliseconds(16);  // cCycleMax
-
 // Startup frame indicator, in the first byte of a frame's header (FlexRay 2.1A, 4.2.5).
 constexpr std::byte kStartupIndicator{0x08};
-
-bool possible(TrueTime t) { return t.ns >= -kFarthest_ns && t.ns <= kFarthest_ns; }
 
 }  // namespace
 
@@ -38,7 +33,7 @@ void StartupDiagram::on(const records::SymbolSent& r) {
 }
 void StartupDiagram::on(const records::SlotFrameSent& r) {
   const TrueTime start = r.stamp.true_time, end = r.end.true_time;
-  if (possible(start) && possible(end) && start <= to_ && r.cycle >= -kMostCycles && r.cycle <= kMostCycles)
+  if (possible(start) && possible(end) && start <= to_ && possible_cycle(r.cycle))
     data_.frames.push_back({start, end, r.stamp.node, r.cycle, r.slot, r.channel, r.null_frame,
                             !r.bytes.empty() && (r.bytes[0] & kStartupIndicator) != std::byte{}});
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "report/axes.h"
+#include "report/log_limits.h"
 #include "report/timing_painter.h"
 
 namespace ttf::report {
@@ -12,14 +13,6 @@ namespace {
 
 constexpr Duration kMargin =
     Duration::milliseconds(300);  // ways of at most this length are followed into the window
-
-// A damaged or foreign log may say anything. No run has times 36 years from its start or as many cycles (of the longest,
-// 16 ms); up to there, differences of times and products with a cycle fit their type.
-constexpr std::int64_t kFarthest_ns = std::int64_t{1} << 60, kMostCycles = std::int64_t{1} << 36;
-
-constexpr Duration kLongestCycle = Duration::milliseconds(16);  // cCycleMax
-
-bool possible(std::int64_t ns) { return ns >= -kFarthest_ns && ns <= kFarthest_ns; }
 
 }  // namespace
 
@@ -38,7 +31,7 @@ void TimingDiagram::on(const records::CanFrameSent& r) {
     data_.can_frames.push_back({r.bus, r.start.true_time, r.end.true_time, r.pdu, r.sequence});
 }
 void TimingDiagram::on(const records::SlotFrameSent& r) {
-  const bool in_a_run = possible(r.stamp.global.ns) && r.cycle >= -kMostCycles && r.cycle <= kMostCycles;
+  const bool in_a_run = possible(r.stamp.global.ns) && possible_cycle(r.cycle);
   if (in_a_run && near(r.stamp.true_time, r.end.true_time))
     data_.slot_frames.push_back({r.stamp.true_time, r.end.true_time, r.stamp.global, r.stamp.node, r.cycle, r.slot,
                                  r.channel, r.null_frame, r.pdu, r.sequence, r.fragment,

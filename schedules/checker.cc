@@ -16,7 +16,6 @@ namespace {
 
 // FlexRay 2.1A, annex B: cdCAS in gdBit; and a bus driver's longest reaction from idle to activity (electrical physical
 // layer 2.1A, dBDRxai).
-constexpr std::int64_t kCasBits = 30;
 constexpr std::int64_t kDriverReaction_ps = 400'000;
 
 // 2 gdActionPointOffset + ceil((bits gdBitMax + delays) / (gdMacrotick (1 - cClockDeviationMax))).

@@ -60,6 +60,9 @@ struct GlobalParameters {
   std::int64_t cycle_ps() const { return gMacroPerCycle * gdMacrotick_ps; }
 };
 
+// cdCAS: low bits of a collision avoidance symbol behind its TSS (annex A) [bit].
+inline constexpr int kCasBits = 30;
+
 // Bits on the bus from the first TSS bit to the last FES bit of a static frame: TSS, FSS, ten bits (byte start sequence and
 // data) for each of 8 header and trailer bytes and of the payload, FES. The idle delimiter behind it is not in it.
 constexpr int frame_bits(const GlobalParameters& flexray, int payload_words) {

@@ -12,8 +12,6 @@ namespace {
 using bus::Signal;
 using schedules::Channel;
 
-constexpr int kCasBits = 30;   // cdCAS (FlexRay 2.1A, annex A)
-
 // Bursts of one kind, from the beginning of the fault to its end; none reaches into the next.
 class Bursts : public ActiveFault {
  public:
@@ -126,7 +124,7 @@ class RepeatedCas final : public NodeBursts {
 
  private:
   TrueTime burst(TrueTime now, Channel channel) override {
-    const std::int64_t ps = (flexray().gdTSSTransmitter + kCasBits) * flexray().gdBit_ps;
+    const std::int64_t ps = (flexray().gdTSSTransmitter + schedules::kCasBits) * flexray().gdBit_ps;
     return send(now, channel, Signal::kCas, {(ps + 999) / 1000}, {});
   }
 };

@@ -12,6 +12,7 @@
 #include "tests/bus/layouts.h"
 #include "tests/laws/can_port_laws.h"
 #include "tests/laws/flexray_port_laws.h"
+#include "tests/sim/simulated_flexray.h"
 #include "timebase/oscillator.h"
 
 namespace ttf::laws {
@@ -29,58 +30,9 @@ schedules::Cluster on_flexray() {
   return cluster;
 }
 
-class SimulatedFlexRayBench final : public FlexRayBench {
+class SimulatedFlexRayBench final : public SimulatedFlexRay {
  public:
-  SimulatedFlexRayBench() {
-    for (std::size_t c = 0; c < kNodes; ++c) ports_.push_back(std::make_unique<Port>(*this, c));
-  }
-  const schedules::GlobalParameters& parameters() const override { return cluster_.flexray; }
-  std::int64_t microtick_ps() const override { return clock_.nominal_period_ps(); }
-  std::size_t controllers() const override { return kNodes; }
-  bus::FlexRayPort& port(std::size_t controller) override { return *ports_[controller]; }
-  void run_until(Microticks now) override {
-    while (!queue_.empty() && clock_.ticks_at(queue_.next().time) <= now) {
-      now_ = queue_.next().time;
-      const sim::MediumEvent event = queue_.pop();
-      ASSERT_EQ(event.kind, sim::MediumEvent::Kind::kFlexRayArrival);
-      const auto arrival = medium_.arrive(event, now_);
-      if (!arrival) continue;
-      Reached reached{controller_of(event.node), arrival->channel, arrival->signal, clock_.ticks_at(arrival->start),
-                      clock_.ticks_at(arrival->end), {}};
-      if (arrival->signal == bus::Signal::kFrame) {
-        const auto bytes = pool_.bytes(arrival->frame);
-        reached.bytes.assign(bytes.begin(), bytes.end());
-      }
-      reached_.push_back(reached);
-      medium_.release(*arrival);
-    }
-    now_ = clock_.time_of(now);
-  }
-  const std::vector<Reached>& reached() const override { return reached_; }
-
- private:
-  struct Port final : bus::FlexRayPort {
-    SimulatedFlexRayBench& bench;
-    std::size_t controller;
-    Port(SimulatedFlexRayBench& b, std::size_t c) : bench(b), controller(c) {}
-    void transmit(const bus::Transmission& t) override {
-      bench.medium_.transmit(node_of(controller), t, bench.clock_.time_of(t.start), bench.clock_.time_of(t.end));
-    }
-    bool carrier(Channel channel) const override {
-      return bench.medium_.carrier(node_of(controller), channel, bench.now_);
-    }
-  };
-  static NodeId node_of(std::size_t controller) { return static_cast<NodeId>(controller < 2 ? controller : controller + 1); }
-  static std::size_t controller_of(std::uint8_t node) { return node < 2 ? node : node - 1u; }
-
-  schedules::Cluster cluster_ = on_flexray();
-  timebase::Oscillator clock_{25'000, 0, 0};
-  TrueTime now_{};
-  sim::MediumQueue queue_{kRoom};
-  sim::FramePool pool_{kRoom};
-  sim::FlexRayMedium medium_{cluster_, queue_, pool_};
-  std::vector<std::unique_ptr<Port>> ports_;
-  std::vector<Reached> reached_;
+  SimulatedFlexRayBench() : SimulatedFlexRay(on_flexray()) {}
 };
 
 // Node 1 is on no CAN. The schedule knows two of the identifiers; frames too short for their PDU are delivered all the same.

@@ -2,12 +2,11 @@
 // with a coupler that forwards everything.
 #include <gtest/gtest.h>
 
-#include <memory>
+#include <array>
 #include <vector>
 
 #include "sim/flexray_medium.h"
-#include "tests/laws/flexray_port_laws.h"
-#include "timebase/oscillator.h"
+#include "tests/sim/simulated_flexray.h"
 
 namespace ttf::laws {
 namespace {
@@ -15,7 +14,6 @@ namespace {
 using sim::Leaving;
 
 constexpr std::size_t kNodes = 5;
-constexpr std::size_t kRoom = 4096;
 
 schedules::Cluster star(std::int64_t min_delay_ps, std::int64_t max_delay_ps) {
   schedules::Cluster cluster;
@@ -42,56 +40,14 @@ struct TestCoupler final : sim::Coupler {
 };
 
 // All branches alike, so that the laws' nodes are as far from one another as they ask for.
-class StarBench final : public FlexRayBench {
+class StarBench final : public SimulatedFlexRay {
  public:
-  StarBench() {
-    for (std::size_t c = 0; c < kNodes; ++c) ports_.push_back(std::make_unique<Port>(*this, c));
-    for (const Channel channel : {Channel::kA, Channel::kB}) medium_.set_coupler(channel, &couplers_[index_of(channel)]);
+  StarBench() : SimulatedFlexRay(star(2'000'000, 2'000'000)) {
+    for (const Channel channel : {Channel::kA, Channel::kB}) medium().set_coupler(channel, &couplers_[index_of(channel)]);
   }
-  const schedules::GlobalParameters& parameters() const override { return cluster_.flexray; }
-  std::int64_t microtick_ps() const override { return clock_.nominal_period_ps(); }
-  std::size_t controllers() const override { return kNodes; }
-  bus::FlexRayPort& port(std::size_t controller) override { return *ports_[controller]; }
-  void run_until(Microticks now) override {
-    while (!queue_.empty() && clock_.ticks_at(queue_.next().time) <= now) {
-      now_ = queue_.next().time;
-      const sim::MediumEvent event = queue_.pop();
-      const auto arrival = medium_.arrive(event, now_);
-      if (!arrival) continue;
-      Reached reached{event.node, arrival->channel, arrival->signal, clock_.ticks_at(arrival->start),
-                      clock_.ticks_at(arrival->end), {}};
-      if (arrival->signal == bus::Signal::kFrame) {
-        const auto bytes = pool_.bytes(arrival->frame);
-        reached.bytes.assign(bytes.begin(), bytes.end());
-      }
-      reached_.push_back(reached);
-      medium_.release(*arrival);
-    }
-    now_ = clock_.time_of(now);
-  }
-  const std::vector<Reached>& reached() const override { return reached_; }
 
  private:
-  struct Port final : bus::FlexRayPort {
-    StarBench& bench;
-    std::size_t controller;
-    Port(StarBench& b, std::size_t c) : bench(b), controller(c) {}
-    void transmit(const bus::Transmission& t) override {
-      bench.medium_.transmit(static_cast<NodeId>(controller), t, bench.clock_.time_of(t.start), bench.clock_.time_of(t.end));
-    }
-    bool carrier(Channel channel) const override {
-      return bench.medium_.carrier(static_cast<NodeId>(controller), channel, bench.now_);
-    }
-  };
-  schedules::Cluster cluster_ = star(2'000'000, 2'000'000);
-  timebase::Oscillator clock_{25'000, 0, 0};
-  TrueTime now_{};
-  sim::MediumQueue queue_{kRoom};
-  sim::FramePool pool_{kRoom};
-  sim::FlexRayMedium medium_{cluster_, queue_, pool_};
   std::array<TestCoupler, 2> couplers_;
-  std::vector<std::unique_ptr<Port>> ports_;
-  std::vector<Reached> reached_;
 };
 
 INSTANTIATE_TYPED_TEST_SUITE_P(Star, FlexRayPortLaws, StarBench);
