@@ -1,5 +1,6 @@
 #include "experiments/campaign_file.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "core/strict_yaml.h"
@@ -61,6 +62,8 @@ CampaignFile read(const StrictYaml& yaml) {
   if (campaign.variants.empty()) root.fail("variants", "must have one at least");
   if (auto expect = root.map_if("expect")) {
     campaign.expected_harmed = expect->integer("harmed_with_guardian", {0, kMostFaults});
+    if (std::none_of(campaign.variants.begin(), campaign.variants.end(), [](const Variant& v) { return v.guarded(); }))
+      expect->fail("harmed_with_guardian", "needs a variant with guardian and both channels to be of");
     expect->finish();
   }
   root.finish();

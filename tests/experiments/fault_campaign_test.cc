@@ -53,6 +53,8 @@ TEST(FaultCampaign, MistakesInTheFileAreNamed) {
               HasSubstr("needs topology: star"));
   EXPECT_THAT(refusal(good + "classes: {crash: 0}\n"), HasSubstr("must give some class a weight"));
   EXPECT_THAT(refusal(good + "classes: {crush: 1}\n"), HasSubstr("crush: is not a known key"));
+  EXPECT_THAT(refusal(replaced(good, "guardian: true", "guardian: false") + "expect: {harmed_with_guardian: 0}\n"),
+              HasSubstr("small.yaml:12: expect.harmed_with_guardian"));
   EXPECT_THAT(refusal(good + "extra: 1\n"), HasSubstr("extra: is not a known key"));
 }
 
