@@ -23,6 +23,7 @@ TrackerConfig load_tracker(YamlMap& yaml) {
   constexpr Range<Duration> kSilence{Duration::milliseconds(1), Duration::milliseconds(100'000)};
   c.coast_after = yaml.duration_or("coast_after", c.coast_after, kSilence);
   c.delete_after = yaml.duration_or("delete_after", c.delete_after, kSilence);
+  if (c.coast_after > c.delete_after) yaml.fail("coast_after", "must not be longer than delete_after");
   c.max_objects = static_cast<int>(yaml.integer_or("max_objects", c.max_objects, {1, 1000}));
   c.history_scans = static_cast<std::size_t>(
       yaml.integer_or("history_scans", static_cast<std::int64_t>(c.history_scans), {2, 4096}, "scans"));

@@ -65,5 +65,16 @@ TEST(TrackerConfig, AllMistakesAtOnce) {
   EXPECT_NE(sentences[4].find("t.yaml:6: speed"), std::string::npos) << sentences[4];
 }
 
+// A track that ends before it coasts would never be said to.
+TEST(TrackerConfig, CoastingComesBeforeTheEnd) {
+  std::vector<std::string> sentences;
+  load("coast_after: 1001 ms\n", &sentences);
+  ASSERT_EQ(sentences.size(), 1u) << "delete_after is 1 s unless said";
+  EXPECT_NE(sentences[0].find("t.yaml:1: coast_after"), std::string::npos) << sentences[0];
+  sentences.clear();
+  load("coast_after: 1001 ms\ndelete_after: 1001 ms\n", &sentences);
+  EXPECT_TRUE(sentences.empty());
+}
+
 }  // namespace
 }  // namespace ttf::fusion
