@@ -25,6 +25,7 @@ class Resolver {
     if (has_node(fault.kind) && fault.node == kNoNode) fault.node = find("node", fault.node_name);
     if (fault.receivers.empty())
       for (const std::string& name : fault.receiver_names) fault.receivers.push_back(find("receivers", name));
+    check_receivers();
     check_slot();
     check_bits();
     check_coldstart();
@@ -39,6 +40,11 @@ class Resolver {
     else if (!cluster_.node(*node).flexray)
       fail(key, name, "must be on FlexRay");
     return node.value_or(kNoNode);
+  }
+  void check_receivers() {
+    for (const NodeId receiver : fault_->receivers)
+      if (receiver != kNoNode && receiver == fault_->node)
+        fail("receivers", cluster_.node(receiver).name, "must be another node");
   }
   void check_slot() {
     const int slots = cluster_.flexray.gNumberOfStaticSlots;

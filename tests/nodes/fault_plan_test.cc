@@ -241,6 +241,8 @@ TEST(FaultPlan, NamesAreLookedUpInTheCluster) {
   EXPECT_EQ(plan.faults[0].node, on_bus[2]);
   EXPECT_THAT(plan.faults[0].receivers, ElementsAre(on_bus[0], on_bus[1]));
   EXPECT_EQ(plan.faults[1].node, kNoNode);
+  EXPECT_THAT(refused("  - {kind: sos_value, node: " + name(0) + ", receivers: [" + name(0) + "]}\n", cluster),
+              ElementsAre(HasSubstr("faults[0].receivers = " + name(0) + ": must be another node")));
   // Once more changes nothing.
   EXPECT_EQ(resolve(plan, cluster).faults, plan.faults);
 }
