@@ -11,7 +11,6 @@ namespace {
 using schedules::Channel;
 using schedules::FrameSlot;
 
-constexpr GuardianAnswer no(GuardianReason reason) { return {reason, {}}; }
 
 }  // namespace
 
@@ -84,19 +83,19 @@ GuardianAnswer Guardian::judge(const timebase::CycleClock& clock, const DynamicS
   const Microticks at = signal.start - compensation_;
   const std::int64_t static_end = static_cast<std::int64_t>(g_.gNumberOfStaticSlots) * g_.gdStaticSlot;
   if (signal.signal == Signal::kUndecodable || (signal.signal == Signal::kFrame && !wire::has_header(*signal.frame)))
-    return no(GuardianReason::kUndecodable);
+    return GuardianAnswer::no(GuardianReason::kUndecodable);
   if (signal.signal != Signal::kFrame) {
     const Macroticks window =
         minislots_.count() > 0 ? minislots_.start_of(minislots_.count() + 1) : Macroticks{static_end};
     const bool due = signal.signal == Signal::kCas && g_.gdSymbolWindow > 0 && at >= clock.start_of(window);
     const Microticks window_end = due ? clock.start_of(window + Macroticks{g_.gdSymbolWindow}) : Microticks{};
-    if (!due || at >= window_end) return no(GuardianReason::kNoSymbolNow);
+    if (!due || at >= window_end) return GuardianAnswer::no(GuardianReason::kNoSymbolNow);
     return {GuardianReason::kForwarded, std::min(signal.start + lengths_.symbol(), window_end + compensation_)};
   }
-  if (at < clock.cycle_start()) return no(GuardianReason::kNobodysTime);
+  if (at < clock.cycle_start()) return GuardianAnswer::no(GuardianReason::kNobodysTime);
   if (at < clock.start_of(Macroticks{static_end})) return in_static_slot(clock, at, signal);
   const int minislot = minislots_.minislot_at(clock, at);
-  if (minislot < 1 || minislot > minislots_.count()) return no(GuardianReason::kNobodysTime);
+  if (minislot < 1 || minislot > minislots_.count()) return GuardianAnswer::no(GuardianReason::kNobodysTime);
   return in_dynamic_segment(clock, counter, at, signal);
 }
 
@@ -115,11 +114,11 @@ GuardianAnswer Guardian::in_static_slot(const timebase::CycleClock& clock, Micro
       high = middle - 1;
   }
   const FrameSlot* frame = slots_.expected(low, cycle_count(clock), channel_);
-  if (frame == nullptr || frame->sender != signal.branch) return no(GuardianReason::kNotItsSlot);
+  if (frame == nullptr || frame->sender != signal.branch) return GuardianAnswer::no(GuardianReason::kNotItsSlot);
   const Microticks action_point =
       clock.start_of(Macroticks{static_cast<std::int64_t>(low - 1) * g_.gdStaticSlot + g_.gdActionPointOffset});
-  if (std::abs((at - action_point).value) > tolerance_.value) return no(GuardianReason::kOutsideWindow);
-  if (!header_fits(*frame, cycle_count(clock), signal.frame->header)) return no(GuardianReason::kWrongHeader);
+  if (std::abs((at - action_point).value) > tolerance_.value) return GuardianAnswer::no(GuardianReason::kOutsideWindow);
+  if (!header_fits(*frame, cycle_count(clock), signal.frame->header)) return GuardianAnswer::no(GuardianReason::kWrongHeader);
   return {GuardianReason::kForwarded, signal.start + lengths_.frame(g_.gPayloadLengthStatic)};
 }
 
@@ -127,15 +126,15 @@ GuardianAnswer Guardian::in_dynamic_segment(const timebase::CycleClock& clock, c
                                             Microticks at, const GuardianSignal& signal) const {
   const int minislot = minislots_.minislot_at(clock, at);
   const FrameSlot* frame = slots_.expected(counter.slot_in(minislot), cycle_count(clock), channel_);
-  if (frame == nullptr || frame->sender != signal.branch) return no(GuardianReason::kNotItsSlot);
-  if (minislot > cluster_.node(signal.branch).flexray->pLatestTx) return no(GuardianReason::kOutsideWindow);
+  if (frame == nullptr || frame->sender != signal.branch) return GuardianAnswer::no(GuardianReason::kNotItsSlot);
+  if (minislot > cluster_.node(signal.branch).flexray->pLatestTx) return GuardianAnswer::no(GuardianReason::kOutsideWindow);
   // Near a minislot's boundary some receivers would count another minislot than others, and every slot behind it
   // differently.
   const Microticks tolerance =
       std::min(tolerance_, lengths_.time(g_.gdMinislotActionPointOffset * g_.gdMacrotick_ps / 2));
   if (std::abs((at - clock.start_of(minislots_.action_point(minislot))).value) > tolerance.value)
-    return no(GuardianReason::kOutsideWindow);
-  if (!header_fits(*frame, cycle_count(clock), signal.frame->header)) return no(GuardianReason::kWrongHeader);
+    return GuardianAnswer::no(GuardianReason::kOutsideWindow);
+  if (!header_fits(*frame, cycle_count(clock), signal.frame->header)) return GuardianAnswer::no(GuardianReason::kWrongHeader);
   // The trailing sequence goes on to the next minislot action point that leaves room for a bit of it.
   const Microticks trailing = lengths_.time(2 * g_.gdMinislot * g_.gdMacrotick_ps);
   const Microticks segment_end = clock.start_of(minislots_.start_of(minislots_.count() + 1)) + compensation_;

@@ -76,6 +76,7 @@ struct GuardianSignal {
 struct GuardianAnswer {
   GuardianReason reason{};
   Microticks until{};             // forwarded: what lasts longer is cut there
+  static constexpr GuardianAnswer no(GuardianReason reason) { return {reason, {}}; }
   bool forwards() const { return reason == GuardianReason::kForwarded; }
 };
 

@@ -5,7 +5,6 @@
 namespace ttf::bus {
 namespace {
 
-constexpr GuardianAnswer no(GuardianReason reason) { return {reason, {}}; }
 
 }  // namespace
 
@@ -37,28 +36,28 @@ GuardianAnswer StartupTurns::judge(const GuardianSignal& signal) const {
   const Microticks at = signal.start;
   const bool leading = leads(at) && signal.branch == leader_;
   switch (signal.signal) {
-    case Signal::kUndecodable: return no(GuardianReason::kUndecodable);
+    case Signal::kUndecodable: return GuardianAnswer::no(GuardianReason::kUndecodable);
     case Signal::kWakeup:
-      if (p.pWakeupChannel != channel_ || at < may_wake_[index_of(signal.branch)]) return no(GuardianReason::kNoWakeup);
-      if (leads(at)) return no(GuardianReason::kOtherLeads);
+      if (p.pWakeupChannel != channel_ || at < may_wake_[index_of(signal.branch)]) return GuardianAnswer::no(GuardianReason::kNoWakeup);
+      if (leads(at)) return GuardianAnswer::no(GuardianReason::kOtherLeads);
       return {GuardianReason::kForwarded, at + lengths_.wakeup_pattern(p.pWakeupPattern)};
     case Signal::kCas:
-      if (!p.pKeySlotUsedForStartup) return no(GuardianReason::kNoColdstartNode);
-      if (leading) return no(GuardianReason::kTooSoon);
+      if (!p.pKeySlotUsedForStartup) return GuardianAnswer::no(GuardianReason::kNoColdstartNode);
+      if (leading) return GuardianAnswer::no(GuardianReason::kTooSoon);
       break;
     case Signal::kFrame: {
-      if (!wire::has_header(*signal.frame)) return no(GuardianReason::kUndecodable);
-      if (!p.pKeySlotUsedForStartup) return no(GuardianReason::kNoColdstartNode);
+      if (!wire::has_header(*signal.frame)) return GuardianAnswer::no(GuardianReason::kUndecodable);
+      if (!p.pKeySlotUsedForStartup) return GuardianAnswer::no(GuardianReason::kNoColdstartNode);
       const wire::FrameHeader& header = signal.frame->header;
       if (!header.startup || !header.sync || header.frame_id != p.pKeySlotId ||
           header.payload_words != cluster_.flexray.gPayloadLengthStatic)
-        return no(GuardianReason::kNoStartupFrame);
-      if (leading && at < next_frame_) return no(GuardianReason::kTooSoon);
+        return GuardianAnswer::no(GuardianReason::kNoStartupFrame);
+      if (leading && at < next_frame_) return GuardianAnswer::no(GuardianReason::kTooSoon);
       break;
     }
   }
-  if (!leading && leads(at)) return no(GuardianReason::kOtherLeads);
-  if (!leading && at < waits_until(signal.branch, at)) return no(GuardianReason::kLeadFailed);
+  if (!leading && leads(at)) return GuardianAnswer::no(GuardianReason::kOtherLeads);
+  if (!leading && at < waits_until(signal.branch, at)) return GuardianAnswer::no(GuardianReason::kLeadFailed);
   return {GuardianReason::kForwarded, at + (signal.signal == Signal::kCas
                                                 ? lengths_.symbol()
                                                 : lengths_.frame(cluster_.flexray.gPayloadLengthStatic))};

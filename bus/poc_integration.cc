@@ -7,7 +7,7 @@ namespace {
 
 constexpr int kGoodDoubleCycles = 2;
 
-PocStep next_cycle(const Now& now, PocReason why) {
+PocStep one_more_cycle(const Now& now, PocReason why) {
   PocStep step = stay(now, why);
   ++step.next.cycles;
   return step;
@@ -15,7 +15,7 @@ PocStep next_cycle(const Now& now, PocReason why) {
 
 PocStep begin_check(const Now& now) {
   if (now.event.cycle % 2 != 0) return ignore(now, PocReason::kNotYetWholeCycle);
-  return next_cycle(now, PocReason::kFirstWholeCycle);
+  return one_more_cycle(now, PocReason::kFirstWholeCycle);
 }
 
 bool enough_frames(const StartupFramesSeen& seen) { return seen.reference_frame || seen.frames >= 2; }
@@ -47,7 +47,7 @@ PocStep coldstart_check_cycle(const Now& now) {
   const StartupFramesSeen& ended = now.event.ended;
   if (now.state.cycles == 0) return begin_check(now);
   if (now.state.cycles == 1)   // the even cycle has ended
-    return enough_frames(ended) ? next_cycle(now, PocReason::kReferenceFrameSeen)
+    return enough_frames(ended) ? one_more_cycle(now, PocReason::kReferenceFrameSeen)
                                 : listen(now, PocReason::kReferenceFrameLost);
   if (!enough_pairs(ended)) return listen(now, PocReason::kReferencePairLost);
   if (const PocReason objection = clock_objection(now.state); objection != PocReason::kNone)
@@ -64,10 +64,10 @@ PocStep join_cycle(const Now& now) {
     if (ended.pairs == 0) return listen(now, PocReason::kJoinedAlone);
     if (const PocReason objection = clock_objection(now.state); objection != PocReason::kNone)
       return listen(now, objection);
-    return next_cycle(now, PocReason::kJoinGoesOn);
+    return one_more_cycle(now, PocReason::kJoinGoesOn);
   }
   if (ended.frames == 0) return listen(now, PocReason::kJoinedAlone);
-  if (now.state.cycles == 1) return next_cycle(now, PocReason::kJoinGoesOn);
+  if (now.state.cycles == 1) return one_more_cycle(now, PocReason::kJoinGoesOn);
   return enter(now, PocKind::kNormalActive, PocReason::kJoined);
 }
 
@@ -80,13 +80,13 @@ PocStep integration_cycle(const Now& now) {
   if (even_ended) {
     if (first && !enough_frames(ended)) return listen(now, PocReason::kReferenceFrameLost);
     if (!first && ended.frames < 2) return listen(now, PocReason::kTooFewStartupFrames);
-    return next_cycle(now, PocReason::kConsistencyGoesOn);
+    return one_more_cycle(now, PocReason::kConsistencyGoesOn);
   }
   if (first && !enough_pairs(ended)) return listen(now, PocReason::kReferencePairLost);
   if (!first && ended.pairs < 2) return listen(now, PocReason::kTooFewStartupPairs);
   if (const PocReason objection = clock_objection(now.state); objection != PocReason::kNone)
     return listen(now, objection);
-  PocStep step = next_cycle(now, PocReason::kConsistencyGoesOn);
+  PocStep step = one_more_cycle(now, PocReason::kConsistencyGoesOn);
   step.next.clock = ClockVerdict::kNone;
   step.next.good_double_cycles = ended.pairs >= 2 ? now.state.good_double_cycles + 1 : 0;
   if (step.next.good_double_cycles < kGoodDoubleCycles) return step;

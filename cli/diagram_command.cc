@@ -21,7 +21,7 @@
 namespace ttf::cli {
 namespace {
 
-struct Options {
+struct DiagramOptions {
   std::vector<std::string> logs;
   double from_s = -1.0, to_s = -1.0;
   std::string kind = "timing";
@@ -55,7 +55,7 @@ recording::LogInfo read(const std::string& path, records::Sink& sink) {
 }
 
 // A recorded laser scan and the vehicles that preprocessing sees in it.
-std::string boxes(const Options& options) {
+std::string boxes(const DiagramOptions& options) {
   if (options.logs.size() != 1) throw InputError({"command line", 0, "--kind", "boxes", "takes one recording"});
   const auto scans = recording::read_lidar_scans(options.logs[0]);
   const int frame = options.frame.value_or(0);
@@ -79,7 +79,7 @@ std::string boxes(const Options& options) {
 }
 
 // The whole start-up and two cycles after it, unless told.
-std::string startup(const Options& options) {
+std::string startup(const DiagramOptions& options) {
   if (options.logs.size() != 1) throw InputError({"command line", 0, "--kind", "startup", "takes one log"});
   const TimeWindow window = time_window(options.from_s, options.to_s);
   report::StartupExtent extent;
@@ -92,7 +92,7 @@ std::string startup(const Options& options) {
   return diagram.svg();
 }
 
-int run(const Options& options) {
+int run_diagram(const DiagramOptions& options) {
   report::check_picture_path(options.out);
   if (options.kind == "boxes") {
     report::write_picture(boxes(options), options.out);
@@ -151,7 +151,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_diagram(CLI::App& app, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<DiagramOptions>();
   CLI::App* command = app.add_subcommand("diagram", "Timing and start-up diagrams and position plots from logs");
   command->footer(
       "Examples: ttfusion diagram out/drive/tt.mcap --from 1.5 --to 1.65 -o timing.svg\n"
@@ -177,7 +177,7 @@ void add_diagram(CLI::App& app, Action& action) {
   command->add_option("--frame", options->frame, "Which scan of a recording, with --kind boxes")
       ->check(CLI::NonNegativeNumber);
   command->add_option("-o,--out", options->out, "Picture to write: .svg, .png or .pdf")->required();
-  command->callback([options, &action] { action = [options] { return run(*options); }; });
+  command->callback([options, &action] { action = [options] { return run_diagram(*options); }; });
 }
 
 }  // namespace ttf::cli

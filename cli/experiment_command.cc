@@ -26,7 +26,7 @@ using experiments::FaultResult;
 
 constexpr std::size_t kShownHarms = 40;   // the others are in the results' table
 
-struct Options {
+struct ExperimentOptions {
   std::string file;
   std::string out;
   std::string shard;
@@ -72,7 +72,7 @@ class Progress {
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
 };
 
-int replay(const Options& options, const CampaignFile& campaign, const CampaignClusters& clusters) {
+int replay(const ExperimentOptions& options, const CampaignFile& campaign, const CampaignClusters& clusters) {
   if (*options.replay >= campaign.faults)
     throw InputError({"command line", 0, "--replay", fmt::to_string(*options.replay),
                       fmt::format("must be 0..{}", campaign.faults - 1)});
@@ -122,7 +122,7 @@ nlohmann::ordered_json to_json(const Coverage& coverage, Duration cycle) {
 }
 
 // What harmed a fault-free node although guardians and two channels were there.
-std::string harms_text(const Options& options, const CampaignFile& campaign, const CampaignClusters& clusters,
+std::string harms_text(const ExperimentOptions& options, const CampaignFile& campaign, const CampaignClusters& clusters,
                        const std::vector<FaultResult>& results) {
   std::string out;
   std::size_t count = 0;
@@ -139,7 +139,7 @@ std::string harms_text(const Options& options, const CampaignFile& campaign, con
   return out;
 }
 
-std::vector<FaultResult> results_of(const Options& options, const CampaignFile& campaign, const CampaignClusters& clusters) {
+std::vector<FaultResult> results_of(const ExperimentOptions& options, const CampaignFile& campaign, const CampaignClusters& clusters) {
   if (!options.merge.empty()) {
     std::vector<std::vector<FaultResult>> shards;
     for (const std::string& folder : options.merge) {
@@ -156,7 +156,7 @@ std::vector<FaultResult> results_of(const Options& options, const CampaignFile& 
   return experiments::run_campaign(campaign, clusters, shard, jobs, [&](std::uint64_t done) { progress(done); });
 }
 
-int run(const Options& options) {
+int run_experiment(const ExperimentOptions& options) {
   const CampaignFile campaign = experiments::load_campaign(options.file);
   const CampaignClusters clusters(campaign);
   if (options.replay) return replay(options, campaign, clusters);
@@ -201,7 +201,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_experiment(CLI::App& app, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ExperimentOptions>();
   CLI::App* command = app.add_subcommand("experiment", "A campaign of single faults: who notices them, whom they harm");
   command->footer(
       "Examples: ttfusion experiment experiments/fault_campaign.yaml --out out/campaign\n"
@@ -217,7 +217,7 @@ void add_experiment(CLI::App& app, Action& action) {
   command->add_flag("--json", options->json, "Coverage as JSON on standard output");
   merge->excludes(shard);
   replay->excludes(shard)->excludes(merge);
-  command->callback([options, &action] { action = [options] { return run(*options); }; });
+  command->callback([options, &action] { action = [options] { return run_experiment(*options); }; });
 }
 
 }  // namespace ttf::cli

@@ -11,7 +11,7 @@
 namespace ttf::cli {
 namespace {
 
-struct Options {
+struct ExportOptions {
   std::string log;
   std::string format;
   std::string out;
@@ -25,7 +25,7 @@ std::string converted(const std::string& format, const recording::FrameCollector
   return recording::export_csv(collector, frames, names);
 }
 
-int run(const Options& options) {
+int run_export(const ExportOptions& options) {
   refuse_overwriting(options.log, options.out, "--out");
   recording::FrameCollector collector;
   const recording::LogInfo info = recording::read_log(options.log, collector);
@@ -49,7 +49,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_export(CLI::App& app, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ExportOptions>();
   CLI::App* command = app.add_subcommand("export", "A log's frames for Wireshark, canplayer or a spreadsheet");
   command->footer(
       "The start of the run is 1970-01-01 in pcapng, second 1000000000 in candump, and 0 in csv.\n"
@@ -62,7 +62,7 @@ void add_export(CLI::App& app, Action& action) {
       ->check(CLI::IsMember({"pcapng", "candump", "csv"}));
   command->add_option("-o,--out", options->out, "File to write")->required();
   command->add_flag("--json", options->json, "Counts as JSON on standard output");
-  command->callback([options, &action] { action = [options] { return run(*options); }; });
+  command->callback([options, &action] { action = [options] { return run_export(*options); }; });
 }
 
 }  // namespace ttf::cli

@@ -22,7 +22,7 @@ std::string_view text(bus::Signal signal) {
 }  // namespace
 
 void ReplayStory::say(TrueTime at, const std::string& text) const {
-  fmt::print("  {:>10.3f} ms  cycle {:>6.2f}  {}\n", static_cast<double>(at.ns) * 1e-6,
+  fmt::print("  {:>10.3f} ms  cycle {:>6.2f}  {}\n", in_ms(at),
              static_cast<double>(at.ns) / static_cast<double>(cluster_.cycle().ns), text);
 }
 

@@ -24,7 +24,7 @@
 namespace ttf::cli {
 namespace {
 
-struct Options {
+struct RunOptions {
   std::string scenario;
   std::string strategy;
   std::optional<std::string> seed;
@@ -98,7 +98,7 @@ std::vector<fusion::StrategyKind> chosen(const std::string& name) {
   return strategies;
 }
 
-StrategyResult run_strategy(const Options& options, const nodes::Scenario& scenario, fusion::StrategyKind strategy,
+StrategyResult run_strategy(const RunOptions& options, const nodes::Scenario& scenario, fusion::StrategyKind strategy,
                             std::uint64_t seed, const Recording& recording, const std::string& folder) {
   StrategyResult result;
   result.strategy = strategy;
@@ -150,7 +150,7 @@ std::string folder_of(const nodes::Scenario& scenario) {
   return "out/" + scenario.name;
 }
 
-int run(const Options& options) {
+int run_scenario(const RunOptions& options) {
   const nodes::Scenario scenario = nodes::load_scenario(options.scenario);
   const std::uint64_t seed = options.seed ? seed_of(*options.seed) : scenario.seed;
   const Recording recording = read_recording(options.input);
@@ -187,7 +187,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_run(CLI::App& app, Action& action) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<RunOptions>();
   CLI::App* command = app.add_subcommand("run", "One drive in virtual time: log, summary table and pictures");
   command->footer("Example: ttfusion run scenarios/paper_scenario1.yaml --seed 7 --out out/drive");
   command->add_option("scenario", options->scenario, "Scenario file")->required();
@@ -199,7 +199,7 @@ void add_run(CLI::App& app, Action& action) {
   command->add_flag("--json", options->json, "Summary as JSON on standard output");
   command->add_flag("--no-log", options->no_log, "Write no logs (and so no pictures)");
   command->add_flag("--no-pictures", options->no_pictures, "Write logs only");
-  command->callback([options, &action] { action = [options] { return run(*options); }; });
+  command->callback([options, &action] { action = [options] { return run_scenario(*options); }; });
 }
 
 }  // namespace ttf::cli

@@ -20,7 +20,6 @@
 namespace ttf::cli {
 namespace {
 
-double ms(Duration d) { return static_cast<double>(d.ns) * 1e-6; }
 double us(Duration d) { return static_cast<double>(d.ns) * 1e-3; }
 
 using Value = std::string (*)(const StrategyResult&);
@@ -32,10 +31,10 @@ struct Row {
 std::string number(std::uint64_t n) { return fmt::format("{}", n); }
 // Of nothing there is no age, rather than one of zero.
 std::string mean_cell(const experiments::AgeStatistics& ages) {
-  return ages.count == 0 ? "-" : report::cell(ms(ages.mean()), 1);
+  return ages.count == 0 ? "-" : report::cell(in_ms(ages.mean()), 1);
 }
 std::string worst_cell(const experiments::AgeStatistics& ages) {
-  return ages.count == 0 ? "-" : report::cell(ms(ages.worst), 1);
+  return ages.count == 0 ? "-" : report::cell(in_ms(ages.worst), 1);
 }
 
 // Lists that were made and never fused: too late for the strategy, or lost between a task's end and its reader's start.
@@ -89,7 +88,7 @@ const Row kRareRows[] = {
 
 nlohmann::ordered_json ages(const experiments::AgeStatistics& statistics) {
   if (statistics.count == 0) return {{"count", 0}, {"mean_ms", nullptr}, {"worst_ms", nullptr}};
-  return {{"count", statistics.count}, {"mean_ms", ms(statistics.mean())}, {"worst_ms", ms(statistics.worst)}};
+  return {{"count", statistics.count}, {"mean_ms", in_ms(statistics.mean())}, {"worst_ms", in_ms(statistics.worst)}};
 }
 
 report::PositionOptions position_options(const nodes::Scenario& scenario, const StrategyResult& result) {

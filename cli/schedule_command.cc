@@ -23,7 +23,7 @@
 namespace ttf::cli {
 namespace {
 
-struct Options {
+struct ScheduleOptions {
   std::string file;
   std::string out;
   std::string format;
@@ -31,7 +31,6 @@ struct Options {
   CaptureArguments capture;
 };
 
-double ms(Duration d) { return static_cast<double>(d.ns) * 1e-6; }
 
 // Null where nothing is sent in the dynamic segment.
 nlohmann::ordered_json dynamic_json(const schedules::Cluster& cluster) {
@@ -51,7 +50,7 @@ nlohmann::ordered_json dynamic_json(const schedules::Cluster& cluster) {
   return json;
 }
 
-int check(const Options& options) {
+int check(const ScheduleOptions& options) {
   const schedules::Cluster cluster = schedules::load_checked_cluster(options.file);
   schedules::bind_ports(cluster, nodes::step_ports());
   if (!options.capture.file.empty()) return check_against_capture(cluster, options.capture, options.json);
@@ -65,21 +64,21 @@ int check(const Options& options) {
   if (auto dynamic = dynamic_json(cluster); !dynamic.is_null()) json["dynamic_segment"] = std::move(dynamic);
   for (const schedules::AgePath& path : schedules::measurement_ages(cluster)) {
     nlohmann::ordered_json one{{"sensor", cluster.sensor(path.sensor).name},
-                               {"available_ms", {ms(path.fusion_best), ms(path.fusion_worst)}},
-                               {"fused_ms", {ms(path.fused_best), ms(path.fused_worst)}},
-                               {"first_use_ms", {ms(path.use_best), ms(path.use_worst)}},
-                               {"newest_at_any_use_worst_ms", ms(path.newest_worst)},
-                               {"buffered_use_worst_ms", ms(path.buffered_use_worst)}};
+                               {"available_ms", {in_ms(path.fusion_best), in_ms(path.fusion_worst)}},
+                               {"fused_ms", {in_ms(path.fused_best), in_ms(path.fused_worst)}},
+                               {"first_use_ms", {in_ms(path.use_best), in_ms(path.use_worst)}},
+                               {"newest_at_any_use_worst_ms", in_ms(path.newest_worst)},
+                               {"buffered_use_worst_ms", in_ms(path.buffered_use_worst)}};
     for (const schedules::Contribution& contribution : path.to_use)
       one["contributions"].push_back(
-          {{"name", contribution.name}, {"best_ms", ms(contribution.best)}, {"worst_ms", ms(contribution.worst)}});
+          {{"name", contribution.name}, {"best_ms", in_ms(contribution.best)}, {"worst_ms", in_ms(contribution.worst)}});
     json["ages"].push_back(std::move(one));
   }
   fmt::print("{}\n", json.dump(2));
   return 0;
 }
 
-int show(const Options& options) {
+int show(const ScheduleOptions& options) {
   if (!options.out.empty()) report::check_picture_path(options.out);
   const schedules::Cluster cluster = schedules::load_checked_cluster(options.file);
   if (options.out.empty())
@@ -96,7 +95,7 @@ void write_text(const std::string& text, const std::string& path) {
     write_file(path, text);
 }
 
-int export_cluster(const Options& options) {
+int export_cluster(const ScheduleOptions& options) {
   if (!options.out.empty()) refuse_overwriting(options.file, options.out, "--out");
   if (options.format == "fibex") {
     write_text(schedules::fibex_text(schedules::load_checked_cluster(options.file)), options.out);
@@ -115,7 +114,7 @@ int export_cluster(const Options& options) {
 void add_schedule(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("schedule", "Validate, draw and exchange schedules");
   command->require_subcommand(1);
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ScheduleOptions>();
   CLI::App* checking = command->add_subcommand("check", "Prove a cluster consistent and bound its measurements' ages");
   checking->footer(
       "Example: ttfusion schedule check schedules/paper_synchronised.yaml\n"

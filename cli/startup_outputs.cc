@@ -11,7 +11,6 @@
 namespace ttf::cli {
 namespace {
 
-double ms(TrueTime t) { return static_cast<double>(t.ns) * 1e-6; }
 
 }  // namespace
 
@@ -22,9 +21,9 @@ std::string startup_text(const std::vector<StrategyResult>& results) {
     report::Table table({"node", "powered on [ms]", "active in cycle", "at [ms]", "in state now, and why"});
     for (const experiments::NodeStartup& node : result.startup) {
       const bool on_flexray = !node.state.empty();
-      table.add({result.cluster.node(node.node).name, node.powered ? report::cell(ms(*node.powered), 1) : "-",
+      table.add({result.cluster.node(node.node).name, node.powered ? report::cell(in_ms(*node.powered), 1) : "-",
                  node.active ? fmt::format("{}", node.active->cycle) : "-",
-                 node.active ? report::cell(ms(node.active->at), 1) : "-",
+                 node.active ? report::cell(in_ms(node.active->at), 1) : "-",
                  on_flexray ? fmt::format("{}: {}", node.state, node.why) : "not on FlexRay"});
     }
     const std::string name(nodes::name_of(result.strategy)), body = table.text();
@@ -45,10 +44,10 @@ nlohmann::ordered_json startup_json(const StrategyResult& result) {
     nlohmann::ordered_json one;
     one["node"] = result.cluster.node(node.node).name;
     one["powered_on_ms"] = nullptr;
-    if (node.powered) one["powered_on_ms"] = ms(*node.powered);
+    if (node.powered) one["powered_on_ms"] = in_ms(*node.powered);
     one["active"] = nullptr;
     if (node.active)
-      one["active"] = {{"cycle", node.active->cycle}, {"at_ms", ms(node.active->at)}, {"from", node.active->from},
+      one["active"] = {{"cycle", node.active->cycle}, {"at_ms", in_ms(node.active->at)}, {"from", node.active->from},
                        {"why", node.active->why}};
     one["state"] = node.state;
     one["why"] = node.why;

@@ -12,6 +12,8 @@
 
 namespace ttf::recording {
 
+inline constexpr std::int64_t kSecond_ns = 1'000'000'000;
+
 // A number in the byte order of the file.
 template <class Int>
 Int number_at(std::string_view bytes, std::size_t at, bool swapped) {

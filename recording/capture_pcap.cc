@@ -10,7 +10,6 @@ namespace {
 
 constexpr std::size_t kFileHeader = 24, kPacketHeader = 16;
 constexpr std::uint32_t kLinkTypeMask = 0x03ffffff;  // above: whether and how long a frame check sequence is
-constexpr std::int64_t kSecond = 1'000'000'000;
 
 class PcapParser : CaptureParser {
  public:
@@ -36,13 +35,13 @@ class PcapParser : CaptureParser {
     const auto size = number<std::uint32_t>(8);
     if (size > most_)
       damaged(next_packet(), fmt::format("{} bytes", size), fmt::format("must have at most {} bytes", most_));
-    if (fraction >= kSecond / unit_ns_)
+    if (fraction >= kSecond_ns / unit_ns_)
       damaged(next_packet(), fmt::format("{} {}", fraction, unit_ns_ == 1 ? "ns" : "us"),
               "must be a fraction of a second");
     if (left() - kPacketHeader < size) return torn(next_packet());
     CapturedPacket packet;
     packet.number = capture_.packets.size() + 1;
-    packet.time_ns = std::int64_t{second} * kSecond + fraction * unit_ns_;
+    packet.time_ns = std::int64_t{second} * kSecond_ns + fraction * unit_ns_;
     packet.data_begin = at_ + kPacketHeader;
     packet.data_size = size;
     packet.original_size = number<std::uint32_t>(12);

@@ -10,7 +10,6 @@
 namespace ttf::recording {
 namespace {
 
-constexpr std::int64_t kSecond = 1'000'000'000;
 // Differences of stamps stay within 64 bits, with room to spare.
 constexpr std::int64_t kLatest = std::numeric_limits<std::int64_t>::max() / 2;
 constexpr std::uint32_t kMostBlockBytes = 16u << 20;
@@ -26,8 +25,8 @@ Int128 nanoseconds(const Clock& clock, std::uint64_t ticks) {
   Int128 per_second = 1;
   for (int i = 0; i < clock.digits; ++i) per_second *= clock.binary ? 2 : 10;
   const Int128 count = ticks;
-  return (count / per_second) * kSecond + (count % per_second) * kSecond / per_second +
-         Int128{clock.offset_s} * kSecond;
+  return (count / per_second) * kSecond_ns + (count % per_second) * kSecond_ns / per_second +
+         Int128{clock.offset_s} * kSecond_ns;
 }
 
 class PcapngParser : CaptureParser {

@@ -1,6 +1,8 @@
 // Bytes of MCAP: opcodes, little-endian fields out and in (https://mcap.dev/spec).
 #pragma once
 
+#include <zlib.h>
+
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -31,6 +33,11 @@ enum class Opcode : std::uint8_t {
   kSummaryOffset,
   kDataEnd,
 };
+
+// CRC-32 of ISO 3309, of what `crc` is of and these bytes behind it.
+inline std::uint32_t crc_of(std::string_view bytes, std::uint32_t crc = 0) {
+  return static_cast<std::uint32_t>(crc32_z(crc, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+}
 
 template <class Int>
 void put(std::string& out, Int value) {

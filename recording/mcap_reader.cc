@@ -1,7 +1,6 @@
 #include "recording/mcap_reader.h"
 
 #include <fmt/format.h>
-#include <zlib.h>
 #include <zstd.h>
 
 #include <algorithm>
@@ -16,10 +15,6 @@ constexpr std::uint64_t kMaxChunkBytes = 64 * 1024 * 1024;  // far above any wri
 constexpr std::size_t kMaxWarnings = 20;
 constexpr std::size_t kRecordHead = 9;  // opcode and length
 constexpr std::size_t kFooterBytes = kRecordHead + 20;
-
-std::uint32_t crc_of(std::string_view bytes) {
-  return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
-}
 
 struct Record {
   std::uint8_t opcode = 0;

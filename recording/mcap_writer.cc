@@ -1,6 +1,5 @@
 #include "recording/mcap_writer.h"
 
-#include <zlib.h>
 #include <zstd.h>
 
 #include <algorithm>
@@ -17,18 +16,14 @@ namespace {
 
 constexpr int kCompressionLevel = 1;  // most of the gain at a small part of the time
 
-std::uint32_t crc_of(std::string_view bytes, std::uint32_t crc = 0) {
-  return static_cast<std::uint32_t>(crc32_z(crc, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
-}
-
-struct Channel {
-  std::vector<std::pair<std::uint64_t, std::uint64_t>> index;  // log time, offset within the open chunk
-  std::uint64_t messages = 0;
-};
-
 }  // namespace
 
 struct McapWriter::Impl {
+  struct Channel {
+    std::vector<std::pair<std::uint64_t, std::uint64_t>> index;  // log time, offset within the open chunk
+    std::uint64_t messages = 0;
+  };
+
   std::string path;
   std::FILE* file = nullptr;
   std::string error;         // of the first write that failed
@@ -183,7 +178,7 @@ void McapWriter::add_message(std::uint16_t channel, std::uint64_t log_time, std:
   s.first_time = s.messages == 0 ? log_time : std::min(s.first_time, log_time);
   s.last_time = std::max(s.last_time, log_time);
 
-  Channel& target = s.channels[channel - 1u];
+  Impl::Channel& target = s.channels[channel - 1u];
   target.index.emplace_back(log_time, s.chunk.size());
   const std::size_t start = begin_record(s.chunk, Opcode::kMessage);
   put(s.chunk, channel);
@@ -227,7 +222,7 @@ void McapWriter::flush() {
   const std::size_t map_at = index.size();
   put(index, std::uint32_t{0});
   for (std::size_t i = 0; i < s.channels.size(); ++i) {
-    Channel& channel = s.channels[i];
+    Impl::Channel& channel = s.channels[i];
     if (channel.index.empty()) continue;
     put(index, static_cast<std::uint16_t>(i + 1));
     put(index, s.offset + out.size());

@@ -21,9 +21,9 @@ using schedules::FrameSlot;
 
 constexpr double kPlot = 1300, kSlotLane = 110, kTaskLane = 26;
 
-class Painter {
+class SchedulePainter {
  public:
-  explicit Painter(const Cluster& cluster) : c_(cluster), names_(names_of(cluster)) {
+  explicit SchedulePainter(const Cluster& cluster) : c_(cluster), names_(names_of(cluster)) {
     for (const FrameSlot& f : c_.frames) {
       repetition_ = std::max(repetition_, f.repetition);
       frames_[f.slot].push_back(&f);
@@ -369,7 +369,7 @@ class Painter {
 std::string schedule_svg(const Cluster& cluster) {
   if (cluster.frames.empty() && cluster.nodes.empty())
     return empty_picture("Schedule of " + cluster.name, "The cluster has no nodes and no frames.");
-  return Painter(cluster).picture();
+  return SchedulePainter(cluster).picture();
 }
 
 }  // namespace ttf::report

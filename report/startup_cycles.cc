@@ -3,11 +3,10 @@
 #include <algorithm>
 
 #include "recording/records/records.h"
+#include "report/log_limits.h"
 
 namespace ttf::report {
 namespace {
-
-constexpr std::int64_t kMostCycles = 2000;   // more lines than this are no grid any more
 
 // The node's last symbol that ended before it led anybody.
 std::optional<TrueTime> last_cas(const StartupData& data, std::optional<NodeId> node, TrueTime before) {
@@ -33,7 +32,7 @@ std::optional<LeadingNode> leading_node(const StartupData& data) {
 std::map<std::int64_t, TrueTime> cycles_of(const StartupData& data, const LeadingNode& leader, Duration cycle,
                                            TrueTime end) {
   std::map<std::int64_t, TrueTime> starts;
-  if (cycle.ns <= 0 || end < leader.cas || (end - leader.cas).ns / cycle.ns > kMostCycles) return starts;
+  if (cycle.ns <= 0 || end < leader.cas || (end - leader.cas).ns / cycle.ns > kMostCycleLines) return starts;
   // Its frames in the slot of the first one: the key slot.
   std::map<std::int64_t, TrueTime> sent;
   std::optional<std::uint16_t> key_slot;

@@ -14,20 +14,20 @@
 namespace ttf::report {
 namespace {
 
-// A double cycle holds the longest name of a state that lasts one.
-constexpr double kPixelsPerCycle = 78, kPixelsPerMs = 14, kLeastPlot = 900, kMostPlot = 5600;
-constexpr double kTop = 74, kNodeLane = 62, kLaneOffFlexRay = 34, kFaultLane = 22, kText = 9.5;
-// Within a node's lane, from its top.
-constexpr double kNotes = 10, kBar = 14, kBarHeight = 16, kChannels[] = {38, 49}, kRowHeight = 8;
-
 std::string_view symbol_name(std::uint8_t kind) {
   return kind == records::kSymbolCas ? "CAS" : kind == records::kSymbolWakeup ? "wake-up pattern" : "media test symbol";
 }
 
 // Everything needed to draw one picture; lives for one call of svg().
-class Painter {
+class StartupPainter {
+  // A double cycle holds the longest name of a state that lasts one.
+  static constexpr double kPixelsPerCycle = 78, kPixelsPerMs = 14, kLeastPlot = 900, kMostPlot = 5600;
+  static constexpr double kTop = 74, kNodeLane = 62, kLaneOffFlexRay = 34, kFaultLane = 22, kText = 9.5;
+  // Within a node's lane, from its top.
+  static constexpr double kNotes = 10, kBar = 14, kBarHeight = 16, kChannels[] = {38, 49}, kRowHeight = 8;
+
  public:
-  Painter(const Names& names, const StartupData& data, Duration cycle, TrueTime from, TrueTime to)
+  StartupPainter(const Names& names, const StartupData& data, Duration cycle, TrueTime from, TrueTime to)
       : names_(names),
         data_(data),
         from_(from),
@@ -64,7 +64,7 @@ class Painter {
     const double legend_width = plot_.width + plot_.x - 24;
     const double legend_top = plot_.y + plot_.height + 46;
     const std::string title = fmt::format("{}: start-up, {} ms to {} ms", names_.run.empty() ? "Run" : names_.run,
-                                          number(ms(from_)), number(ms(to_)));
+                                          number(in_ms(from_)), number(in_ms(to_)));
     Svg svg(plot_.x + plot_.width + 24, legend_top + legend_height(legend_, legend_width) + 12, title);
     svg_ = &svg;
     svg.text({24, 22}, title, {.size = 14, .bold = true});
@@ -83,13 +83,12 @@ class Painter {
     svg.close_group();
     labels();
     svg.rect(plot_, {.stroke = kBlack, .width = 0.8});
-    draw_time_axis(svg, plot_, {ms(from_), ms(to_)});
+    draw_time_axis(svg, plot_, {in_ms(from_), in_ms(to_)});
     draw_legend(svg, {24, legend_top}, legend_width, legend_);
     return svg.str();
   }
 
  private:
-  static double ms(TrueTime t) { return static_cast<double>(t.ns) * 1e-6; }
   double x(TrueTime t) const {
     return plot_.x + static_cast<double>((t - from_).ns) / static_cast<double>((to_ - from_).ns) * plot_.width;
   }
@@ -178,7 +177,7 @@ class Painter {
       if (!visible(s.start, s.end)) continue;
       const double left = stay_inside(x(s.start)), right = stay_inside(x(s.end));
       const std::string hover =
-          s.why.empty() ? s.name : fmt::format("{} from {} ms on: {}", s.name, number(ms(s.start)), s.why);
+          s.why.empty() ? s.name : fmt::format("{} from {} ms on: {}", s.name, number(in_ms(s.start)), s.why);
       svg_->rect({left, top(s.node) + kBar, right - left, kBarHeight},
                  {.fill = phase_of(s.state).colour, .stroke = "#444444", .width = 0.6}, hover, "state");
     }
@@ -193,7 +192,7 @@ class Painter {
     for (const auto& f : data_.frames) {
       if (!visible(f.start, f.end)) continue;
       const std::string hover = fmt::format("{}{}slot {}, cycle {}, {} ms", f.startup ? "startup frame, " : "",
-                                            f.null_frame ? "null frame, " : "", f.slot, f.cycle, number(ms(f.start)));
+                                            f.null_frame ? "null frame, " : "", f.slot, f.cycle, number(in_ms(f.start)));
       if (f.null_frame && !f.startup)
         svg_->rect(row(f.node, f.channel, f.start, f.end, 1.5), {.fill = "#ffffff", .stroke = kGrey, .width = 0.5}, hover,
                    "null");
@@ -209,7 +208,7 @@ class Painter {
       if (!visible(s.start, s.end)) continue;
       Area area = row(s.node, s.channel, s.start, s.end, 2.5);
       area.x = x(s.end) - area.width;
-      svg_->rect(area, {.fill = kBlack}, fmt::format("{}, {} ms", symbol_name(s.kind), number(ms(s.start))), "symbol");
+      svg_->rect(area, {.fill = kBlack}, fmt::format("{}, {} ms", symbol_name(s.kind), number(in_ms(s.start))), "symbol");
     }
   }
 
@@ -218,7 +217,7 @@ class Painter {
       if (visible(p.at, p.at))
         svg_->marker(p.on ? Marker::kTriangle : Marker::kDownTriangle, {x(p.at), top(p.node) + kNotes - 2}, 9,
                      {.fill = p.on ? kGreen : kVermilion, .stroke = "#ffffff", .width = 0.6},
-                     fmt::format("{} {} at {} ms", names_.node(p.node), p.on ? "powered on" : "powered off", number(ms(p.at))),
+                     fmt::format("{} {} at {} ms", names_.node(p.node), p.on ? "powered on" : "powered off", number(in_ms(p.at))),
                      "power");
   }
 
@@ -270,7 +269,7 @@ class Painter {
 }  // namespace
 
 std::string paint_startup(const Names& names, const StartupData& data, Duration cycle, TrueTime from, TrueTime to) {
-  return Painter(names, data, cycle, from, to).picture();
+  return StartupPainter(names, data, cycle, from, to).picture();
 }
 
 }  // namespace ttf::report

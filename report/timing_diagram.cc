@@ -68,8 +68,8 @@ std::string TimingDiagram::svg() const {
                        data_.runs.empty();
   if (from_ >= to_ || nothing)
     return empty_picture("Timing diagram", fmt::format("There are no records between {} ms and {} ms.",
-                                                       number(static_cast<double>(from_.ns) * 1e-6),
-                                                       number(static_cast<double>(to_.ns) * 1e-6)));
+                                                       number(in_ms(from_)),
+                                                       number(in_ms(to_))));
   return paint_timing(names_, data_, cycle_, from_, to_);
 }
 

@@ -9,14 +9,11 @@
 #include <optional>
 
 #include "report/axes.h"
+#include "report/log_limits.h"
 #include "report/timing_ways.h"
 
 namespace ttf::report {
 namespace {
-
-constexpr double kPixelsPerMs = 14, kLeastPlot = 1000, kMostPlot = 5600;
-constexpr std::int64_t kMostCycles = 2000;  // more lines than this are no grid any more
-constexpr double kTop = 62, kBox = 14, kText = 9.5;
 
 double lane_height(const Lane& lane) {
   switch (lane.key.kind) {
@@ -32,9 +29,12 @@ double lane_height(const Lane& lane) {
 }
 
 // Everything needed to draw one picture; lives for one call of svg().
-class Painter {
+class TimingPainter {
+  static constexpr double kPixelsPerMs = 14, kLeastPlot = 1000, kMostPlot = 5600;
+  static constexpr double kTop = 62, kBox = 14, kText = 9.5;
+
  public:
-  Painter(const Names& names, const TimingData& data, Duration cycle, TrueTime from, TrueTime to)
+  TimingPainter(const Names& names, const TimingData& data, Duration cycle, TrueTime from, TrueTime to)
       : names_(names),
         data_(data),
         cycle_(cycle),
@@ -66,7 +66,7 @@ class Painter {
     const double legend_top = plot_.y + plot_.height + 46;
     const double height = legend_top + legend_height(legend_, legend_width) + 12;
     const std::string title = fmt::format("{}: {} ms to {} ms", names_.run.empty() ? "Timing diagram" : names_.run,
-                                          number(ms(from_)), number(ms(to_)));
+                                          number(in_ms(from_)), number(in_ms(to_)));
     Svg svg(plot_.x + plot_.width + 24, height, title);
     svg_ = &svg;
     svg.text({24, 22}, title, {.size = 14, .bold = true});
@@ -90,7 +90,6 @@ class Painter {
   }
 
  private:
-  static double ms(TrueTime t) { return static_cast<double>(t.ns) * 1e-6; }
   double x(TrueTime t) const {
     return plot_.x +
            static_cast<double>((t - from_).ns) / static_cast<double>((to_ - from_).ns) * plot_.width;
@@ -102,7 +101,7 @@ class Painter {
   // Start of each cycle in true time, from the frames: global time runs at the cluster's own rate.
   std::map<std::int64_t, TrueTime> cycle_starts() const {
     std::map<std::int64_t, TrueTime> known;
-    if (cycle_.ns <= 0 || (to_ - from_).ns / cycle_.ns > kMostCycles) return known;
+    if (cycle_.ns <= 0 || (to_ - from_).ns / cycle_.ns > kMostCycleLines) return known;
     for (const auto& f : data_.slot_frames)
       if (f.by_the_cluster) known.try_emplace(f.cycle, f.start - Duration{f.global.ns - f.cycle * cycle_.ns});
     std::map<std::int64_t, TrueTime> all;
@@ -157,7 +156,7 @@ class Painter {
       svg_->line({plot_.x, centre}, {plot_.x + plot_.width, centre}, {.stroke = "#e0e0e0", .width = 0.7});
       svg_->text({plot_.x - 10, centre + 4}, lane.label, {.size = 11, .anchor = Anchor::kEnd});
     }
-    draw_time_axis(*svg_, plot_, {ms(from_), ms(to_)});
+    draw_time_axis(*svg_, plot_, {in_ms(from_), in_ms(to_)});
     svg_->close_group();
   }
 
@@ -191,8 +190,8 @@ class Painter {
       const std::string colour = pdu_colour(names_, t.pdu);
       svg_->rect({x(t.start), y(t.lane) - kBox / 2, std::max(1.5, x(t.end) - x(t.start)), kBox},
                  {.fill = tint(colour, 0.55), .stroke = colour, .width = 0.9},
-                 fmt::format("{} #{}, {} ms to {} ms", names_.pdu(t.pdu), t.sequence, number(ms(t.start)),
-                             number(ms(t.end))),
+                 fmt::format("{} #{}, {} ms to {} ms", names_.pdu(t.pdu), t.sequence, number(in_ms(t.start)),
+                             number(in_ms(t.end))),
                  "transfer");
     }
   }
@@ -213,7 +212,7 @@ class Painter {
            .stroke = r.deadline_met ? "#5b7083" : kBlack,
            .width = r.deadline_met ? 0.6 : 1.6},
           fmt::format("{}: {}, {} ms to {} ms{}", names_.node(r.node), names_.task(r.node, r.task),
-                      number(ms(r.start)), number(ms(r.end)), r.deadline_met ? "" : ", deadline missed"),
+                      number(in_ms(r.start)), number(in_ms(r.end)), r.deadline_met ? "" : ", deadline missed"),
           r.deadline_met ? "task" : "task missed");
     }
   }
@@ -224,7 +223,7 @@ class Painter {
         svg_->marker(
             Marker::kDownTriangle, {x(m.at), y({LaneKey::Kind::kSensor, index_of(m.id.sensor), 0})}, 10,
             {.fill = sensor_colour(names_, m.id.sensor), .stroke = "#ffffff", .width = 0.8},
-            fmt::format("{} #{} at {} ms", names_.sensor(m.id.sensor), m.id.sequence, number(ms(m.at))),
+            fmt::format("{} #{} at {} ms", names_.sensor(m.id.sensor), m.id.sequence, number(in_ms(m.at))),
             "measured");
     for (const Way& way : ways_)
       if (way.dropped && visible(way.last.at, way.last.at))
@@ -347,7 +346,7 @@ class Painter {
 
 std::string paint_timing(const Names& names, const TimingData& data, Duration cycle, TrueTime from,
                          TrueTime to) {
-  return Painter(names, data, cycle, from, to).picture();
+  return TimingPainter(names, data, cycle, from, to).picture();
 }
 
 }  // namespace ttf::report

@@ -146,7 +146,6 @@ class Ages {
   ClockBounds clocks_;
 };
 
-double in_ms(Duration d) { return static_cast<double>(d.ns) * 1e-6; }
 
 }  // namespace
 

@@ -18,7 +18,6 @@ std::string cycles_text(int base_cycle, int repetition) {
   return fmt::format("cycles {} + n*{}", base_cycle, repetition);
 }
 
-double in_ms(Duration d) { return static_cast<double>(d.ns) * 1e-6; }
 
 // The cycle to scale: S static slots in use, s free ones, D what dynamic frames can take at most, d the rest of their segment,
 // w symbol window (a column at least), n network idle time.

@@ -26,6 +26,8 @@ namespace ttf::bus {
 
 inline constexpr PduId kList{0}, kOddList{1};
 inline constexpr int kMicroPerCycle = 40'000;   // of 25 ns
+// (34 + 20 * gClusterDriftDamping) * gdMaxMicrotick: the assumed precision without propagation delay.
+inline constexpr Duration kAssumedPrecision{(34 + 20 * 2) * 25};
 
 inline schedules::Cluster small_cluster(int nodes) {
   schedules::Cluster cluster;

@@ -10,9 +10,6 @@
 namespace ttf::bus {
 namespace {
 
-// (34 + 20 * gClusterDriftDamping) * gdMaxMicrotick: the assumed precision without propagation delay.
-constexpr Duration kAssumedPrecision{(34 + 20 * 2) * 25};
-
 schedules::Cluster correctable(schedules::Cluster cluster, int damping = 2) {
   for (auto& node : cluster.nodes) {
     node.flexray->pExternOffsetCorrection = 7;

@@ -12,10 +12,6 @@ namespace {
 
 using schedules::Channel;
 
-// (34 + 20 * gClusterDriftDamping) * gdMaxMicrotick: the assumed precision without propagation delay.
-constexpr Duration kAssumedPrecision{(34 + 20 * 2) * 25};
-
-
 // Node 3 by itself; sync frames of nodes 0..2 arrive as the test says, late by so many microticks.
 struct Listener {
   schedules::Cluster cluster = small_cluster(4);
@@ -142,10 +138,10 @@ TEST(Rates, DeviationsOfAnEarlierPairAreForgotten) {
   EXPECT_EQ(node.heard.corrected.back().rate.value, 0);
 }
 
-struct Case {
+struct Drifts {
   std::vector<std::int64_t> drifts_ppb;
 };
-class Convergence : public testing::TestWithParam<Case> {};
+class Convergence : public testing::TestWithParam<Drifts> {};
 
 TEST_P(Convergence, FromUncorrectedRatesToTheAssumedPrecision) {
   const auto& drifts = GetParam().drifts_ppb;
@@ -167,10 +163,10 @@ TEST_P(Convergence, FromUncorrectedRatesToTheAssumedPrecision) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Drifts, Convergence,
-                         testing::Values(Case{{1'500'000, -1'500'000}}, Case{{1'500'000, 0, -1'500'000}},
-                                         Case{{1'500'000, 1'400'000, -1'500'000}},
-                                         Case{{1'500'000, -1'500'000, 1'500'000, -1'500'000}},
-                                         Case{{1'500'000, 500'000, -500'000, -1'500'000}}, Case{{1, 0, 2, -3}}));
+                         testing::Values(Drifts{{1'500'000, -1'500'000}}, Drifts{{1'500'000, 0, -1'500'000}},
+                                         Drifts{{1'500'000, 1'400'000, -1'500'000}},
+                                         Drifts{{1'500'000, -1'500'000, 1'500'000, -1'500'000}},
+                                         Drifts{{1'500'000, 500'000, -500'000, -1'500'000}}, Drifts{{1, 0, 2, -3}}));
 
 // A delay of 100 microticks that is not compensated lengthens every double cycle by as much, 1250 ppm; one that is, does
 // not: then the cluster keeps the mean of its clocks, 0 ppm, but for what damping leaves to the offset correction.

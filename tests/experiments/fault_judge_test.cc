@@ -13,9 +13,9 @@ using schedules::Channel;
 
 constexpr NodeId kFaulty{0}, kAlice{1}, kBob{2};
 constexpr TrueTime kBegins{20'000'000};
-constexpr Duration kCycle{5'000'000};
+constexpr Duration kBusCycle{5'000'000};
 
-TrueTime in_cycle(int cycle, int us = 0) { return TrueTime{cycle * kCycle.ns + us * 1'000}; }
+TrueTime in_cycle(int cycle, int us = 0) { return TrueTime{cycle * kBusCycle.ns + us * 1'000}; }
 
 class Story : public testing::Test {
  protected:
@@ -188,11 +188,11 @@ TEST_F(Story, ReintegrationCountsFromTheFaultsEndOrFromLeavingIfThatWasLater) {
   judge_.lost_supply(kFaulty, in_cycle(5));
   judge_.state_changed(kFaulty, PocKind::kDefaultConfig, PocKind::kConfig, in_cycle(6));
   judge_.state_changed(kFaulty, PocKind::kIntegrationConsistencyCheck, PocKind::kNormalActive, in_cycle(9));
-  EXPECT_EQ(judge_.finish(in_cycle(9)).reintegration, kCycle * 3) << "the fault ended in cycle 6";
+  EXPECT_EQ(judge_.finish(in_cycle(9)).reintegration, kBusCycle * 3) << "the fault ended in cycle 6";
   EXPECT_EQ(end().still_out, 0);
   judge_.state_changed(kBob, PocKind::kNormalActive, PocKind::kNormalPassive, in_cycle(10));
   judge_.state_changed(kBob, PocKind::kNormalPassive, PocKind::kNormalActive, in_cycle(14));
-  EXPECT_EQ(judge_.finish(in_cycle(14)).reintegration, kCycle * 4);
+  EXPECT_EQ(judge_.finish(in_cycle(14)).reintegration, kBusCycle * 4);
 }
 
 TEST(FaultJudge, WhatStartUpShowsWithoutAFaultCountsOnceItIsOver) {

@@ -9,7 +9,6 @@
 namespace ttf::experiments {
 namespace {
 
-TrueTime at(std::int64_t ms) { return TrueTime{} + Duration::milliseconds(ms); }
 GlobalTime global(std::int64_t ms) { return GlobalTime{} + Duration::milliseconds(ms); }
 
 TEST(Measures, OfNothingThereIsNoError) {

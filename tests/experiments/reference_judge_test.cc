@@ -6,10 +6,10 @@
 #include <limits>
 #include <vector>
 
+#include "tests/experiments/synthetic_uses.h"
+
 namespace ttf::experiments {
 namespace {
-
-TrueTime at(std::int64_t ms) { return TrueTime{} + Duration::milliseconds(ms); }
 
 records::ReferenceFix fix(std::int64_t ms, double x, double vx) {
   records::ReferenceFix fix;

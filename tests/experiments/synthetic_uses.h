@@ -2,11 +2,14 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "recording/records/records.h"
 
 namespace ttf::experiments {
+
+inline TrueTime at(std::int64_t ms) { return TrueTime{} + Duration::milliseconds(ms); }
 
 // An object of the image that stands still at (x, y), known to `sigma` metres and metres per second.
 struct Shown {

@@ -1,15 +1,23 @@
 // Drives in milliseconds for the tests of the strategies: what arrives when, and what was fused when.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <iosfwd>
+#include <string>
 #include <vector>
 
 #include "fusion/strategy.h"
 #include "tests/fusion/scenes.h"
 
 namespace ttf::fusion {
+
+// The name of a test that is run for every strategy.
+inline std::string name_of(const testing::TestParamInfo<StrategyKind>& kind) {
+  return kind.param == StrategyKind::kBuff ? "Buff" : kind.param == StrategyKind::kAdva ? "Adva" : "Tt";
+}
 
 // What the schedule promises of a sensor: measurements at unknown instants, or every `period_ms` from
 // `first_ms`.

@@ -14,17 +14,6 @@ namespace ttf::fusion {
 namespace {
 
 class EveryStrategy : public testing::TestWithParam<StrategyKind> {};
-std::string name_of(const testing::TestParamInfo<StrategyKind>& kind) {
-  switch (kind.param) {
-    case StrategyKind::kBuff:
-      return "Buff";
-    case StrategyKind::kAdva:
-      return "Adva";
-    case StrategyKind::kTt:
-      return "Tt";
-  }
-  return "";
-}
 INSTANTIATE_TEST_SUITE_P(All, EveryStrategy,
                          testing::Values(StrategyKind::kBuff, StrategyKind::kAdva, StrategyKind::kTt),
                          name_of);

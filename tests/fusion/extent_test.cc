@@ -13,8 +13,6 @@
 namespace ttf::fusion {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 // Oracle: the outline walked along, in the sensor's frame.
 double walked(double range, double aspect, const Eigen::Vector2d& size) {
   double low = 10.0, high = -10.0;
@@ -35,7 +33,7 @@ TEST(Subtended, IsTheOutlinesAndItsDerivativesAreTheNumericOnes) {
   const Eigen::Vector2d size(4.4, 1.8);
   for (const double range : {6.0, 20.0, 60.0})
     for (int k = 0; k < 24; ++k) {
-      const double aspect = 0.1 + k * kPi / 12.0, h = 1e-6;
+      const double aspect = 0.1 + k * std::numbers::pi / 12.0, h = 1e-6;
       const Subtended s = subtended(range, aspect, size);
       EXPECT_NEAR(s.angle, walked(range, aspect, size), 2e-6);
       for (Eigen::Index d = 0; d < 2; ++d) {
@@ -61,7 +59,7 @@ TEST(Extent, ASpanTellsWhatIsTurnedToTheSensor) {
   Extent behind, beside;
   for (int k = 0; k < 10; ++k) {
     correct_span(behind, seen(20.0, 0.0, 0.02), span_of(20.0, 0.0), 0.002);
-    correct_span(beside, seen(20.0, kPi / 2, 0.02), span_of(20.0, kPi / 2), 0.002);
+    correct_span(beside, seen(20.0, std::numbers::pi / 2, 0.02), span_of(20.0, std::numbers::pi / 2), 0.002);
   }
   EXPECT_TRUE(behind.knows_width());
   EXPECT_FALSE(behind.knows_length());
@@ -75,7 +73,7 @@ TEST(Extent, ASpanTellsWhatIsTurnedToTheSensor) {
 // At 45 degrees the span is a mixture: alone it tells neither, with a length it tells the width.
 TEST(Extent, AMixtureTellsOneWhereTheOtherIsKnown) {
   Extent extent;
-  for (int k = 0; k < 10; ++k) correct_span(extent, seen(25.0, kPi / 4, 0.02), span_of(25.0, kPi / 4), 0.001);
+  for (int k = 0; k < 10; ++k) correct_span(extent, seen(25.0, std::numbers::pi / 4, 0.02), span_of(25.0, std::numbers::pi / 4), 0.001);
   EXPECT_LT(extent.covariance(0, 1), 0.0) << "the longer, the narrower";
   EXPECT_FALSE(extent.knows_width());
   const double before = extent.covariance(1, 1);
@@ -87,7 +85,7 @@ TEST(Extent, AMixtureTellsOneWhereTheOtherIsKnown) {
 // An aspect that is off by the same in every one of 200 scans: the error stays within what is stated.
 TEST(Extent, ErrorsThatRepeatAreNotAveragedAway) {
   RandomStream stream({.seed = 4});
-  for (const double angle : {0.0, 0.7, kPi / 2, 2.6}) {
+  for (const double angle : {0.0, 0.7, std::numbers::pi / 2, 2.6}) {
     double squares = 0.0;
     int n = 0;
     for (int drive = 0; drive < 200; ++drive) {

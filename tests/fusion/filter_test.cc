@@ -13,7 +13,6 @@
 namespace ttf::fusion {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 const MotionModel kModels[] = {MotionModel::kConstantVelocity, MotionModel::kConstantAcceleration};
 
 TEST(Predict, MatchesTheIntegratedNoise) {

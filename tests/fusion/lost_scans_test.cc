@@ -15,9 +15,6 @@ namespace ttf::fusion {
 namespace {
 
 class LostScans : public testing::TestWithParam<StrategyKind> {};
-std::string name_of(const testing::TestParamInfo<StrategyKind>& kind) {
-  return kind.param == StrategyKind::kBuff ? "Buff" : kind.param == StrategyKind::kAdva ? "Adva" : "Tt";
-}
 INSTANTIATE_TEST_SUITE_P(All, LostScans,
                          testing::Values(StrategyKind::kBuff, StrategyKind::kAdva, StrategyKind::kTt), name_of);
 

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <numbers>
 #include <vector>
 
 #include "core/random.h"
@@ -12,6 +13,7 @@
 
 namespace ttf::fusion {
 
+inline constexpr double kPi = std::numbers::pi;
 constexpr GlobalTime at_ms(std::int64_t ms) { return GlobalTime{ms * 1'000'000}; }
 
 Observation position(double x, double y, double sigma);

@@ -17,7 +17,7 @@
 namespace ttf::fuzz {
 namespace {
 
-constexpr char kFile[] = "cluster.yaml";
+constexpr char kClusterFile[] = "cluster.yaml";
 
 // Codes in use survive a journey through physical units.
 void check_signals(const schedules::PduLayout& layout, const std::vector<schedules::Signal>& signals) {
@@ -50,11 +50,11 @@ recording::RecordedInput some_recording() {
 
 void check_cluster(const std::string& text) {
   schedules::Cluster cluster;
-  if (!accepted(kFile, [&] { cluster = schedules::parse_cluster(text, kFile); })) return;
+  if (!accepted(kClusterFile, [&] { cluster = schedules::parse_cluster(text, kClusterFile); })) return;
   if (const auto findings = schedules::check(cluster); !findings.empty())
-    return check_refusal(InputError(findings), kFile);
+    return check_refusal(InputError(findings), kClusterFile);
   schedules::show_text(cluster);
-  if (!accepted(kFile, [&] { schedules::bind_ports(cluster, nodes::step_ports()); })) return;
+  if (!accepted(kClusterFile, [&] { schedules::bind_ports(cluster, nodes::step_ports()); })) return;
   for (const schedules::PduLayout& layout : cluster.pdus) {
     check_signals(layout, layout.header);
     check_signals(layout, layout.element);
@@ -64,7 +64,7 @@ void check_cluster(const std::string& text) {
   const nodes::Scenario scenario;
   const auto rows = std::make_shared<const recording::RecordedInput>(some_recording());
   for (std::size_t node = 0; node < cluster.nodes.size(); ++node)
-    accepted(kFile, [&] {
+    accepted(kClusterFile, [&] {
       nodes::make_steps({&scenario, &cluster, fusion::StrategyKind::kAdva, 1, 0, nothing_there(), rows},
                         static_cast<NodeId>(node));
     });

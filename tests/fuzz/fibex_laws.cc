@@ -16,7 +16,7 @@ using schedules::Cluster;
 using schedules::FibexDifference;
 using schedules::FibexImport;
 
-constexpr char kFile[] = "cluster.xml";
+constexpr char kFibexFile[] = "cluster.xml";
 
 // Names that FIBEX holds as they are: XML knows no control characters, space around text means nothing there,
 // and a SHORT-NAME has at most 128 bytes, also that of a frame, which is made of its list and slot.
@@ -47,7 +47,7 @@ void check_same(const Cluster& a, const Cluster& b) {
 
 void check_fibex_round_trip(const Cluster& cluster) {
   if (!has_fibex_names(cluster)) return;
-  const FibexImport import = schedules::parse_fibex(schedules::fibex_text(cluster), kFile);
+  const FibexImport import = schedules::parse_fibex(schedules::fibex_text(cluster), kFibexFile);
   check_same(cluster, import.cluster);
   TTF_CHECK(import.left_out.empty() && import.assumed.empty() && import.foreign.empty(),
             "{} left out, {} assumed", import.left_out.size(), import.assumed.size());
@@ -55,8 +55,8 @@ void check_fibex_round_trip(const Cluster& cluster) {
 
 void check_fibex(const std::string& text) {
   FibexImport import;
-  if (!accepted(kFile, [&] { import = schedules::parse_fibex(text, kFile); })) return;
-  if (!import.left_out.empty()) check_refusal(InputError(import.left_out), kFile);
+  if (!accepted(kFibexFile, [&] { import = schedules::parse_fibex(text, kFibexFile); })) return;
+  if (!import.left_out.empty()) check_refusal(InputError(import.left_out), kFibexFile);
   const std::string yaml = schedules::skeleton_yaml(import);
   Cluster again;
   try {
@@ -66,7 +66,7 @@ void check_fibex(const std::string& text) {
   }
   check_same(import.cluster, again);
   if (has_fibex_names(again))
-    check_same(again, schedules::parse_fibex(schedules::fibex_text(again), kFile).cluster);
+    check_same(again, schedules::parse_fibex(schedules::fibex_text(again), kFibexFile).cluster);
 }
 
 }  // namespace ttf::fuzz

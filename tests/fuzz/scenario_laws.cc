@@ -12,14 +12,14 @@
 namespace ttf::fuzz {
 namespace {
 
-constexpr char kFile[] = "scenarios/drive.yaml";
+constexpr char kScenarioFile[] = "scenarios/drive.yaml";
 constexpr Duration kLongestDrawn = Duration::milliseconds(2'000);  // longer worlds only cost time here
 
 }  // namespace
 
 bool check_scenario(const std::string& text) {
   nodes::Scenario scenario;
-  if (!accepted(kFile, [&] { scenario = nodes::parse_scenario(text, kFile); })) return false;
+  if (!accepted(kScenarioFile, [&] { scenario = nodes::parse_scenario(text, kScenarioFile); })) return false;
   TTF_CHECK(scenario.evaluate_from <= scenario.duration, "evaluated from {}, {} long", scenario.evaluate_from.ns,
             scenario.duration.ns);
   for (const nodes::Fault& fault : scenario.faults.faults) {

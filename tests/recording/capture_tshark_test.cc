@@ -28,7 +28,7 @@ constexpr char kFields[] =
     "-e flexray.malformed_frame_payload -e flexray.stfi_flag "
     "-e can.id -e can.flags.xtd -e can.len -e canfd.flags.brs";
 
-struct Line {
+struct CapturedLine {
   std::int64_t time_ns = 0;
   std::string text;
 };
@@ -79,7 +79,7 @@ class Expectation final : public records::Sink {
                      comment(record.pdu, record.sequence, record.fragment, false), record.identifier,
                      record.data.size(), record.flexible_data_rate ? "1" : "")});
   }
-  std::vector<Line> lines;
+  std::vector<CapturedLine> lines;
   std::size_t flipped() const { return flipped_; }
 
  private:
@@ -150,8 +150,8 @@ void compare(std::size_t flip_every) {
     std::ofstream out(file, std::ios::binary);
     out << export_pcapng(collector, collector.in_order(), LogNames(info.manifest));
   }
-  std::vector<Line>& lines = expected.lines;
-  std::stable_sort(lines.begin(), lines.end(), [](const Line& a, const Line& b) { return a.time_ns < b.time_ns; });
+  std::vector<CapturedLine>& lines = expected.lines;
+  std::stable_sort(lines.begin(), lines.end(), [](const CapturedLine& a, const CapturedLine& b) { return a.time_ns < b.time_ns; });
   const std::vector<std::string> seen = tshark(file);
   ASSERT_EQ(seen.size(), lines.size());
   int differing = 0;

@@ -84,20 +84,20 @@ Names four() {
   return names;
 }
 
-std::string diagram(std::int64_t from_ms, std::int64_t to_ms, Duration cycle = Duration::milliseconds(5)) {
+std::string startup_diagram(std::int64_t from_ms, std::int64_t to_ms, Duration cycle = Duration::milliseconds(5)) {
   StartupDiagram d(four(), cycle, {from_ms * 1'000'000}, {to_ms * 1'000'000});
   SyntheticStartup::drive(d);
   return d.svg();
 }
 
 TEST(StartupDiagram, HasALaneForEveryNodeThatTookPart) {
-  const std::string svg = diagram(2, 68);
+  const std::string svg = startup_diagram(2, 68);
   for (const char* lane : {"laser_pc", "camera_pc", "gateway", "fusion &amp; co"})
     EXPECT_EQ(count(svg, std::string("text-anchor=\"end\">") + lane + "</text>"), 1u) << lane;
 }
 
 TEST(StartupDiagram, ShowsEveryStateThatLastsAndSaysWhy) {
-  const std::string svg = diagram(2, 68);
+  const std::string svg = startup_diagram(2, 68);
   // Nodes 0..2: listening, then two or three states, and active; node 3 says nothing of its state.
   EXPECT_EQ(count_class(svg, "state"), 4u + 5u + 4u);
   for (const auto& [name, times] :
@@ -112,14 +112,14 @@ TEST(StartupDiagram, ShowsEveryStateThatLastsAndSaysWhy) {
 }
 
 TEST(StartupDiagram, NumbersTheCyclesOfTheLeadingNode) {
-  const std::string svg = diagram(2, 68);
+  const std::string svg = startup_diagram(2, 68);
   for (int cycle = 0; cycle <= 9; ++cycle)
     EXPECT_EQ(count(svg, fmt::format("fill=\"#444444\">{}</text>", cycle)), 1u) << cycle;
   EXPECT_NE(svg.find("collision avoidance symbol of laser_pc, which leads"), std::string::npos);
 }
 
 TEST(StartupDiagram, DrawsFramesSymbolsAndPower) {
-  const std::string svg = diagram(2, 72);
+  const std::string svg = startup_diagram(2, 72);
   EXPECT_EQ(count_class(svg, "startup"), 2u * (10 + 6));
   EXPECT_EQ(count_class(svg, "null"), 2u * 2);
   EXPECT_EQ(count_class(svg, "frame"), 2u * 2);
@@ -150,18 +150,18 @@ TEST(StartupDiagram, AFaultHasALaneFromItsBeginToItsEnd) {
 TEST(StartupDiagram, NoLabelsOverlapInAnyWindow) {
   for (const auto& [from, to] : {std::pair{2, 68}, std::pair{0, 20}, std::pair{19, 21}, std::pair{0, 600}, std::pair{0, 60'000}}) {
     SCOPED_TRACE(fmt::format("{} to {} ms", from, to));
-    const std::string svg = diagram(from, to);
+    const std::string svg = startup_diagram(from, to);
     expect_no_overlaps(svg);
     expect_inside(svg);
   }
-  const std::string svg = diagram(2, 68, {});
+  const std::string svg = startup_diagram(2, 68, {});
   expect_no_overlaps(svg);
   EXPECT_EQ(count_class(svg, "cycle"), 0u) << "no grid without a cycle";
 }
 
 TEST(StartupDiagram, IsWellFormedAndDeterministic) {
-  EXPECT_EQ(diagram(2, 68), diagram(2, 68));
-  expect_renders(diagram(2, 68));
+  EXPECT_EQ(startup_diagram(2, 68), startup_diagram(2, 68));
+  expect_renders(startup_diagram(2, 68));
 }
 
 TEST(StartupDiagram, ALogWithoutAStartupSaysSo) {

@@ -14,14 +14,14 @@ namespace {
 
 using records::Disposition;
 
-std::string diagram(std::int64_t from_ms, std::int64_t to_ms) {
+std::string timing_diagram(std::int64_t from_ms, std::int64_t to_ms) {
   TimingDiagram d(synthetic_names(), Duration::milliseconds(5), at_us(from_ms * 1000), at_us(to_ms * 1000));
   SyntheticRun{}.drive(d, 1'500'000);
   return d.svg();
 }
 
 TEST(TimingDiagram, HasALaneForEverythingThatTakesPart) {
-  const std::string svg = diagram(200, 350);
+  const std::string svg = timing_diagram(200, 350);
   for (const char* lane : {"laser", "camera", "laser_can", "camera_can", "object_can", "laser_pc: extract",
                            "camera_pc: extract", "gateway: forward_laser", "FlexRay A", "FlexRay B",
                            "fusion: track", "fusion: image", "feature: serve"})
@@ -30,7 +30,7 @@ TEST(TimingDiagram, HasALaneForEverythingThatTakesPart) {
 }
 
 TEST(TimingDiagram, LanesFollowTheWayOfAMeasurement) {
-  const std::string svg = diagram(200, 350);
+  const std::string svg = timing_diagram(200, 350);
   std::size_t before = 0;
   for (const char* lane :
        {">laser</text>", ">laser_device: emulate<", ">laser_can<", ">laser_pc: extract<", ">object_can<",
@@ -43,7 +43,7 @@ TEST(TimingDiagram, LanesFollowTheWayOfAMeasurement) {
 }
 
 TEST(TimingDiagram, NumbersTheCyclesOfTheWindow) {
-  const std::string svg = diagram(200, 350);
+  const std::string svg = timing_diagram(200, 350);
   for (int cycle = 40; cycle < 70; ++cycle)
     EXPECT_EQ(count(svg, fmt::format("fill=\"#444444\">{}</text>", cycle)), 1u) << cycle;
   EXPECT_EQ(count(svg, ">70</text>"), 0u);
@@ -69,19 +69,19 @@ TEST(TimingDiagram, NoLabelsOverlapInAnyWindow) {
   for (const auto& [from, to] : {std::pair{200, 350}, std::pair{0, 150}, std::pair{100, 110},
                                  std::pair{0, 1500}, std::pair{640, 1000}}) {
     SCOPED_TRACE(fmt::format("{} to {} ms", from, to));
-    const std::string svg = diagram(from, to);
+    const std::string svg = timing_diagram(from, to);
     expect_no_overlaps(svg);
     expect_inside(svg);
   }
 }
 
 TEST(TimingDiagram, IsWellFormedAndDeterministic) {
-  EXPECT_EQ(diagram(200, 350), diagram(200, 350));
-  expect_renders(diagram(200, 350));
+  EXPECT_EQ(timing_diagram(200, 350), timing_diagram(200, 350));
+  expect_renders(timing_diagram(200, 350));
 }
 
 TEST(TimingDiagram, MarksDeadlinesNullFramesStatusFramesAndLateWays) {
-  const std::string svg = diagram(50, 250);
+  const std::string svg = timing_diagram(50, 250);
   EXPECT_EQ(count_class(svg, "task missed"), 1u);
   EXPECT_GT(count_class(svg, "null"), 0u);
   EXPECT_GT(count_class(svg, "status"), 0u);
@@ -92,7 +92,7 @@ TEST(TimingDiagram, MarksDeadlinesNullFramesStatusFramesAndLateWays) {
 }
 
 TEST(TimingDiagram, AnEmptyWindowSaysSo) {
-  const std::string svg = diagram(9000, 9100);
+  const std::string svg = timing_diagram(9000, 9100);
   EXPECT_NE(svg.find("no records between 9000 ms and 9100 ms"), std::string::npos);
   expect_renders(svg);
   EXPECT_NE(TimingDiagram({}, {}, {}, {}).svg().find("no records"), std::string::npos);
@@ -138,7 +138,7 @@ TEST(TimingDiagram, ImpossibleTimesChangeNothing) {
     d.on(records::ListFused{inside, 1, {SensorId{0}, 3}, {ns}, Disposition::kFused});
     d.on(records::ListFused{beyond, 1, {SensorId{0}, 3}, {0}, Disposition::kFused});
   }
-  EXPECT_EQ(d.svg(), diagram(200, 350));
+  EXPECT_EQ(d.svg(), timing_diagram(200, 350));
 }
 
 // A frame that claims another cycle than its instant has: the lines of the cycles stay where they are, and end.

@@ -9,7 +9,7 @@
 namespace ttf::schedules {
 namespace {
 
-Cluster small() {
+Cluster with_ports() {
   Cluster cluster;
   cluster.file = "small.yaml";
   cluster.pdus.resize(2);
@@ -39,7 +39,7 @@ Cluster small() {
 
 const std::vector<StepPorts> kSteps{{"fusion", {}, {}, true}, {"gateway", {"in"}, {"out"}, false}};
 
-std::vector<Finding> findings_of(const Cluster& cluster) {
+std::vector<Finding> port_findings(const Cluster& cluster) {
   try {
     bind_ports(cluster, kSteps);
   } catch (const InputError& error) {
@@ -48,12 +48,12 @@ std::vector<Finding> findings_of(const Cluster& cluster) {
   return {};
 }
 
-TEST(Ports, FitBothWays) { EXPECT_TRUE(findings_of(small()).empty()); }
+TEST(Ports, FitBothWays) { EXPECT_TRUE(port_findings(with_ports()).empty()); }
 
 TEST(Ports, UnknownStep) {
-  Cluster cluster = small();
+  Cluster cluster = with_ports();
   cluster.nodes[0].tasks[1].step = "gatevay";
-  const auto findings = findings_of(cluster);
+  const auto findings = port_findings(cluster);
   ASSERT_EQ(findings.size(), 1u);
   EXPECT_EQ(findings[0].line, 12);
   EXPECT_EQ(findings[0].value, "gatevay");
@@ -61,9 +61,9 @@ TEST(Ports, UnknownStep) {
 }
 
 TEST(Ports, PortTheCodeNeedsIsMissingAndPortItDoesNotHaveIsThere) {
-  Cluster cluster = small();
+  Cluster cluster = with_ports();
   cluster.nodes[0].tasks[1].writes[0].port = "exit";
-  const auto findings = findings_of(cluster);
+  const auto findings = port_findings(cluster);
   ASSERT_EQ(findings.size(), 2u);
   EXPECT_NE(findings[0].expected.find("must bind the port out"), std::string::npos);
   EXPECT_EQ(findings[1].line, 14);
@@ -71,9 +71,9 @@ TEST(Ports, PortTheCodeNeedsIsMissingAndPortItDoesNotHaveIsThere) {
 }
 
 TEST(Ports, ASensorsPortLeadsToAPduOfThatSensor) {
-  Cluster cluster = small();
+  Cluster cluster = with_ports();
   cluster.nodes[0].tasks[0].reads = {{"camera", PduId{1}, std::nullopt, 8}, {"laser", PduId{1}, std::nullopt, 9}};
-  const auto findings = findings_of(cluster);
+  const auto findings = port_findings(cluster);
   ASSERT_EQ(findings.size(), 1u);
   EXPECT_EQ(findings[0].sentence(),
             "small.yaml:9: nodes.all.tasks.fuse.reads.laser = camera_objects: must be a PDU of the sensor laser, as its port "
@@ -81,13 +81,13 @@ TEST(Ports, ASensorsPortLeadsToAPduOfThatSensor) {
 }
 
 TEST(Ports, FusionReadsSensorsOnlyAndAtLeastOne) {
-  Cluster cluster = small();
+  Cluster cluster = with_ports();
   cluster.nodes[0].tasks[0].reads[0].port = "sonar";
-  ASSERT_EQ(findings_of(cluster).size(), 1u);
-  EXPECT_EQ(findings_of(cluster)[0].key, "nodes.all.tasks.fuse.reads.sonar");
+  ASSERT_EQ(port_findings(cluster).size(), 1u);
+  EXPECT_EQ(port_findings(cluster)[0].key, "nodes.all.tasks.fuse.reads.sonar");
   cluster.nodes[0].tasks[0].reads.clear();
-  ASSERT_EQ(findings_of(cluster).size(), 1u);
-  EXPECT_NE(findings_of(cluster)[0].expected.find("at least one"), std::string::npos);
+  ASSERT_EQ(port_findings(cluster).size(), 1u);
+  EXPECT_NE(port_findings(cluster)[0].expected.find("at least one"), std::string::npos);
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ Cluster cluster_of(std::vector<Task> tasks) {
   return cluster;
 }
 
-Task timed(std::string name, CycleInstant at, Duration execution) {
+Task timed_task(std::string name, CycleInstant at, Duration execution) {
   Task one = task(std::move(name), ActivationKind::kTime, execution);
   one.activation.at = at;
   return one;
@@ -61,7 +61,7 @@ std::vector<TaskResponse> responses(const Cluster& cluster) {
 }
 
 TEST(Responses, OfATaskAloneIsItsExecution) {
-  const auto r = responses(cluster_of({timed("a", {0, 2, Macroticks{100}}, ms(4))}));
+  const auto r = responses(cluster_of({timed_task("a", {0, 2, Macroticks{100}}, ms(4))}));
   EXPECT_EQ(r[0].worst, ms(4));
   EXPECT_NEAR(static_cast<double>(r[0].gap->ns), 10e6, 200);
   EXPECT_NEAR(static_cast<double>(r[0].written->ns), 10e6, 200);
@@ -84,7 +84,7 @@ TEST(Responses, TasksOfMessagesWaitForEachOther) {
 //   second           ^activated  |====|
 //   short  |==|      |==|
 TEST(Responses, AMessageDelaysATaskIntoTheNextOne) {
-  Cluster cluster = cluster_of({timed("first", {0, 2, Macroticks{0}}, ms(2)), timed("second", {0, 2, Macroticks{2100}}, ms(1))});
+  Cluster cluster = cluster_of({timed_task("first", {0, 2, Macroticks{0}}, ms(2)), timed_task("second", {0, 2, Macroticks{2100}}, ms(1))});
   add_sporadic(cluster, "short", ms(2), us(500));
   const auto r = responses(cluster);
   EXPECT_EQ(r[0].worst, us(2500));
@@ -93,11 +93,11 @@ TEST(Responses, AMessageDelaysATaskIntoTheNextOne) {
 }
 
 TEST(Responses, AChainsTaskStartsAtTheEndOfTheOneBefore) {
-  Cluster cluster = cluster_of({timed("fuse", {0, 2, Macroticks{0}}, ms(4)), after("publish", "fuse", us(500))});
+  Cluster cluster = cluster_of({timed_task("fuse", {0, 2, Macroticks{0}}, ms(4)), after("publish", "fuse", us(500))});
   EXPECT_EQ(responses(cluster)[0].worst, ms(4));
   EXPECT_EQ(responses(cluster)[1].worst, us(500));
   // Another one that time activates between, and one far behind.
-  cluster.nodes[0].tasks.push_back(timed("between", {0, 2, Macroticks{3900}}, ms(1)));
+  cluster.nodes[0].tasks.push_back(timed_task("between", {0, 2, Macroticks{3900}}, ms(1)));
   EXPECT_EQ(responses(cluster)[1].worst, us(1500));
   EXPECT_NEAR(static_cast<double>(responses(cluster)[2].worst.ns), 1.6e6, 200);   // publish counted before it
   cluster.nodes[0].tasks[2].activation.at = {1, 2, Macroticks{0}};
@@ -117,7 +117,7 @@ TEST(Responses, MoreWorkThanTimeHasNoBound) {
 }
 
 TEST(Responses, CorrectionsBringInstantsCloser) {
-  Cluster cluster = cluster_of({timed("first", {0, 2, Macroticks{0}}, ms(2)), timed("second", {0, 2, Macroticks{2000}}, ms(1))});
+  Cluster cluster = cluster_of({timed_task("first", {0, 2, Macroticks{0}}, ms(2)), timed_task("second", {0, 2, Macroticks{2000}}, ms(1))});
   NodeParameters& p = *cluster.nodes[0].flexray;
   p.pRateCorrectionOut = 600;      // of 200000: 6 us in 2 ms
   p.pOffsetCorrectionOut = 400;    // 10 us
@@ -199,8 +199,8 @@ TEST(Responses, NoDrawnQueueIsEverSlower) {
     Cluster cluster = cluster_of({});
     auto& tasks = cluster.nodes[0].tasks;
     const auto name = [&] { return std::string(1, static_cast<char>('a' + tasks.size())); };
-    if (stream.integer(0, 3) != 0) tasks.push_back(timed(name(), {0, 2, Macroticks{stream.integer(0, 900)}}, us(1500)));
-    if (stream.integer(0, 1) != 0) tasks.push_back(timed(name(), {0, 2, Macroticks{stream.integer(2400, 4900)}}, us(1000)));
+    if (stream.integer(0, 3) != 0) tasks.push_back(timed_task(name(), {0, 2, Macroticks{stream.integer(0, 900)}}, us(1500)));
+    if (stream.integer(0, 1) != 0) tasks.push_back(timed_task(name(), {0, 2, Macroticks{stream.integer(2400, 4900)}}, us(1000)));
     for (std::int64_t n = stream.integer(tasks.empty() ? 1 : 0, 2); n > 0; --n)
       add_sporadic(cluster, name(), us(static_cast<int>(stream.integer(6, 30)) * 1000),
                    us(static_cast<int>(stream.integer(2, 15)) * 100));

@@ -13,6 +13,9 @@
 namespace ttf::sim {
 
 inline constexpr int kMicroPerCycle = 200'000;   // of 25 ns
+// (34 + 20 gClusterDriftDamping) gdMaxMicrotick + 2 gdMaxPropagationDelay: the worst case of FlexRay 2.1A, annex B, here with a
+// damping of 2 (schedules/checker.h).
+inline constexpr Duration kAssumedPrecision{(34 + 20 * 2) * 25 + 2 * 2500};
 
 // The first `coldstart` nodes are coldstart nodes, the first `sync` of all are sync nodes.
 inline schedules::Cluster bus_cluster(int nodes, int coldstart, int sync) {

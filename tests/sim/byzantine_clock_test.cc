@@ -14,10 +14,6 @@
 namespace ttf::sim {
 namespace {
 
-// (34 + 20 gClusterDriftDamping) gdMaxMicrotick + 2 gdMaxPropagationDelay: the worst case of FlexRay 2.1A, annex B, here with a
-// damping of 2 (schedules/checker.h).
-constexpr Duration kAssumedPrecision{(34 + 20 * 2) * 25 + 2 * 2500};
-
 // The sync frames of nodes 0..traitors-1 reach each receiver at a time of its own: late at some, early at others, within
 // what still fits the slot; the worst a clock can do that nobody else notices.
 class TwoFaced final : public Disturbance {

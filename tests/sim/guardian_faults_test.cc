@@ -16,7 +16,6 @@ using bus::PocKind;
 using bus::Signal;
 using schedules::Channel;
 
-constexpr Duration kAssumedPrecision{(34 + 20 * 2) * 25 + 2 * 2500};
 constexpr NodeId kFaulty{0};
 
 // Does to what the faulty node sends what it is given.

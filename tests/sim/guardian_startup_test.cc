@@ -12,8 +12,6 @@ using bus::PocKind;
 using bus::PocReason;
 using schedules::Channel;
 
-constexpr Duration kAssumedPrecision{(34 + 20 * 2) * 25 + 2 * 2500};
-
 bool guardians_synchronised(Guarded& started) {
   return std::all_of(kBothChannels.begin(), kBothChannels.end(), [&](Channel channel) {
     started.coupler(channel).catch_up(started.simulation->now());
@@ -51,12 +49,12 @@ TEST(GuardianStartup, OfNodesThatBeginTogetherOneLeads) {
   }
 }
 
-struct Size { int nodes, coldstart, sync, runs; };
-class GuardedConformance : public testing::TestWithParam<Size> {};
+struct GuardedSize { int nodes, coldstart, sync, runs; };
+class GuardedConformance : public testing::TestWithParam<GuardedSize> {};
 
 // The same window as without guardians (startup_conformance_test.cc): six of eight attempts of six cycles.
 TEST_P(GuardedConformance, StartsFromAnyPowerOnDelaysWithinTheAttempts) {
-  const Size size = GetParam();
+  const GuardedSize size = GetParam();
   const Duration window = Duration::milliseconds(6 * 5 * 6);
   for (int run = 0; run < size.runs; ++run) {
     const auto seed = static_cast<std::uint64_t>(run);
@@ -69,7 +67,7 @@ TEST_P(GuardedConformance, StartsFromAnyPowerOnDelaysWithinTheAttempts) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, GuardedConformance,
-                         testing::Values(Size{2, 2, 2, 1000}, Size{4, 3, 4, 1000}, Size{16, 4, 8, 200}, Size{64, 5, 15, 10}),
+                         testing::Values(GuardedSize{2, 2, 2, 1000}, GuardedSize{4, 3, 4, 1000}, GuardedSize{16, 4, 8, 200}, GuardedSize{64, 5, 15, 10}),
                          [](const auto& name) { return std::to_string(name.param.nodes) + "Nodes"; });
 
 TEST(GuardianStartup, ARestartedNodeIntegratesAgain) {

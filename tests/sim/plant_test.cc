@@ -14,7 +14,6 @@ namespace {
 
 using bus::PocKind;
 
-constexpr Duration kAssumedPrecision{(34 + 20 * 2) * 25 + 2 * 2500};
 constexpr std::int64_t kCycle_ns = 5'000'000;
 constexpr TrueTime kSlotOne{1'000'000 + 7'000};   // cycle 0's action point of slot 1, about
 

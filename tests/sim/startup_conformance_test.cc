@@ -14,8 +14,6 @@ namespace {
 using bus::PocKind;
 using bus::PocReason;
 
-constexpr Duration kAssumedPrecision{(34 + 20 * 2) * 25 + 2 * 2500};
-
 struct Started {
   schedules::Cluster cluster;
   std::vector<std::unique_ptr<StateLog>> logs;

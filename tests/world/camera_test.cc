@@ -12,7 +12,7 @@ namespace {
 
 constexpr ObjectId kClutter{0xffff};
 
-ObjectState car(std::uint16_t id, double x, double y, double heading = 0.0) {
+ObjectState car_at(std::uint16_t id, double x, double y, double heading = 0.0) {
   ObjectState state;
   state.id = ObjectId{id};
   state.x = x;
@@ -23,7 +23,7 @@ ObjectState car(std::uint16_t id, double x, double y, double heading = 0.0) {
   return state;
 }
 
-CameraConfig exact() {
+CameraConfig exact_camera() {
   CameraConfig config;
   config.disparity_sigma_px = config.bearing_sigma_rad = config.width_sigma_px = 0.0;
   config.miss_probability = config.clutter_per_frame = 0.0;
@@ -42,9 +42,9 @@ Frame frame(const CameraConfig& config, const std::vector<ObjectState>& objects,
 }
 
 TEST(Camera, ACarStraightAheadIsSeenAtItsRear) {
-  const CameraConfig config = exact();
+  const CameraConfig config = exact_camera();
   for (const double x : {10.0, 30.0, 70.0}) {
-    const auto [detections, truth] = frame(config, {car(0, x, 0.0)});
+    const auto [detections, truth] = frame(config, {car_at(0, x, 0.0)});
     ASSERT_EQ(detections.size(), 1U);
     const double rear = x - 2.2;
     EXPECT_NEAR(detections[0].bearing, 0.0, 1e-12);
@@ -55,9 +55,9 @@ TEST(Camera, ACarStraightAheadIsSeenAtItsRear) {
 }
 
 TEST(Camera, ATurnedCarIsSeenInTheMiddleOfItsSilhouette) {
-  const CameraConfig config = exact();
+  const CameraConfig config = exact_camera();
   // Broadside, 20 m ahead and to the left: the near side lies at y-parallel x = 20 - 0.9.
-  const auto [detections, truth] = frame(config, {car(0, 20.0, 3.0, std::numbers::pi / 2)});
+  const auto [detections, truth] = frame(config, {car_at(0, 20.0, 3.0, std::numbers::pi / 2)});
   ASSERT_EQ(detections.size(), 1U);
   const double right = std::atan2(3.0 - 2.2, 20.9), left = std::atan2(3.0 + 2.2, 19.1);
   // Right edge: the nearer of the two right corners in angle is the far one (0.8 / 20.9).
@@ -69,7 +69,7 @@ TEST(Camera, ATurnedCarIsSeenInTheMiddleOfItsSilhouette) {
 
 // z = f b / d: sigma_z = z^2 sigma_d / (f b).
 TEST(Camera, DepthNoiseGrowsWithTheRangeSquared) {
-  CameraConfig config = exact();
+  CameraConfig config = exact_camera();
   config.disparity_sigma_px = CameraConfig{}.disparity_sigma_px;
   config.bearing_sigma_rad = CameraConfig{}.bearing_sigma_rad;
   const double fb = config.focal_px * config.baseline_m;
@@ -78,7 +78,7 @@ TEST(Camera, DepthNoiseGrowsWithTheRangeSquared) {
     const double rear = x - 2.2;
     double sum = 0, squared = 0, bearing_squared = 0;
     for (std::uint32_t k = 0; k < kFrames; ++k) {
-      const auto [detections, truth] = frame(config, {car(0, x, 0.0)}, k);
+      const auto [detections, truth] = frame(config, {car_at(0, x, 0.0)}, k);
       ASSERT_EQ(detections.size(), 1U);
       const double error = fb / detections[0].disparity - rear;
       sum += error;
@@ -101,7 +101,7 @@ TEST(Camera, MissesAndClutterAreAsOftenAsStated) {
   constexpr int kFrames = 4000;
   int seen = 0, clutter = 0, clutter_squared = 0;
   for (std::uint32_t k = 0; k < kFrames; ++k) {
-    const auto [detections, truth] = frame(config, {car(0, 30.0, 1.0)}, k);
+    const auto [detections, truth] = frame(config, {car_at(0, 30.0, 1.0)}, k);
     const auto false_ones = static_cast<int>(std::count(truth.begin(), truth.end(), kClutter));
     seen += static_cast<int>(truth.size()) - false_ones;
     clutter += false_ones;
@@ -120,21 +120,21 @@ TEST(Camera, MissesAndClutterAreAsOftenAsStated) {
 }
 
 TEST(Camera, HiddenFarAndOutsideObjectsAreNotSeen) {
-  const CameraConfig config = exact();
-  const auto hidden = frame(config, {car(0, 40.0, 0.0), car(1, 15.0, 0.2)});
+  const CameraConfig config = exact_camera();
+  const auto hidden = frame(config, {car_at(0, 40.0, 0.0), car_at(1, 15.0, 0.2)});
   EXPECT_EQ(hidden.truth, std::vector<ObjectId>{ObjectId{1}});
-  EXPECT_EQ(frame(config, {car(0, 40.0, 5.0), car(1, 15.0, 0.2)}).truth.size(), 2U);
-  EXPECT_TRUE(frame(config, {car(0, 95.0, 0.0)}).truth.empty());
-  EXPECT_TRUE(frame(config, {car(0, 20.0, 15.0)}).truth.empty());
-  EXPECT_TRUE(frame(config, {car(0, -20.0, 0.0)}).truth.empty());
+  EXPECT_EQ(frame(config, {car_at(0, 40.0, 5.0), car_at(1, 15.0, 0.2)}).truth.size(), 2U);
+  EXPECT_TRUE(frame(config, {car_at(0, 95.0, 0.0)}).truth.empty());
+  EXPECT_TRUE(frame(config, {car_at(0, 20.0, 15.0)}).truth.empty());
+  EXPECT_TRUE(frame(config, {car_at(0, -20.0, 0.0)}).truth.empty());
 }
 
 TEST(Camera, OneObjectsVisibilityNeverShiftsAnothersNoise) {
   CameraConfig config;
   config.clutter_per_frame = config.miss_probability = 0.0;
   for (std::uint32_t k = 0; k < 20; ++k) {
-    const auto both = frame(config, {car(0, 20.0, -5.0), car(1, 40.0, 5.0)}, k);
-    const auto behind = frame(config, {car(0, -20.0, -5.0), car(1, 40.0, 5.0)}, k);
+    const auto both = frame(config, {car_at(0, 20.0, -5.0), car_at(1, 40.0, 5.0)}, k);
+    const auto behind = frame(config, {car_at(0, -20.0, -5.0), car_at(1, 40.0, 5.0)}, k);
     ASSERT_EQ(both.truth.size(), 2U);
     ASSERT_EQ(behind.truth.size(), 1U);
     EXPECT_EQ(both.detections[1].bearing, behind.detections[0].bearing);
@@ -145,7 +145,7 @@ TEST(Camera, OneObjectsVisibilityNeverShiftsAnothersNoise) {
 
 TEST(Camera, DrawsBelongToTheSequence) {
   const CameraConfig config;
-  const std::vector<ObjectState> cars = {car(0, 20.0, -5.0), car(1, 40.0, 5.0)};
+  const std::vector<ObjectState> cars = {car_at(0, 20.0, -5.0), car_at(1, 40.0, 5.0)};
   bool differs = false;
   for (std::uint32_t k = 0; k < 10; ++k) {
     const Frame first = frame(config, cars, k), again = frame(config, cars, k),

@@ -23,7 +23,7 @@ ObjectState box(std::uint16_t id, double x, double y, double heading, double len
   return state;
 }
 
-LaserConfig exact() {
+LaserConfig exact_laser() {
   LaserConfig config;
   config.range_sigma_m = config.miss_at_100m = 0.0;
   config.layers = 1;
@@ -61,7 +61,7 @@ double ray_against_edges(const ObjectState& object, double azimuth) {
 }
 
 TEST(Laser, ACarStraightAheadIsSeenAsItsRear) {
-  const auto [hits, truth] = scan(exact(), {box(0, 20.0, 0.0, 0.0, 4.0, 2.0)});
+  const auto [hits, truth] = scan(exact_laser(), {box(0, 20.0, 0.0, 0.0, 4.0, 2.0)});
   ASSERT_FALSE(hits.empty());
   for (const HitPoint& hit : hits) {
     EXPECT_NEAR(hit.range * std::cos(hit.azimuth), 18.0, 1e-9);
@@ -69,11 +69,11 @@ TEST(Laser, ACarStraightAheadIsSeenAsItsRear) {
   }
   // Every beam within +-atan(1 / 18) and no other.
   EXPECT_EQ(hits.size(),
-            2U * static_cast<std::size_t>(std::atan(1.0 / 18.0) / exact().azimuth_step_rad) + 1U);
+            2U * static_cast<std::size_t>(std::atan(1.0 / 18.0) / exact_laser().azimuth_step_rad) + 1U);
 }
 
 TEST(Laser, RaysMeetOutlinesWhereTheirEdgesAre) {
-  const LaserConfig config = exact();
+  const LaserConfig config = exact_laser();
   for (int aspect = 0; aspect < 36; ++aspect)
     for (const double y : {-12.0, 0.0, 7.0}) {
       const ObjectState object = box(0, 25.0, y, 0.175 * aspect, 4.4, 1.8);
@@ -90,7 +90,7 @@ TEST(Laser, RaysMeetOutlinesWhereTheirEdgesAre) {
 TEST(Laser, NearObjectsHideFarOnes) {
   // Behind: fully hidden. Beside: its left half shows.
   const auto [hits, truth] = scan(
-      exact(),
+      exact_laser(),
       {box(0, 40.0, 0.0, 0.0, 4.0, 1.8), box(1, 12.0, 0.0, 0.0, 4.0, 2.0), box(2, 40.0, 4.0, 0.0, 4.0, 1.8)});
   EXPECT_EQ(std::count(truth.begin(), truth.end(), ObjectId{0}), 0);
   EXPECT_GT(std::count(truth.begin(), truth.end(), ObjectId{1}), 10);
@@ -109,7 +109,7 @@ TEST(Laser, HalfHiddenObjectsShowTheOtherHalf) {
   // The near one's left edge is seen under atan(1/10) = 0.0997 rad; the far one spans y = 2.1..3.9 at 28 m:
   // 0.075..0.138.
   const auto [hits, truth] =
-      scan(exact(), {box(0, 12.0, 0.0, 0.0, 4.0, 2.0), box(1, 30.0, 3.0, 0.0, 4.0, 1.8)});
+      scan(exact_laser(), {box(0, 12.0, 0.0, 0.0, 4.0, 2.0), box(1, 30.0, 3.0, 0.0, 4.0, 1.8)});
   double low = 1.0, high = -1.0;
   for (std::size_t i = 0; i < hits.size(); ++i)
     if (truth[i] == ObjectId{1}) {
@@ -117,14 +117,14 @@ TEST(Laser, HalfHiddenObjectsShowTheOtherHalf) {
       high = std::max(high, hits[i].azimuth);
     }
   EXPECT_GT(low, std::atan(0.1));
-  EXPECT_LT(low, std::atan(0.1) + exact().azimuth_step_rad);
-  EXPECT_NEAR(high, std::atan2(3.9, 28.0), exact().azimuth_step_rad);
+  EXPECT_LT(low, std::atan(0.1) + exact_laser().azimuth_step_rad);
+  EXPECT_NEAR(high, std::atan2(3.9, 28.0), exact_laser().azimuth_step_rad);
 }
 
 TEST(Laser, NothingBehindOrOutsideTheFieldOrBeyondTheRange) {
-  EXPECT_TRUE(scan(exact(), {box(0, -20.0, 0.0, 0.0, 4.0, 2.0)}).hits.empty());
-  EXPECT_TRUE(scan(exact(), {box(0, 5.0, 30.0, 0.0, 4.0, 2.0)}).hits.empty());
-  EXPECT_TRUE(scan(exact(), {box(0, 130.0, 0.0, 0.0, 4.0, 2.0)}).hits.empty());
+  EXPECT_TRUE(scan(exact_laser(), {box(0, -20.0, 0.0, 0.0, 4.0, 2.0)}).hits.empty());
+  EXPECT_TRUE(scan(exact_laser(), {box(0, 5.0, 30.0, 0.0, 4.0, 2.0)}).hits.empty());
+  EXPECT_TRUE(scan(exact_laser(), {box(0, 130.0, 0.0, 0.0, 4.0, 2.0)}).hits.empty());
 }
 
 TEST(Laser, RangeNoiseHasItsMeanAndSigma) {
@@ -150,7 +150,7 @@ TEST(Laser, LossesGrowWithTheRangeSquared) {
   for (const double range : {25.0, 50.0, 100.0}) {
     // A wide wall, so that hits are many; only beams near the axis, where the range is the distance.
     const std::vector<ObjectState> wall = {box(0, range + 0.5, 0.0, 0.0, 1.0, 0.2 * range)};
-    const std::size_t all = scan(exact(), wall).hits.size() * 4;
+    const std::size_t all = scan(exact_laser(), wall).hits.size() * 4;
     std::size_t seen = 0;
     for (std::uint32_t sequence = 0; sequence < 60; ++sequence)
       seen += scan(config, wall, sequence).hits.size();
@@ -164,7 +164,7 @@ TEST(Laser, LossesGrowWithTheRangeSquared) {
 }
 
 TEST(Laser, BiasesAreConstant) {
-  LaserConfig config = exact();
+  LaserConfig config = exact_laser();
   const std::vector<ObjectState> car = {box(0, 30.0, 0.0, 0.3, 4.0, 2.0)};
   const Scan plain = scan(config, car);
   config.range_bias_m = 0.25;

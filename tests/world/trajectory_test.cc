@@ -26,7 +26,7 @@ ObjectState integrated(ObjectState state, double dt, int steps) {
   return state;
 }
 
-ObjectState car(double speed, double acceleration, double yaw_rate) {
+ObjectState moving_car(double speed, double acceleration, double yaw_rate) {
   ObjectState state;
   state.x = 12.0;
   state.y = -3.0;
@@ -44,7 +44,7 @@ auto values(const ObjectState& s) {
 TEST(Motion, ClosedFormAgreesWithFineIntegration) {
   for (const double yaw_rate : {0.0, 1e-9, -5e-4, 9.99e-4, 1.001e-3, 0.01, -0.3, 2.0})
     for (const double acceleration : {-3.0, 0.0, 4.0}) {
-      const ObjectState start = car(10.0, acceleration, yaw_rate);
+      const ObjectState start = moving_car(10.0, acceleration, yaw_rate);
       const ObjectState closed = moved(start, 1.0), fine = integrated(start, 1.0, 20000);
       EXPECT_NEAR(closed.x, fine.x, 2e-8) << yaw_rate << " rad/s, " << acceleration << " m/s^2";
       EXPECT_NEAR(closed.y, fine.y, 2e-8) << yaw_rate << " rad/s, " << acceleration << " m/s^2";
@@ -55,7 +55,7 @@ TEST(Motion, ClosedFormAgreesWithFineIntegration) {
 
 TEST(Motion, TwoStepsAreOne) {
   for (const double yaw_rate : {0.0, 0.05, 0.4}) {
-    const ObjectState start = car(8.0, 1.5, yaw_rate);
+    const ObjectState start = moving_car(8.0, 1.5, yaw_rate);
     const ObjectState once = moved(start, 0.01), twice = moved(moved(start, 0.0037), 0.0063);
     EXPECT_NEAR(once.x, twice.x, 1e-12);
     EXPECT_NEAR(once.y, twice.y, 1e-12);
@@ -64,7 +64,7 @@ TEST(Motion, TwoStepsAreOne) {
 }
 
 TEST(Motion, AConstantTurnClosesItsCircle) {
-  const ObjectState start = car(5.0, 0.0, 0.5);
+  const ObjectState start = moving_car(5.0, 0.0, 0.5);
   const ObjectState end = moved(start, 2.0 * std::numbers::pi / 0.5);
   EXPECT_NEAR(end.x, start.x, 1e-12);
   EXPECT_NEAR(end.y, start.y, 1e-12);
@@ -75,7 +75,7 @@ TEST(Motion, AConstantTurnClosesItsCircle) {
 }
 
 TEST(Motion, ABrakingCarStopsAndStays) {
-  ObjectState start = car(2.0, -4.0, 0.0);
+  ObjectState start = moving_car(2.0, -4.0, 0.0);
   const ObjectState end = moved(start, 3.0);
   EXPECT_NEAR(std::hypot(end.x - start.x, end.y - start.y), 2.0 * 2.0 / (2.0 * 4.0), 1e-12);
   EXPECT_EQ(end.speed, 0.0);

@@ -17,6 +17,7 @@
 namespace ttf::sim {
 
 inline constexpr std::int64_t kCycleNs = 5'000'000;
+inline constexpr unsigned kAnything = 0xff;   // every bit of a slot status
 
 // What one controller says.
 struct Said final : bus::ControllerEvents {
@@ -64,6 +65,11 @@ struct FaultBusConfig {
   bool cold = false;           // all powered on at time zero; else integrated, cycle 0 beginning at a millisecond
   bool inject = true;          // false: nobody disturbs
 };
+inline FaultBusConfig with(std::vector<nodes::Fault> faults) {
+  FaultBusConfig config;
+  config.faults = std::move(faults);
+  return config;
+}
 
 class FaultBus final : public records::Sink {
  public:

@@ -12,8 +12,6 @@ using nodes::FaultKind;
 using schedules::Channel;
 using schedules::Channels;
 
-constexpr unsigned kAnything = 0xff;
-
 // Nobody says anything of any slot but this one.
 void expect_only_slot(const FaultBus& bus, int slot) {
   for (int n = 0; n < 4; ++n)

@@ -9,8 +9,6 @@ namespace {
 using bus::PocKind;
 using nodes::FaultKind;
 
-constexpr unsigned kAnything = 0xff;
-
 FaultBusConfig star(nodes::Fault fault) {
   FaultBusConfig config;
   config.cluster.topology = schedules::Topology::kStar;

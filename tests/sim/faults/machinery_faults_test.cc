@@ -12,14 +12,6 @@ using bus::PocKind;
 using nodes::DuplicateMode;
 using nodes::FaultKind;
 
-constexpr Duration kAssumedPrecision{(34 + 20 * 2) * 25 + 2 * 2500};   // tests/sim/byzantine_clock_test.cc
-
-FaultBusConfig with(std::vector<nodes::Fault> faults) {
-  FaultBusConfig config;
-  config.faults = std::move(faults);
-  return config;
-}
-
 bool was_in(const Said& said, PocKind state) {
   return std::find(said.states.begin(), said.states.end(), state) != said.states.end();
 }

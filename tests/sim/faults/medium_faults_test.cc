@@ -11,12 +11,6 @@ using nodes::FaultKind;
 using schedules::Channel;
 using schedules::Channels;
 
-FaultBusConfig with(std::vector<nodes::Fault> faults) {
-  FaultBusConfig config;
-  config.faults = std::move(faults);
-  return config;
-}
-
 TEST(MediumFaults, AContinuousBabblingIdiotSilencesOneChannelAndNotTheOther) {
   nodes::Fault fault = fault_of(FaultKind::kBabblingIdiot, 3, 10, 5);
   fault.channels = Channels::kA;
