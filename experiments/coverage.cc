@@ -7,12 +7,6 @@
 namespace ttf::experiments {
 namespace {
 
-std::string row_name(const ClassCoverage& row) {
-  std::string name(nodes::name_of(row.kind));
-  if (!row.in_hypothesis) name += row.kind == nodes::FaultKind::kLoneColdstart ? " *" : " A+B *";
-  return name;
-}
-
 std::string in_cycles(const Spread& spread, Duration cycle) {
   if (spread.count == 0) return "-";
   const auto cycles = [&](std::int64_t ns) { return static_cast<double>(ns) / static_cast<double>(cycle.ns); };
@@ -36,6 +30,12 @@ std::string_view short_name(Check check) {
 }
 
 }  // namespace
+
+std::string class_text(nodes::FaultKind kind, bool in_hypothesis) {
+  std::string name(nodes::name_of(kind));
+  if (!in_hypothesis) name += kind == nodes::FaultKind::kLoneColdstart ? " *" : " A+B *";
+  return name;
+}
 
 Spread spread_of(std::vector<std::int64_t> values) {
   if (values.empty()) return {};
@@ -88,7 +88,7 @@ std::string coverage_text(const Coverage& coverage, Duration cycle) {
   for (const Check check : kAllChecks) out += fmt::format("{:>9}", short_name(check));
   out += fmt::format("{:>9}{:>9}\n", "itself", "harmed");
   for (const ClassCoverage& row : coverage.classes) {
-    out += fmt::format("{:<22}{:>9}{:>10}{:>9}", row_name(row), row.injected, row.activated, row.detected);
+    out += fmt::format("{:<22}{:>9}{:>10}{:>9}", class_text(row.kind, row.in_hypothesis), row.injected, row.activated, row.detected);
     for (const std::uint64_t count : row.by_check) out += fmt::format("{:>9}", count);
     out += fmt::format("{:>9}{:>9}\n", row.by_itself, row.harmed);
   }
@@ -97,7 +97,7 @@ std::string coverage_text(const Coverage& coverage, Duration cycle) {
   for (const Harm harm : kAllHarms) out += fmt::format("{:>14}", name_of(harm));
   out += '\n';
   for (const ClassCoverage& row : coverage.classes) {
-    out += fmt::format("{:<22}{:>17}{:>17}{:>17}{:>17}", row_name(row), in_cycles(row.detect, cycle),
+    out += fmt::format("{:<22}{:>17}{:>17}{:>17}{:>17}", class_text(row.kind, row.in_hypothesis), in_cycles(row.detect, cycle),
                        in_cycles(row.passive, cycle), in_cycles(row.halt, cycle), in_cycles(row.reintegrate, cycle));
     for (const std::uint64_t count : row.by_harm) out += fmt::format("{:>14}", count);
     out += '\n';

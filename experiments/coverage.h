@@ -20,6 +20,9 @@ struct Spread {
 // The lower one of two medians.
 Spread spread_of(std::vector<std::int64_t> values);
 
+// As the table names a class: "noise", and "noise A+B *" outside of the hypothesis.
+std::string class_text(nodes::FaultKind kind, bool in_hypothesis);
+
 // The faults of one class that are of the hypothesis, or those that are not.
 struct ClassCoverage {
   nodes::FaultKind kind{};

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "core/check.h"
 #include "core/random.h"
+#include "schedules/limits.h"
 
 namespace ttf::experiments {
 namespace {
@@ -15,6 +15,8 @@ namespace {
 using nodes::Fault;
 using nodes::FaultKind;
 using schedules::Channels;
+
+constexpr int kMostPayloadWords = schedules::kMostFragmentBytes / 2;   // cPayloadLengthMax
 
 class Drawing {
  public:
@@ -78,7 +80,7 @@ class Drawing {
         return bursts(fault);
       case FaultKind::kMasquerading:
         fault.masquerade = one_of(std::vector{nodes::MasqueradeMode::kInSlot, nodes::MasqueradeMode::kOwnSlot});
-        fault.slot = anothers_slot(fault.node, false);
+        fault.slot = one_of(slots_of_others(fault.node, false));
         return occasions(fault);
       case FaultKind::kSosTiming:
         // Up to twice the room before the action point: what leaves the slot, and what just does not.
@@ -109,10 +111,9 @@ class Drawing {
       }
       case FaultKind::kLoneColdstart: fault.all_others = draw_.uniform() < 0.5; return;
       case FaultKind::kDuplicateColdstart:
-        fault.duplicate = one_of(std::vector{nodes::DuplicateMode::kCas, nodes::DuplicateMode::kStartupFrames,
-                                             nodes::DuplicateMode::kSameKeySlot});
+        fault.duplicate = one_of(duplicates(fault.node));
         if (fault.duplicate == nodes::DuplicateMode::kSameKeySlot) {
-          fault.slot = anothers_slot(fault.node, true);
+          fault.slot = one_of(slots_of_others(fault.node, true));
           return always(fault);
         }
         fault.channels = channels();
@@ -128,20 +129,33 @@ class Drawing {
     fault.from = Duration{};
     fault.duration = Fault::kToTheEnd;
   }
+  // Macroticks that every static slot may be longer by in the same cycle, at most.
+  int room_in_slots() const {
+    return std::min(g_.gdNIT - 2, g_.gOffsetCorrectionStart - (g_.gMacroPerCycle - g_.gdNIT)) / g_.gNumberOfStaticSlots;
+  }
+  // What the cluster leaves room for; a wrong length of the cycle is always possible.
+  std::vector<nodes::WrongSchedule> wrong_schedules(NodeId node) const {
+    std::vector<nodes::WrongSchedule> possible;
+    if (g_.gNumberOfStaticSlots > 1) possible.push_back(nodes::WrongSchedule::kShiftedSlots);
+    possible.push_back(nodes::WrongSchedule::kCycleLength);
+    if (room_in_slots() > 0) possible.push_back(nodes::WrongSchedule::kStaticSlot);
+    if (g_.gPayloadLengthStatic < kMostPayloadWords) possible.push_back(nodes::WrongSchedule::kPayloadLength);
+    if (!slots_of_others(node, false).empty()) possible.push_back(nodes::WrongSchedule::kKeySlot);
+    return possible;
+  }
+  std::vector<nodes::DuplicateMode> duplicates(NodeId node) const {
+    std::vector possible{nodes::DuplicateMode::kCas, nodes::DuplicateMode::kStartupFrames};
+    if (!slots_of_others(node, true).empty()) possible.push_back(nodes::DuplicateMode::kSameKeySlot);
+    return possible;
+  }
   void wrong_schedule(Fault& fault) {
-    fault.wrong = one_of(std::vector{nodes::WrongSchedule::kShiftedSlots, nodes::WrongSchedule::kCycleLength,
-                                     nodes::WrongSchedule::kStaticSlot, nodes::WrongSchedule::kPayloadLength,
-                                     nodes::WrongSchedule::kKeySlot});
+    fault.wrong = one_of(wrong_schedules(fault.node));
     switch (fault.wrong) {
       case nodes::WrongSchedule::kShiftedSlots: fault.by = number(1, g_.gNumberOfStaticSlots - 1); return;
       case nodes::WrongSchedule::kCycleLength: fault.by = number(1, 100); return;
-      case nodes::WrongSchedule::kStaticSlot: {
-        const int room = std::min(g_.gdNIT - 2, g_.gOffsetCorrectionStart - (g_.gMacroPerCycle - g_.gdNIT));
-        fault.by = number(1, std::max(1, room / g_.gNumberOfStaticSlots));
-        return;
-      }
-      case nodes::WrongSchedule::kPayloadLength: fault.by = number(1, 127 - g_.gPayloadLengthStatic); return;
-      case nodes::WrongSchedule::kKeySlot: fault.slot = anothers_slot(fault.node, false); return;
+      case nodes::WrongSchedule::kStaticSlot: fault.by = number(1, room_in_slots()); return;
+      case nodes::WrongSchedule::kPayloadLength: fault.by = number(1, kMostPayloadWords - g_.gPayloadLengthStatic); return;
+      case nodes::WrongSchedule::kKeySlot: fault.slot = one_of(slots_of_others(fault.node, false)); return;
     }
   }
   void chosen(Fault& fault) {
@@ -165,15 +179,14 @@ class Drawing {
     for (std::size_t n = 0; n < cluster_.nodes.size(); ++n)
       if (static_cast<NodeId>(n) != fault.node && draw_.uniform() < 0.5) fault.receivers.push_back(static_cast<NodeId>(n));
   }
-  int anothers_slot(NodeId node, bool coldstart) {
+  std::vector<int> slots_of_others(NodeId node, bool coldstart) const {
     std::vector<int> slots;
     for (const schedules::FrameSlot& frame : cluster_.frames) {
       const schedules::NodeParameters& p = *cluster_.node(frame.sender).flexray;
       if (frame.sender == node || frame.slot > g_.gNumberOfStaticSlots) continue;
       if (!coldstart || (p.pKeySlotUsedForStartup && p.pKeySlotId == frame.slot)) slots.push_back(frame.slot);
     }
-    TTF_CHECK(!slots.empty(), "no slot of another node than {}", cluster_.node(node).name);
-    return one_of(slots);
+    return slots;
   }
   Channels channels() {
     return one_of(std::vector{Channels::kAB, Channels::kAB, Channels::kA, Channels::kB});

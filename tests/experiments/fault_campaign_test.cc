@@ -72,6 +72,20 @@ TEST(FaultCampaign, EveryClassIsDrawnAndEveryFaultCanBeInjected) {
   EXPECT_EQ(kinds.size(), nodes::kAllFaultKinds.size());
 }
 
+TEST(FaultCampaign, DrawsNoFaultThatTheClusterHasNoRoomFor) {
+  const CampaignFile campaign = small_campaign(1, "classes: {wrong_schedule: 1, duplicate_coldstart: 1}\n");
+  schedules::Cluster cluster = CampaignClusters(campaign).base;
+  cluster.flexray.gPayloadLengthStatic = 127;
+  cluster.flexray.gdNIT = cluster.flexray.gMacroPerCycle - cluster.flexray.gOffsetCorrectionStart + 2;
+  std::set<nodes::WrongSchedule> wrong;
+  for (std::uint32_t index = 0; index < 1000; ++index) {
+    const nodes::Fault fault = draw_fault(campaign, cluster, index).fault;
+    if (fault.kind == nodes::FaultKind::kWrongSchedule) wrong.insert(fault.wrong);
+  }
+  using nodes::WrongSchedule;
+  EXPECT_EQ(wrong, (std::set{WrongSchedule::kShiftedSlots, WrongSchedule::kCycleLength, WrongSchedule::kKeySlot}));
+}
+
 TEST(FaultCampaign, WeightsSayHowManyOfWhichClass) {
   const CampaignFile campaign = small_campaign(1, "classes: {crash: 3, noise: 1}\n");
   const CampaignClusters clusters(campaign);
