@@ -36,9 +36,13 @@ function(ttf_room name)
   endif()
 endfunction()
 
-# ttf_test(<name> SOURCES <files...> [DEPS <targets...>]): one GoogleTest program, one ctest entry per test program.
+# ttf_test(<name> SOURCES <files...> [DEPS <targets...>] [UNSANITIZED]): one GoogleTest program, one ctest entry per test
+# program. UNSANITIZED: its time goes into libraries, memory or thousands of runs; sanitizers would only make it longer.
 function(ttf_test name)
-  cmake_parse_arguments(TEST "" "" "SOURCES;DEPS" ${ARGN})
+  cmake_parse_arguments(TEST "UNSANITIZED" "" "SOURCES;DEPS" ${ARGN})
+  if(TEST_UNSANITIZED AND TTF_SANITIZE)
+    return()
+  endif()
   add_executable(${name} ${TEST_SOURCES})
   target_link_libraries(${name} PRIVATE ${TEST_DEPS} ttf_options GTest::gmock GTest::gtest_main)
   target_compile_definitions(${name} PRIVATE TTF_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
