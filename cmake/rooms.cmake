@@ -36,10 +36,11 @@ function(ttf_room name)
   endif()
 endfunction()
 
-# ttf_test(<name> SOURCES <files...> [DEPS <targets...>] [UNSANITIZED]): one GoogleTest program, one ctest entry per test
-# program. UNSANITIZED: its time goes into libraries, memory or thousands of runs; sanitizers would only make it longer.
+# ttf_test(<name> SOURCES <files...> [DEPS <targets...>] [UNSANITIZED | UNSANITIZED_TESTS <patterns...>]): one GoogleTest
+# program, one ctest entry per test program. Sanitizers are spared what they would only make longer, statistics over
+# thousands of runs and whole drives of which others run: the program, or these tests of it.
 function(ttf_test name)
-  cmake_parse_arguments(TEST "UNSANITIZED" "" "SOURCES;DEPS" ${ARGN})
+  cmake_parse_arguments(TEST "UNSANITIZED" "" "SOURCES;DEPS;UNSANITIZED_TESTS" ${ARGN})
   if(TEST_UNSANITIZED AND TTF_SANITIZE)
     return()
   endif()
@@ -47,5 +48,10 @@ function(ttf_test name)
   target_link_libraries(${name} PRIVATE ${TEST_DEPS} ttf_options GTest::gmock GTest::gtest_main)
   target_compile_definitions(${name} PRIVATE TTF_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)   # what it calls in the rooms is optimised as ever
-  add_test(NAME ${name} COMMAND ${name} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+  set(filter)
+  if(TTF_SANITIZE AND TEST_UNSANITIZED_TESTS)
+    list(JOIN TEST_UNSANITIZED_TESTS ":" patterns)
+    set(filter --gtest_filter=-${patterns})
+  endif()
+  add_test(NAME ${name} COMMAND ${name} ${filter} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
 endfunction()

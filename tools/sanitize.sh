@@ -5,5 +5,6 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 tools/install_deps.sh
 tools/build.sh asan-ubsan
+ulimit -s 262144   # KiB: std::regex, in tests, calls itself for every character
 export LSAN_OPTIONS=suppressions=$PWD/tools/lsan.supp:print_suppressions=0
 exec ctest --test-dir build/asan-ubsan --output-on-failure -j"$(nproc)"

@@ -21,8 +21,10 @@ TEST(Divisor, IsTheDivisionAtEveryEdge) {
     const Divisor divisor(d);
     for (int j = 0; j < 20; ++j) {
       const std::int64_t q = draw.integer(0, kLargest / d);
-      for (const std::int64_t x : {q * d, q * d - 1, q * d + 1, q * d + d / 2, kLargest, std::int64_t{0}}) {
-        if (x < 0) continue;
+      const Int128 multiple = Int128{q} * d;
+      for (const Int128 wide : {multiple, multiple - 1, multiple + 1, multiple + d / 2, Int128{kLargest}, Int128{0}}) {
+        if (wide < 0 || wide > kLargest) continue;
+        const auto x = static_cast<std::int64_t>(wide);
         ASSERT_EQ(divisor.floor(x), x / d) << x << " / " << d;
         if (x > kLargest - d) continue;
         ASSERT_EQ(divisor.ceil(x), x / d + (x % d != 0)) << x << " / " << d;
