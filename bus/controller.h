@@ -135,7 +135,9 @@ class FlexRayController {
 
   // As if start-up were over: normal active from cycle 0 on.
   void start_integrated(const InitialClock& clock);
-  // Power-on, and what a host commands then: configuration, RUN and, for a coldstart node, ALLOW_COLDSTART.
+  // Power-on, and what a host commands then: configuration, RUN and, for a coldstart node, ALLOW_COLDSTART. Also of a
+  // controller at work, which begins anew, without allocating: what its host has given it is all that is left (its lists,
+  // its network management vector, its external correction).
   void start_cold(Microticks now);
   // A command of the host: kConfig to kFreeze of PocEventKind.
   void command(PocEventKind command, Microticks now);

@@ -60,6 +60,7 @@ StarCoupler::StarCoupler(const schedules::Cluster& cluster, schedules::Channel c
       guardian_(cluster_, channel, *cluster_.nodes.back().flexray),
       turns_(cluster_, channel, *cluster_.nodes.back().flexray),
       watch_(std::make_unique<Watch>(*this)),
+      controller_(std::make_unique<bus::FlexRayController>(cluster_, guardian_of(cluster_), *watch_, *watch_)),
       dynamic_(cluster_.flexray) {
   TTF_CHECK(oscillator.nominal_period_ps() == cluster_.nodes.back().microtick_ps, "microticks of {} and {} ps",
             oscillator.nominal_period_ps(), cluster_.nodes.back().microtick_ps);
@@ -74,7 +75,6 @@ std::uint64_t StarCoupler::blocked() const {
 }
 
 void StarCoupler::power_on(Microticks now) {
-  controller_ = std::make_unique<bus::FlexRayController>(cluster_, guardian_of(cluster_), *watch_, *watch_);
   turns_.reset();
   counted_cycle_ = -1;
   controller_->start_cold(now);
