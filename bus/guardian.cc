@@ -72,7 +72,9 @@ Guardian::Guardian(const schedules::Cluster& cluster, Channel channel, const sch
       minislots_(cluster.flexray),
       lengths_(cluster.flexray, clock.pdMicrotick_ps),
       compensation_{channel == Channel::kA ? clock.pDelayCompensationA : clock.pDelayCompensationB},
-      tolerance_(lengths_.time(g_.gdActionPointOffset * g_.gdMacrotick_ps / 2)) {}
+      tolerance_(lengths_.time(g_.gdActionPointOffset * g_.gdMacrotick_ps / 2)),
+      minislot_tolerance_(
+          std::min(tolerance_, lengths_.time(g_.gdMinislotActionPointOffset * g_.gdMacrotick_ps / 2))) {}
 
 int Guardian::cycle_count(const timebase::CycleClock& clock) const {
   return static_cast<int>(clock.cycle() % (g_.gCycleCountMax + 1));
@@ -130,16 +132,25 @@ GuardianAnswer Guardian::in_dynamic_segment(const timebase::CycleClock& clock, c
   if (minislot > cluster_.node(signal.branch).flexray->pLatestTx) return GuardianAnswer::no(GuardianReason::kOutsideWindow);
   // Near a minislot's boundary some receivers would count another minislot than others, and every slot behind it
   // differently.
-  const Microticks tolerance =
-      std::min(tolerance_, lengths_.time(g_.gdMinislotActionPointOffset * g_.gdMacrotick_ps / 2));
-  if (std::abs((at - clock.start_of(minislots_.action_point(minislot))).value) > tolerance.value)
+  if (std::abs((at - clock.start_of(minislots_.action_point(minislot))).value) > minislot_tolerance_.value)
     return GuardianAnswer::no(GuardianReason::kOutsideWindow);
   if (!header_fits(*frame, cycle_count(clock), signal.frame->header)) return GuardianAnswer::no(GuardianReason::kWrongHeader);
-  // The trailing sequence goes on to the next minislot action point that leaves room for a bit of it.
-  const Microticks trailing = lengths_.time(2 * g_.gdMinislot * g_.gdMacrotick_ps);
-  const Microticks segment_end = clock.start_of(minislots_.start_of(minislots_.count() + 1)) + compensation_;
-  return {GuardianReason::kForwarded,
-          std::min(signal.start + lengths_.frame(signal.frame->header.payload_words) + trailing, segment_end)};
+  // The trailing sequence goes on to the next minislot action point that leaves room for a bit of it; on the sender's
+  // clock that may be one later than on this.
+  const Microticks frame_end = at + lengths_.frame(signal.frame->header.payload_words);
+  const int last = std::min(minislots_.dts_end(clock, frame_end, Microticks{}) + 1, minislots_.count());
+  return {GuardianReason::kForwarded, clock.start_of(minislots_.action_point(last)) + compensation_};
+}
+
+Microticks Guardian::end_of(const timebase::CycleClock& clock, Microticks start, Microticks end, Microticks until) const {
+  const int first = minislots_.minislot_at(clock, start - compensation_);
+  if (first < 1 || first > minislots_.count()) return std::min(end, until);
+  // The first action point that `end` is not clearly behind.
+  const int minislot = minislots_.dts_end(clock, end - compensation_, Microticks{-minislot_tolerance_.value});
+  if (minislot > minislots_.count()) return until;
+  const Microticks action_point = clock.start_of(minislots_.action_point(minislot)) + compensation_;
+  if (action_point > until) return until;
+  return action_point - end <= minislot_tolerance_ ? end : action_point;
 }
 
 bool Guardian::header_fits(const FrameSlot& frame, int counter, const wire::FrameHeader& header) const {

@@ -14,7 +14,7 @@
 //       for every receiver: there is nothing slightly off that some accept and some do not
 //   G3  in the dynamic segment the guardian counts slots as every node does, and lets through the frame of that slot's
 //       node, not later than its pLatestTx and not longer than its PDU, and only if it begins within half a minislot
-//       action point offset of the minislot's action point: no receiver counts another minislot then
+//       action point offset of the minislot's action point: no receiver counts another minislot then (and G9)
 //   G4  in the symbol window a media access test symbol, of any node
 //   G5  else nothing; and nothing that it cannot make out
 // Without a schedule (the rules of turns are bus/guardian_startup.h's S1 to S6):
@@ -24,6 +24,14 @@
 //   G7  one signal at a time: the first to come; and none for longer than one of its kind may last
 //   G8  while the guardian is integrating, in cycles 0 to 3 only the node that it integrates on: another's frame would
 //       make a leading coldstart node give way
+// How it ends what it lets through in the dynamic segment:
+//   G9  at a minislot action point of its own clock, whatever its sender does: there receivers look for the end of a
+//       trailing sequence, and between two of them some would count another minislot than others, and every slot behind it
+//       differently. What ends within half a minislot action point offset of one, as every fault-free node's frame does,
+//       is left alone, to the instant. What ends elsewhere, because its sender fell silent or its clock is off, the
+//       coupler holds active to the next one, as a trailing sequence would be; what lasts too long (G7) it cuts at the
+//       last one that a frame of that length may need. A frame whose trailing sequence alone was lengthened is what it
+//       was, one that broke off or was cut is undecodable
 #pragma once
 
 #include <array>
@@ -75,7 +83,7 @@ struct GuardianSignal {
 
 struct GuardianAnswer {
   GuardianReason reason{};
-  Microticks until{};             // forwarded: what lasts longer is cut there
+  Microticks until{};             // forwarded: what lasts longer is cut there; in the dynamic segment an action point (G9)
   static constexpr GuardianAnswer no(GuardianReason reason) { return {reason, {}}; }
   bool forwards() const { return reason == GuardianReason::kForwarded; }
 };
@@ -100,7 +108,7 @@ class SignalLengths {
   std::int64_t microtick_ps_;
 };
 
-// The part of the judgement that goes by the schedule: G1 to G5. Without memory.
+// The part of the judgement that goes by the schedule: G1 to G5, and G9. Without memory.
 class Guardian {
  public:
   // `clock`: the parameters of the guardian's own controller (guardian_cluster() below).
@@ -109,6 +117,10 @@ class Guardian {
   // `counter`: how far the dynamic slots of this cycle are on this channel.
   GuardianAnswer judge(const timebase::CycleClock& clock, const DynamicSlotCounter& counter,
                        const GuardianSignal& signal) const;
+  // When a signal ends at the coupler that has been forwarded since `start`, was to last until `until` at the most (of
+  // its answer) and is ended by its sender at `end`: `end` where nothing is done about it. G7, and in the dynamic segment
+  // G9; all three instants are the coupler's.
+  Microticks end_of(const timebase::CycleClock& clock, Microticks start, Microticks end, Microticks until) const;
   // Counts what was received in the dynamic segment.
   void count(const timebase::CycleClock& clock, DynamicSlotCounter& counter, Microticks start, Microticks end) const;
 
@@ -125,7 +137,7 @@ class Guardian {
   SlotTable slots_;
   MinislotGrid minislots_;
   SignalLengths lengths_;
-  Microticks compensation_, tolerance_;
+  Microticks compensation_, tolerance_, minislot_tolerance_;
 };
 
 // The cluster as the guardian's controller sees it: with one node more, the last, which is the guardian on that

@@ -253,9 +253,11 @@ void FlexRayMedium::power_off(NodeId node, TrueTime now) {
     one.arrival.signal = Signal::kUndecodable;
     one.arrival.end = std::max(cut, one.arrival.start + Duration{1});
   }
-  for (Coupler* coupler : coupler_)
-    if (coupler != nullptr) coupler->fell_silent(node, now + branch(node));
   for (const Channel channel : {Channel::kA, Channel::kB}) {
+    Coupler* coupler = coupler_[index_of(channel)];
+    // When the sender's part of what is spread ends, and when that itself does.
+    const TrueTime silent = coupler != nullptr ? now + branch(node) : now;
+    const TrueTime ends = coupler != nullptr ? coupler->fell_silent(node, silent) : now;
     Lane& incoming = lane(node, channel);
     for (const Pending& one : incoming) release(one.arrival);
     incoming.clear();
@@ -264,19 +266,21 @@ void FlexRayMedium::power_off(NodeId node, TrueTime now) {
     until = std::min(until, now);
     for (const NodeId receiver : attached_[index_of(channel)]) {
       Lane& pending = lane(receiver, channel);
-      const TrueTime cut = now + delay(node, receiver);
+      const Duration on_the_way = coupler != nullptr ? branch(receiver) : delay(node, receiver);
       for (std::size_t i = 0; i < pending.size();) {
         const Pending one = pending[i];
-        if (one.sender != node || one.merged || one.arrival.end <= cut) {
+        // The rest of one comes by here, too.
+        const bool is_rest = one.arrival.signal == Signal::kUndecodable && one.arrival.end == ends + on_the_way;
+        if (one.sender != node || one.merged || is_rest || one.arrival.end <= silent + on_the_way) {
           ++i;
           continue;
         }
         release(one.arrival);
         pending.take_out(i);
-        if (one.arrival.start >= cut) continue;
+        if (one.arrival.start >= ends + on_the_way) continue;
         Arrival rest = one.arrival;
         rest.signal = Signal::kUndecodable;
-        rest.end = cut;
+        rest.end = ends + on_the_way;
         Flight& flight = take_off(node, channel);
         put(flight, receiver, rest);
         depart(flight);

@@ -162,6 +162,15 @@ bus::GuardianAnswer StarCoupler::judge(const bus::GuardianSignal& signal) const 
   return guardian_.judge(*clock, dynamic_, signal);
 }
 
+// To the instant where the guardian leaves it alone.
+TrueTime StarCoupler::end_of(TrueTime start, TrueTime end, Microticks until) const {
+  const auto& clock = controller_->clock();
+  const Microticks sent = oscillator_.ticks_at(end - Duration{1}) + Microticks{1};   // the first at or after `end`
+  const Microticks ends =
+      clock ? guardian_.end_of(*clock, oscillator_.ticks_at(start), sent, until) : std::min(sent, until);
+  return ends == sent ? end : oscillator_.time_of(ends);
+}
+
 // The controller may still wait for the second frame of somebody whose lead has failed.
 void StarCoupler::lead_begins() {
   if (controller_->state().kind != PocKind::kInitialiseSchedule) return;
@@ -179,15 +188,16 @@ bool StarCoupler::pass(Leaving& signal, const wire::DecodedFrame* frame) {
   bus::GuardianAnswer answer{GuardianReason::kOtherForwarded, {}};
   if (signal.start >= taken_until_) answer = judge(asked);
   ++count_[static_cast<std::size_t>(answer.reason)];
-  const TrueTime until = answer.forwards() ? oscillator_.time_of(answer.until) : signal.start;
+  const TrueTime until = answer.forwards() ? end_of(signal.start, signal.end, answer.until) : signal.start;
   const bool cut = answer.forwards() && signal.end > until;
   cut_ += cut ? 1 : 0;
+  held_ += until > signal.end ? 1 : 0;
   if (told_ && (cut || !answer.forwards()))
     told_({signal.start, signal.sender, channel_, signal.signal, answer.reason, until});
   if (!answer.forwards()) return false;
   if (turns_.forwarded(asked, controller_->clock().has_value())) lead_begins();
+  signal.end = until;
   if (cut) {
-    signal.end = until;
     signal.signal = Signal::kUndecodable;
     signal.bytes = {};
   }
@@ -204,13 +214,18 @@ void StarCoupler::disturbed(const Leaving& signal) {
   hear(kNoNode, noise, nullptr);
 }
 
-void StarCoupler::fell_silent(NodeId branch, TrueTime at) {
-  for (Hearing& heard : hearing_) {
-    if (heard.branch != branch || heard.end <= at) continue;
-    heard.signal = Signal::kUndecodable;
-    heard.end = std::max(at, heard.start + Duration{1});
-    taken_until_ = heard.end;   // what is forwarded is the only one with a branch
-  }
+TrueTime StarCoupler::fell_silent(NodeId branch, TrueTime at) {
+  // What is forwarded is the only one with a branch.
+  const auto heard = std::find_if(hearing_.begin(), hearing_.end(),
+                                  [&](const Hearing& one) { return one.branch == branch && one.end > at; });
+  if (failure_ != Failure::kNone || heard == hearing_.end()) return at;
+  // The clock is still in the cycle in which the signal began: it has not been delivered yet.
+  const TrueTime silent = std::max(at, heard->start + Duration{1});
+  const TrueTime ends = std::max(silent, end_of(heard->start, silent, oscillator_.ticks_at(heard->end)));
+  held_ += ends > silent ? 1 : 0;
+  heard->signal = Signal::kUndecodable;
+  heard->end = taken_until_ = ends;
+  return ends;
 }
 
 }  // namespace ttf::sim

@@ -59,12 +59,13 @@ class StarCoupler final : public Coupler {
 
   bool pass(Leaving& signal, const wire::DecodedFrame* frame) override;
   void disturbed(const Leaving& signal) override;
-  void fell_silent(NodeId branch, TrueTime at) override;
+  TrueTime fell_silent(NodeId branch, TrueTime at) override;
 
   std::uint64_t forwarded() const { return count_[0]; }                       // also what was cut
   std::uint64_t blocked(bus::GuardianReason reason) const { return count_[static_cast<std::size_t>(reason)]; }
   std::uint64_t blocked() const;                                              // for any reason
   std::uint64_t cut() const { return cut_; }
+  std::uint64_t held() const { return held_; }                                // to a minislot action point
   // As of the last signal, or of catch_up().
   const bus::PocState& state() const { return controller_->state(); }
   const std::optional<timebase::CycleClock>& clock() const { return controller_->clock(); }
@@ -83,6 +84,7 @@ class StarCoupler final : public Coupler {
   };
 
   bus::GuardianAnswer judge(const bus::GuardianSignal& signal) const;
+  TrueTime end_of(TrueTime start, TrueTime end, Microticks until) const;
   void power_on(Microticks now);
   void advance(Microticks to);
   void deliver(const Hearing& heard);
@@ -102,7 +104,7 @@ class StarCoupler final : public Coupler {
   std::vector<Hearing> hearing_;
   Failure failure_ = Failure::kNone;
   std::array<std::uint64_t, bus::kAllGuardianReasons.size()> count_{};
-  std::uint64_t cut_ = 0;
+  std::uint64_t cut_ = 0, held_ = 0;
   std::function<void(const Intervention&)> told_;
 };
 

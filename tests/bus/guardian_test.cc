@@ -1,5 +1,5 @@
 // The laws of the central guardian's pure part (bus/guardian.h G1 to G8, bus/guardian_startup.h S1 to S6), over every node, slot,
-// channel and cycle of a schedule, at the edges of every window.
+// channel and cycle of a schedule, at the edges of every window. G9 is guardian_ends_test.cc's.
 #include "bus/guardian.h"
 
 #include <gtest/gtest.h>

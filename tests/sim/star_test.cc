@@ -28,7 +28,7 @@ schedules::Cluster star(std::int64_t min_delay_ps, std::int64_t max_delay_ps) {
 struct TestCoupler final : sim::Coupler {
   std::vector<Leaving> heard, out_of_nothing;
   bool open = true;
-  std::optional<TrueTime> cut;
+  std::optional<TrueTime> cut, hold;
   bool pass(Leaving& signal, const wire::DecodedFrame* frame) override {
     EXPECT_EQ(frame != nullptr, signal.signal == bus::Signal::kFrame);
     heard.push_back(signal);
@@ -36,7 +36,7 @@ struct TestCoupler final : sim::Coupler {
     return open;
   }
   void disturbed(const Leaving& signal) override { out_of_nothing.push_back(signal); }
-  void fell_silent(NodeId, TrueTime) override {}
+  TrueTime fell_silent(NodeId, TrueTime at) override { return hold.value_or(at); }
 };
 
 // All branches alike, so that the laws' nodes are as far from one another as they ask for.
@@ -73,9 +73,9 @@ struct Bench {
   void send(std::size_t node, Signal signal, TrueTime start, TrueTime end) {
     medium.transmit(static_cast<NodeId>(node), {Channel::kA, signal, {}, {}, 0, {}}, start, end);
   }
-  std::vector<Reached> run() {
+  std::vector<Reached> run(TrueTime until = Disturbance::kNever) {
     std::vector<Reached> reached;
-    while (!queue.empty()) {
+    while (!queue.empty() && queue.next().time <= until) {
       const TrueTime now = queue.next().time;
       const MediumEvent event = queue.pop();
       if (const auto arrival = medium.arrive(event, now)) {
@@ -135,6 +135,25 @@ TEST(Star, WhatTheCouplerBlocksReachesNobodyAndWhatItCutsEndsThere) {
   for (const auto& one : reached) {
     EXPECT_EQ(one.signal, Signal::kUndecodable);
     EXPECT_EQ(one.end, TrueTime{23'000} + bench.medium.branch(static_cast<NodeId>(one.node)));
+  }
+}
+
+TEST(Star, WhatIsLeftOfANodeThatFellSilentEndsForAllWhereTheCouplerEndsIt) {
+  for (const bool held : {false, true}) {
+    Bench bench;
+    const NodeId sender{1};
+    const TrueTime silent{30'000};
+    const TrueTime ends = held ? TrueTime{41'000} : silent + bench.medium.branch(sender);
+    if (held) bench.coupler.hold = ends;
+    bench.send(1, Signal::kWakeup, TrueTime{10'000}, TrueTime{60'000});
+    EXPECT_TRUE(bench.run(silent).empty());
+    bench.medium.power_off(sender, silent);
+    const auto reached = bench.run();
+    ASSERT_EQ(reached.size(), laws::kNodes - 1);
+    for (const auto& one : reached) {
+      EXPECT_EQ(one.signal, Signal::kUndecodable);
+      EXPECT_EQ(one.end, ends + bench.medium.branch(static_cast<NodeId>(one.node)));
+    }
   }
 }
 
