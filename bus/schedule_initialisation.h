@@ -7,7 +7,9 @@
 //
 // Readings taken: the first startup frame of an even cycle is the one whose partner is waited for, on each
 // channel by itself; a pair more than pRateCorrectionOut away from pMicroPerCycle is refused, and listening
-// begins anew.
+// begins anew. Nothing is remembered of an attempt that failed: deriving begins "as soon as a valid startup frame has
+// been received" (SPNU563A 26.2.6.7.4, 26.2.6.7.5), with the same node's again and again if it is the first to be heard
+// (docs/fault_campaign.md says what that may cost).
 #pragma once
 
 #include <array>
