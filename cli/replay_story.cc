@@ -22,8 +22,7 @@ std::string_view text(bus::Signal signal) {
 }  // namespace
 
 void ReplayStory::say(TrueTime at, const std::string& text) const {
-  fmt::print("  {:>10.3f} ms  cycle {:>6.2f}  {}\n", in_ms(at),
-             static_cast<double>(at.ns) / static_cast<double>(cluster_.cycle().ns), text);
+  fmt::print("  {:>10.3f} ms  cycle {:>6.2f}  {}\n", in_ms(at), in_units_of(cluster_.cycle(), at - TrueTime{}), text);
 }
 
 void ReplayStory::state_changed(NodeId node, bus::PocKind from, const bus::PocStep& step, TrueTime at) {
@@ -41,7 +40,7 @@ void ReplayStory::guardian_intervened(const sim::StarCoupler::Intervention& inte
   if (++interventions_ > kShown) return;
   const bool cut = intervention.reason == bus::GuardianReason::kForwarded;
   say(intervention.at, fmt::format("guardian of {} {} {} of {}{}{}",
-                                   intervention.channel == schedules::Channel::kA ? 'A' : 'B', cut ? "cuts off" : "blocks",
+                                   letter(intervention.channel), cut ? "cuts off" : "blocks",
                                    text(intervention.signal),
                                    intervention.branch == kNoNode ? "nobody" : cluster_.node(intervention.branch).name,
                                    cut ? "" : ": ", cut ? "" : bus::to_text(intervention.reason)));

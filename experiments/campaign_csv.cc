@@ -16,14 +16,6 @@ constexpr std::string_view kHeader =
     "harmed,sender,slot,still_out,detected_after_ns,passive_after_ns,halt_after_ns,harmed_after_ns,reintegrated_after_ns";
 constexpr std::size_t kColumns = 21;
 
-template <class All>
-std::string names(unsigned bits, const All& all) {
-  std::string out;
-  for (std::size_t i = 0; i < all.size(); ++i)
-    if ((bits >> i & 1u) != 0) out += fmt::format("{}{}", out.empty() ? "" : "+", name_of(all[i]));
-  return out;
-}
-
 std::string number(const std::optional<std::int64_t>& value) { return value ? fmt::to_string(*value) : ""; }
 
 std::string_view node_name(NodeId node, const schedules::Cluster& cluster) {
@@ -110,8 +102,8 @@ std::string campaign_csv(const CampaignFile& campaign, const CampaignClusters& c
       const FaultOutcome& o = result.outcomes[v];
       out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
                          drawn_text(result, campaign.variants[v], clusters.base), o.activated ? "yes" : "no",
-                         o.starts_without ? "yes" : "no", names(o.seen_by_others, kAllChecks),
-                         names(o.seen_by_itself, kAllChecks), names(o.harms, kAllHarms), node_name(o.harmed, clusters.base),
+                         o.starts_without ? "yes" : "no", names_of(o.seen_by_others, kAllChecks),
+                         names_of(o.seen_by_itself, kAllChecks), names_of(o.harms, kAllHarms), node_name(o.harmed, clusters.base),
                          node_name(o.sender, clusters.base), o.slot, o.still_out, number(o.detected_after),
                          number(o.passive_after), number(o.halt_after), number(o.harmed_after), number(o.reintegrated_after));
     }

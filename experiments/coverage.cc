@@ -9,8 +9,7 @@ namespace {
 
 std::string in_cycles(const Spread& spread, Duration cycle) {
   if (spread.count == 0) return "-";
-  const auto cycles = [&](std::int64_t ns) { return static_cast<double>(ns) / static_cast<double>(cycle.ns); };
-  return fmt::format("{:.1f} / {:.1f}", cycles(spread.median_ns), cycles(spread.worst_ns));
+  return fmt::format("{:.1f} / {:.1f}", in_units_of(cycle, {spread.median_ns}), in_units_of(cycle, {spread.worst_ns}));
 }
 
 std::string_view short_name(Check check) {
@@ -110,15 +109,11 @@ std::string coverage_text(const Coverage& coverage, Duration cycle) {
 }
 
 std::string harm_text(const FaultOutcome& outcome, const schedules::Cluster& cluster) {
-  std::string out;
-  for (const Harm harm : kAllHarms)
-    if ((outcome.harms >> static_cast<unsigned>(harm) & 1u) != 0)
-      out += fmt::format("{}{}", out.empty() ? "" : "+", name_of(harm));
+  std::string out = names_of(outcome.harms, kAllHarms);
   if (outcome.harmed != kNoNode) out += fmt::format(" at {}", cluster.node(outcome.harmed).name);
   if (outcome.sender != kNoNode) out += fmt::format(", {}'s slot {}", cluster.node(outcome.sender).name, outcome.slot);
   if (outcome.harmed_after)
-    out += fmt::format(", {:.1f} cycles after the fault's first act",
-                       static_cast<double>(*outcome.harmed_after) / static_cast<double>(cluster.cycle().ns));
+    out += fmt::format(", {:.1f} cycles after the fault's first act", in_units_of(cluster.cycle(), {*outcome.harmed_after}));
   return out;
 }
 

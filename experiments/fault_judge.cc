@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "bus/slot_table.h"
 #include "core/check.h"
+#include "schedules/round.h"
 
 namespace ttf::experiments {
 namespace {
@@ -59,6 +61,24 @@ std::string_view name_of(Harm harm) {
     case Harm::kFrameForged: return "frame_forged";
   }
   TTF_CHECK(false, "harm {}", static_cast<int>(harm));
+}
+
+std::vector<bool> named_by(const nodes::Fault& fault, const schedules::Cluster& cluster) {
+  std::vector<bool> named(cluster.nodes.size(), false);
+  if (fault.node != kNoNode) named[index_of(fault.node)] = true;
+  if (fault.kind != nodes::FaultKind::kLoneColdstart) return named;
+  for (std::size_t n = 0; n < named.size(); ++n) {
+    const auto& p = cluster.nodes[n].flexray;
+    if (p && (fault.all_others || p->pKeySlotUsedForStartup)) named[n] = true;
+  }
+  return named;
+}
+
+NodeId owner_of(const schedules::Cluster& cluster, int slot, Channel channel, std::int64_t cycle) {
+  const auto counter = static_cast<int>(cycle & (schedules::kCycles - 1));
+  for (const schedules::FrameSlot& frame : cluster.frames)
+    if (frame.slot == slot && includes(frame.channels, channel) && bus::in_cycle(frame, counter)) return frame.sender;
+  return kNoNode;
 }
 
 bool Judgement::harmed() const {
@@ -193,16 +213,9 @@ void FaultJudge::frame_sent(NodeId id, int slot, Channel channel, std::span<cons
   owed.left[c] = when;
 }
 
-NodeId FaultJudge::owner(int slot, Channel channel, int cycle) const {
-  for (const schedules::FrameSlot& frame : cluster_.frames)
-    if (frame.slot == slot && includes(frame.channels, channel) && cycle % frame.repetition == frame.base_cycle)
-      return frame.sender;
-  return kNoNode;
-}
-
 void FaultJudge::frame_received(NodeId id, int slot, Channel channel, const wire::DecodedFrame& frame, TrueTime when) {
   if (faulty(id) || slot < 0 || static_cast<std::size_t>(slot) >= owed_.size()) return;
-  const NodeId sender = owner(slot, channel, frame.header.cycle);
+  const NodeId sender = owner_of(cluster_, slot, channel, frame.header.cycle);
   if (sender == kNoNode || faulty(sender) || sender == id) return;
   Owed& owed = owed_[static_cast<std::size_t>(slot)];
   const auto c = index_of(channel);

@@ -17,12 +17,14 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "bus/controller.h"
 #include "core/ids.h"
 #include "core/time.h"
+#include "nodes/fault_plan.h"
 #include "schedules/cluster.h"
 
 namespace ttf::experiments {
@@ -42,6 +44,23 @@ enum class Harm : std::uint8_t { kLeftActive, kNotStarted, kPrecision, kFrameLos
 inline constexpr std::array kAllHarms = {Harm::kLeftActive, Harm::kNotStarted, Harm::kPrecision, Harm::kFrameLost,
                                          Harm::kFrameForged};
 std::string_view name_of(Harm harm);
+
+// Those of `all` whose bit is set, joined by "+".
+template <class All>
+std::string names_of(unsigned bits, const All& all) {
+  std::string out;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if ((bits >> i & 1u) == 0) continue;
+    if (!out.empty()) out += '+';
+    out += name_of(all[i]);
+  }
+  return out;
+}
+
+// The nodes that the fault names, or takes the supply of, by NodeId.
+std::vector<bool> named_by(const nodes::Fault& fault, const schedules::Cluster& cluster);
+// Whose frame is expected there in this cycle; kNoNode: nobody's.
+NodeId owner_of(const schedules::Cluster& cluster, int slot, schedules::Channel channel, std::int64_t cycle);
 
 // What the judge has found.
 struct Judgement {
@@ -122,7 +141,6 @@ class FaultJudge {
   void harm(Harm harm, TrueTime at, NodeId node, NodeId sender = kNoNode, int slot = 0);
   void collect(Owed& owed, int slot);
   void came_back(Node& node, TrueTime at);
-  NodeId owner(int slot, schedules::Channel channel, int cycle) const;
 
   const schedules::Cluster& cluster_;
   JudgeSettings settings_;

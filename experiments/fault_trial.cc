@@ -245,16 +245,6 @@ class Trial final : public sim::Disturbance, public sim::Plant, public records::
   std::unique_ptr<sim::Injector> injector_;
 };
 
-// The nodes that the fault names, or takes the supply of.
-std::vector<bool> named_by(const nodes::Fault& fault, const schedules::Cluster& cluster) {
-  std::vector<bool> faulty(cluster.nodes.size(), false);
-  if (fault.node != kNoNode) faulty[index_of(fault.node)] = true;
-  if (fault.kind == nodes::FaultKind::kLoneColdstart)
-    for (std::size_t n = 0; n < faulty.size(); ++n)
-      if (fault.all_others || cluster.nodes[n].flexray->pKeySlotUsedForStartup) faulty[n] = true;
-  return faulty;
-}
-
 template <class Times>
 std::uint16_t bits_of(const Times& times) {
   unsigned bits = 0;
@@ -295,7 +285,7 @@ FaultOutcome run_trial(const CampaignFile& campaign, const schedules::Cluster& c
   const bool starts_up = drawn.starts_up;
   const TrueTime end = TrueTime{} + cluster.cycle() * (starts_up ? campaign.startup_cycles : campaign.steady_cycles);
   JudgeSettings settings;
-  settings.assumed_precision = {schedules::assumed_precision_ps(cluster.flexray) / 1000};
+  settings.assumed_precision = schedules::assumed_precision(cluster.flexray);
   settings.starts_up = starts_up;
   bool starts_without = true;
   if (starts_up) {

@@ -16,8 +16,6 @@ namespace {
 using schedules::Channel;
 using schedules::Channels;
 
-char letter(Channel channel) { return channel == Channel::kA ? 'A' : 'B'; }
-
 struct Frame {
   std::uint64_t number = 0;
   std::optional<std::int64_t> time_ns;

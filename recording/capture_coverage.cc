@@ -73,7 +73,7 @@ void CaptureCoverage::close_cycle(int before_slot) {
         was_damaged(owned))
       continue;
     missing_(after, 1,
-             fmt::format("slot {} on {}, cycle {}: has no frame", owned.slot, owned.channel == Channel::kA ? 'A' : 'B',
+             fmt::format("slot {} on {}, cycle {}: has no frame", owned.slot, letter(owned.channel),
                          counter_));
   }
 }

@@ -123,7 +123,7 @@ std::string export_csv(const FrameCollector& collector, const std::vector<Logged
       flags = flexray_flags(checked);
       payload = checked.header_and_payload;
       payload = payload.subspan(std::min(payload.size(), wire::kHeaderBytes));
-      out += fmt::format("{},{},{},{},", frame.time_ns, kFlexRayName, frame.channel == 0 ? 'A' : 'B', frame.cycle);
+      out += fmt::format("{},{},{},{},", frame.time_ns, kFlexRayName, letter(channel_of(frame)), frame.cycle);
     } else {
       flags = can_flags(frame);
       out += fmt::format("{},{},,,", frame.time_ns, quoted(names.can_bus(frame.channel)));

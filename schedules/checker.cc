@@ -67,6 +67,8 @@ std::int64_t assumed_precision_ps(const GlobalParameters& g) {
          2 * g.gdMaxPropagationDelay_ps;
 }
 
+Duration assumed_precision(const GlobalParameters& g) { return {ceil_div(assumed_precision_ps(g), 1000)}; }
+
 std::int64_t shortest_static_slot(const GlobalParameters& g) {
   return around_action_points(g, frame_bits(g, g.gPayloadLengthStatic) + kIdleDelimiterBits, 0);
 }

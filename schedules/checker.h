@@ -64,6 +64,9 @@ void check_flow(const Cluster& cluster, ClusterFindings& findings);   // readers
 
 // gAssumedPrecision = (34 + 20 gClusterDriftDamping) gdMaxMicrotick + 2 gdMaxPropagationDelay, in picoseconds.
 std::int64_t assumed_precision_ps(const GlobalParameters& flexray);
+// The same rounded up to whole nanoseconds: readings of two clocks that are further apart than this are so whichever way they
+// were rounded.
+Duration assumed_precision(const GlobalParameters& flexray);
 // Shortest static slot that holds a frame of gPayloadLengthStatic words, in macroticks.
 std::int64_t shortest_static_slot(const GlobalParameters& flexray);
 

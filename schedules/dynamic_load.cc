@@ -61,7 +61,7 @@ std::string dynamic_text(const Cluster& cluster) {
                                  g.gdMinislot);
   for (const DynamicLoad& load : dynamic_load(cluster))
     text += fmt::format("{} {} takes {} ({:.1f} %)", load.channel == Channel::kA ? "" : ",",
-                        load.channel == Channel::kA ? 'A' : 'B', load.minislots, 100.0 * load.share);
+                        letter(load.channel), load.minislots, 100.0 * load.share);
   text += fmt::format("\n{:>9}  {:<2}  {:<12}{:<24}{:>15}  {}\n", "slot", "ch", "sender", "list", "minislots each",
                       "turn in minislot");
   for (const DynamicList& list : lists) {

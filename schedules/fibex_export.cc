@@ -17,7 +17,6 @@ namespace {
 
 constexpr Channel kChannels[] = {Channel::kA, Channel::kB};
 
-char letter(Channel channel) { return channel == Channel::kA ? 'A' : 'B'; }
 std::string channel_id(Channel channel) { return fmt::format("channel_{}", letter(channel)); }
 std::string controller_id(std::size_t node) { return fmt::format("controller_{}", node); }
 std::string triggering_id(std::size_t frame, Channel channel) {

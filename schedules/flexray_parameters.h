@@ -11,6 +11,7 @@ namespace ttf::schedules {
 
 enum class Channel : std::uint8_t { kA = 0, kB = 1 };
 enum class Channels : std::uint8_t { kA = 1, kB = 2, kAB = 3 };
+constexpr char letter(Channel channel) { return channel == Channel::kA ? 'A' : 'B'; }
 constexpr bool includes(Channels set, Channel one) {
   return (static_cast<unsigned>(set) >> static_cast<unsigned>(one)) & 1u;
 }

@@ -84,7 +84,6 @@ class ActiveFault {
   FaultSetting setting_;
 };
 
-constexpr char letter(schedules::Channel channel) { return channel == schedules::Channel::kA ? 'A' : 'B'; }
 inline constexpr std::array kBothChannels = {schedules::Channel::kA, schedules::Channel::kB};
 
 }  // namespace ttf::sim
