@@ -43,6 +43,7 @@ struct Payloads {
   ttfusion::Symbol symbol;
   ttfusion::Power power;
   ttfusion::Fault fault;
+  ttfusion::Guardian guardian;
 
   // The payload of each kind; null for a value that is no kind.
   google::protobuf::Message* of(RecordKind kind);
@@ -75,6 +76,7 @@ Encoded encode(const records::StateChanged&, Payloads&);
 Encoded encode(const records::SymbolSent&, Payloads&);
 Encoded encode(const records::PowerChanged&, Payloads&);
 Encoded encode(const records::FaultActivity&, Payloads&);
+Encoded encode(const records::GuardianIntervention&, Payloads&);
 
 class Decoder {
  public:

@@ -109,6 +109,8 @@ google::protobuf::Message* Payloads::of(RecordKind kind) {
       return &power;
     case RecordKind::kFault:
       return &fault;
+    case RecordKind::kGuardian:
+      return &guardian;
   }
   return nullptr;
 }
@@ -270,6 +272,14 @@ bool Decoder::decode(RecordKind kind, std::string_view bytes, records::Sink& sin
           TrueTime{in.at()}, in.fault(),
           narrow.to<std::uint8_t>(in.what(), records::kFaultBegins, records::kFaultEnds),
           narrow.id<NodeId>(in.node()), in.kind(), in.text()});
+    }
+    case RecordKind::kGuardian: {
+      const auto& in = payloads_.guardian;
+      return hand_on(records::GuardianIntervention{
+          TrueTime{in.at()}, narrow.id<NodeId>(in.branch()),
+          narrow.to<std::uint8_t>(in.channel(), std::uint8_t{0}, std::uint8_t{1}),
+          narrow.to<std::uint8_t>(in.signal(), records::kSignalFrame, records::kSignalUndecodable),
+          narrow.to<std::uint8_t>(in.reason()), in.cut(), TrueTime{in.until()}, in.why()});
     }
   }
   return false;

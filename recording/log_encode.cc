@@ -309,4 +309,17 @@ Encoded encode(const records::FaultActivity& in, Payloads& payloads) {
   return {RecordKind::kFault, &out, {in.at.ns, in.at.ns}};
 }
 
+Encoded encode(const records::GuardianIntervention& in, Payloads& payloads) {
+  auto& out = payloads.guardian;
+  out.set_at(in.at.ns);
+  out.set_branch(number(in.branch));
+  out.set_channel(in.channel);
+  out.set_signal(in.signal);
+  out.set_reason(in.reason);
+  out.set_cut(in.cut);
+  out.set_until(in.until.ns);
+  fill_text(*out.mutable_why(), in.why);
+  return {RecordKind::kGuardian, &out, {in.at.ns, in.at.ns}};
+}
+
 }  // namespace ttf::recording

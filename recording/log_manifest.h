@@ -59,15 +59,17 @@ enum class RecordKind : std::uint8_t {
   kSymbol,
   kPower,
   kFault,
+  kGuardian,
 };
-inline constexpr std::size_t kRecordKinds = 21;
+inline constexpr std::size_t kRecordKinds = 22;
 
 // Topic of each kind, by value - 1.
 inline constexpr std::array<std::string_view, kRecordKinds> kTopics{
     "/measured",        "/can_frame", "/slot_frame",   "/slot_problem", "/list_hop",    "/task_run",
     "/clock_corrected", "/precision", "/fusion_input", "/list_fused",   "/fusion_step", "/track",
     "/observation",     "/image",     "/feature",      "/reference",    "/truth",
-    "/state_change",    "/symbol",    "/power",        "/fault"};
+    "/state_change",    "/symbol",    "/power",        "/fault",
+    "/guardian"};
 
 constexpr std::string_view topic_of(RecordKind kind) { return kTopics[static_cast<std::size_t>(kind) - 1]; }
 

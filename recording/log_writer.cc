@@ -129,5 +129,6 @@ void LogWriter::on(const records::StateChanged& record) { write(record); }
 void LogWriter::on(const records::SymbolSent& record) { write(record); }
 void LogWriter::on(const records::PowerChanged& record) { write(record); }
 void LogWriter::on(const records::FaultActivity& record) { write(record); }
+void LogWriter::on(const records::GuardianIntervention& record) { write(record); }
 
 }  // namespace ttf::recording

@@ -58,6 +58,7 @@ class LogWriter final : public records::Sink {
   void on(const records::SymbolSent&) override;
   void on(const records::PowerChanged&) override;
   void on(const records::FaultActivity&) override;
+  void on(const records::GuardianIntervention&) override;
 
  private:
   struct Impl;

@@ -36,6 +36,28 @@ bus::InitialClock integrated(const timebase::Oscillator& oscillator, const sched
   return clock;
 }
 
+std::uint8_t signal_of(bus::Signal signal) {
+  switch (signal) {
+    case bus::Signal::kFrame: return records::kSignalFrame;
+    case bus::Signal::kCas: return records::kSignalCas;
+    case bus::Signal::kWakeup: return records::kSignalWakeup;
+    case bus::Signal::kUndecodable: return records::kSignalUndecodable;
+  }
+  TTF_CHECK(false, "signal {}", static_cast<int>(signal));
+}
+
+records::GuardianIntervention record_of(const StarCoupler::Intervention& one) {
+  const bool cut = one.reason == bus::GuardianReason::kForwarded;
+  return {one.at,
+          one.branch,
+          static_cast<std::uint8_t>(one.channel),
+          signal_of(one.signal),
+          static_cast<std::uint8_t>(one.reason),
+          cut,
+          one.until,
+          cut ? "longer than one of its kind may last" : bus::to_text(one.reason)};
+}
+
 void add(nodes::ExecutiveCounts& sum, const nodes::ExecutiveCounts& one) {
   sum.overruns += one.overruns;
   sum.deadlines_missed += one.deadlines_missed;
@@ -145,6 +167,7 @@ void ClusterSimulation::make_guardian(schedules::Channel channel) {
   schedules::Node crystal;
   crystal.microtick_ps = StarCoupler::microtick_ps(cluster_, channel);
   seat_guardian(channel, make_oscillator(crystal, cluster_.nodes.size() + index_of(channel), config_));
+  coupler(channel)->on_intervention([this](const StarCoupler::Intervention& one) { sink_.on(record_of(one)); });
   bool integrated = false;
   for (std::size_t n = 0; n < nodes_.size(); ++n) integrated |= cluster_.nodes[n].flexray && is_powered(n);
   if (integrated) coupler(channel)->start_integrated(kFirstCycle, cluster_.cycle());

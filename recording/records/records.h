@@ -161,6 +161,23 @@ struct FaultActivity {
   std::string_view text;             // one sentence
 };
 
+// What the central guardian of one channel kept from the others, wholly or from `until` on. It belongs to no node, so its true
+// time is all there is.
+inline constexpr std::uint8_t kSignalFrame = 1;
+inline constexpr std::uint8_t kSignalCas = 2;           // collision avoidance or media access test symbol
+inline constexpr std::uint8_t kSignalWakeup = 3;        // a wake-up pattern
+inline constexpr std::uint8_t kSignalUndecodable = 4;
+struct GuardianIntervention {
+  TrueTime at{};                     // the signal begins at the coupler
+  NodeId branch = kNoNode;           // on whose branch
+  std::uint8_t channel = 0;          // 0 A, 1 B
+  std::uint8_t signal = kSignalFrame;
+  std::uint8_t reason = 0;           // as bus::GuardianReason, 0 where it was cut
+  bool cut = false;                  // else blocked
+  TrueTime until{};                  // cut: so far it went through; blocked: `at`
+  std::string_view why;              // the reason in words
+};
+
 // Largest difference between any two nodes' global times within a double cycle: seen by the simulator, which belongs to no
 // node, so its true time is all there is.
 struct PrecisionSample {
@@ -303,6 +320,7 @@ class Sink {
   virtual void on(const SymbolSent&) {}
   virtual void on(const PowerChanged&) {}
   virtual void on(const FaultActivity&) {}
+  virtual void on(const GuardianIntervention&) {}
 };
 
 }  // namespace ttf::records

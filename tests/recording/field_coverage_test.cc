@@ -36,12 +36,14 @@ class Fill {
   }
 
  private:
-  // Dispositions, hops, symbols and what a fault does are small choices, an object's status has four bits; everything else
-  // takes the next number.
+  // Dispositions, hops, symbols, signals and what a fault does are small choices, an object's status has four bits, a guardian
+  // one of two channels; everything else takes the next number.
   std::uint32_t whole(const FieldDescriptor& field) {
+    if (field.full_name() == "ttfusion.Guardian.channel") return 1;
     const bool small = field.name() == "disposition" || field.name() == "hop" ||
                        field.full_name() == "ttfusion.ImageObject.status" ||
-                       field.full_name() == "ttfusion.Symbol.kind" || field.full_name() == "ttfusion.Fault.what";
+                       field.full_name() == "ttfusion.Symbol.kind" ||
+                       field.full_name() == "ttfusion.Guardian.signal" || field.full_name() == "ttfusion.Fault.what";
     return small ? 3 : ++next_;
   }
   void set(Message& message, const FieldDescriptor& field) {
@@ -107,6 +109,7 @@ class Again final : public records::Sink {
   void on(const records::SymbolSent& r) override { again(r); }
   void on(const records::PowerChanged& r) override { again(r); }
   void on(const records::FaultActivity& r) override { again(r); }
+  void on(const records::GuardianIntervention& r) override { again(r); }
 
  private:
   template <class Record>
@@ -214,6 +217,7 @@ TEST(LogFields, ARecordHasAsManyFieldsAsItsPayload) {
   expect_same_fields<records::SymbolSent, ttfusion::Symbol>();
   expect_same_fields<records::PowerChanged, ttfusion::Power>();
   expect_same_fields<records::FaultActivity, ttfusion::Fault>();
+  expect_same_fields<records::GuardianIntervention, ttfusion::Guardian>();
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ inline LogManifest sample_manifest() {
 
 // The kinds in turn, not in their order, all of them.
 inline int kind_of(std::uint32_t i) {
-  constexpr std::size_t kStride = 8;
+  constexpr std::size_t kStride = 5;
   static_assert(std::gcd(kStride, kRecordKinds) == 1);
   return static_cast<int>(i * kStride % kRecordKinds) + 1;
 }

@@ -230,6 +230,9 @@ void TextSink::on(const records::PowerChanged& r) { lines.push_back(line("power"
 void TextSink::on(const records::FaultActivity& r) {
   lines.push_back(line("fault", r.at, r.fault, r.what, r.node, r.kind, r.text));
 }
+void TextSink::on(const records::GuardianIntervention& r) {
+  lines.push_back(line("guardian", r.at, r.branch, r.channel, r.signal, r.reason, r.cut, r.until, r.why));
+}
 
 void emit(records::Sink& sink, int kind, Values values, std::uint32_t index, std::int64_t at_ns) {
   Draw d(kind, values, index, at_ns);
@@ -325,6 +328,12 @@ void emit(records::Sink& sink, int kind, Values values, std::uint32_t index, std
       return sink.on(records::FaultActivity{d.get<TrueTime>(), d.get<U32>(),
                                             d.choice(records::kFaultBegins, records::kFaultEnds), d.get<NodeId>(),
                                             words[0], words[1]});
+    }
+    case 22: {
+      const auto words = d.fixed<std::string>(1);
+      return sink.on(records::GuardianIntervention{d.get<TrueTime>(), d.get<NodeId>(), d.choice(U8{0}, U8{1}),
+                                                   d.choice(records::kSignalFrame, records::kSignalUndecodable),
+                                                   d.get<U8>(), d.get<bool>(), d.get<TrueTime>(), words[0]});
     }
   }
 }
