@@ -10,8 +10,12 @@ namespace ttf::cli {
 namespace {
 
 using experiments::CheckSeen;
+using experiments::FaultEffects;
+using experiments::FaultFindings;
 using experiments::FaultSeen;
+using experiments::GuardianSeen;
 using experiments::Harm;
+using experiments::HarmSeen;
 using experiments::StateSeen;
 
 double seconds(TrueTime at) { return (at - TrueTime{}).seconds(); }
@@ -39,49 +43,80 @@ std::string_view words(Harm harm) {
   return "";
 }
 
-std::string injected_text(const std::vector<FaultSeen>& faults, const schedules::Cluster& cluster) {
+constexpr std::string_view kUnattributed = "unattributed";
+
+// Every fault's effects by what it is called in the tables, and last what belongs to none.
+template <class Each>
+void for_each(const FaultFindings& findings, Each each) {
+  for (const FaultSeen& fault : findings.faults) each(fmt::format("{}", fault.fault), fault, std::optional(fault.begins));
+  each(std::string(kUnattributed), findings.unattributed, std::optional<TrueTime>());
+}
+
+std::string injected_text(const FaultFindings& findings, const schedules::Cluster& cluster) {
   report::Table table({"#", "fault", "node", "begins [s]", "first act [s]", "acts", "ends [s]", "what it did first"});
-  for (const FaultSeen& fault : faults)
+  for (const FaultSeen& fault : findings.faults)
     table.add({fmt::format("{}", fault.fault), fault.kind, node_name(fault.node, cluster), cell(fault.begins),
                cell(fault.first_act), fmt::format("{}", fault.acts), cell(fault.ends), fault.text});
   return table.text();
 }
 
-std::string checks_text(const std::vector<FaultSeen>& faults, const schedules::Cluster& cluster) {
+std::string seers(const CheckSeen& seen, const schedules::Cluster& cluster) {
+  std::string names = node_names(seen.nodes, cluster);
+  for (const auto channel : {schedules::Channel::kA, schedules::Channel::kB})
+    if (seen.guardians[index_of(channel)]) names += fmt::format("{}guardian {}", names.empty() ? "" : ", ", letter(channel));
+  return names;
+}
+
+std::string checks_text(const FaultFindings& findings, const schedules::Cluster& cluster) {
   report::Table table({"#", "check", "cycles", "after [ms]", "seen by"});
-  for (const FaultSeen& fault : faults)
+  for_each(findings, [&](const std::string& name, const FaultEffects& effects, std::optional<TrueTime> begins) {
     for (const auto check : experiments::kAllChecks)
       for (const bool faulty : {false, true}) {
-        const CheckSeen& seen = (faulty ? fault.by_faulty : fault.by_others)[static_cast<std::size_t>(check)];
+        const CheckSeen& seen = (faulty ? effects.by_faulty : effects.by_others)[static_cast<std::size_t>(check)];
         if (seen.cycles == 0) continue;
-        table.add({fmt::format("{}", fault.fault), std::string(name_of(check)), fmt::format("{}", seen.cycles),
-                   report::cell(1e3 * (seen.first - fault.begins).seconds(), 3),
-                   node_names(seen.nodes, cluster) + (faulty ? " (faulty)" : "")});
+        table.add({name, std::string(name_of(check)), fmt::format("{}", seen.cycles),
+                   begins ? report::cell(in_ms(seen.first - *begins), 3) : "-",
+                   seers(seen, cluster) + (faulty ? " (faulty)" : "")});
       }
+  });
   return table.rows() == 0 ? "No check saw anything.\n" : table.text();
 }
 
-std::string states_text(const std::vector<FaultSeen>& faults, const schedules::Cluster& cluster) {
+// Empty without guardians, or where they had nothing to do.
+std::string guardians_text(const FaultFindings& findings) {
+  report::Table table({"#", "guardians", "signals", "first cycle", "first [s]", "why"});
+  for_each(findings, [&](const std::string& name, const FaultEffects& effects, std::optional<TrueTime>) {
+    for (const GuardianSeen& kept : effects.guardians)
+      table.add({name, kept.cut ? "cut" : "blocked", fmt::format("{}", kept.signals), fmt::format("{}", kept.first_cycle),
+                 cell(kept.first), kept.why});
+  });
+  return table.rows() == 0 ? "" : table.text() + "\n";
+}
+
+std::string states_text(const FaultFindings& findings, const schedules::Cluster& cluster) {
   report::Table table({"#", "node", "first [s]", "times", "from", "to", "why"});
-  for (const FaultSeen& fault : faults)
-    for (const StateSeen& state : fault.states)
-      table.add({fmt::format("{}", fault.fault), node_name(state.node, cluster), cell(state.first),
-                 fmt::format("{}", state.times), state.from, state.to, state.why});
+  for_each(findings, [&](const std::string& name, const FaultEffects& effects, std::optional<TrueTime>) {
+    for (const StateSeen& state : effects.states)
+      table.add({name, node_name(state.node, cluster), cell(state.first), fmt::format("{}", state.times), state.from,
+                 state.to, state.why});
+  });
   return table.rows() == 0 ? "No node changed its state.\n" : table.text();
 }
 
-std::string harms_text(const std::vector<FaultSeen>& faults, const schedules::Cluster& cluster) {
+std::string harms_text(const FaultFindings& findings, const schedules::Cluster& cluster) {
   std::string text;
-  for (const FaultSeen& fault : faults)
-    for (const Harm harm : experiments::kAllHarms) {
-      const auto& harmed = fault.harms[static_cast<std::size_t>(harm)];
-      if (!harmed) continue;
-      text += fmt::format("HARMED by fault {}, {:.6f} s: {}{}", fault.fault, seconds(harmed->first),
-                          harmed->node == kNoNode ? "" : node_name(harmed->node, cluster) + " ", words(harm));
-      if (harmed->sender != kNoNode)
-        text += fmt::format(": slot {} of {}", harmed->slot, node_name(harmed->sender, cluster));
-      text += "\n";
-    }
+  for_each(findings, [&](const std::string& name, const FaultEffects& effects, std::optional<TrueTime>) {
+    for (const Harm harm : experiments::kAllHarms)
+      for (const HarmSeen& harmed : effects.harms[static_cast<std::size_t>(harm)]) {
+        text += fmt::format("HARMED{}{}, {:.6f} s: {}{}", name == kUnattributed ? ", " : " by fault ", name,
+                            seconds(harmed.first), harmed.node == kNoNode ? "" : node_name(harmed.node, cluster) + " ",
+                            words(harm));
+        if (harmed.sender != kNoNode)
+          text += fmt::format(": slot {} of {}", harmed.slot, node_name(harmed.sender, cluster));
+        if (harmed.times > 1) text += fmt::format(", first of {} times", harmed.times);
+        text += "\n";
+      }
+  });
   return text.empty() ? "No fault-free node was harmed.\n" : text;
 }
 
@@ -91,18 +126,6 @@ nlohmann::ordered_json names_json(const std::vector<NodeId>& nodes, const schedu
   return names;
 }
 
-nlohmann::ordered_json checks_json(const FaultSeen& fault, const schedules::Cluster& cluster) {
-  auto checks = nlohmann::ordered_json::array();
-  for (const auto check : experiments::kAllChecks)
-    for (const bool faulty : {false, true}) {
-      const CheckSeen& seen = (faulty ? fault.by_faulty : fault.by_others)[static_cast<std::size_t>(check)];
-      if (seen.cycles > 0)
-        checks.push_back({{"check", name_of(check)}, {"by_faulty_node", faulty}, {"cycles", seen.cycles},
-                          {"first_s", seconds(seen.first)}, {"nodes", names_json(seen.nodes, cluster)}});
-    }
-  return checks;
-}
-
 nlohmann::ordered_json seconds_or_null(const std::optional<TrueTime>& at) {
   return at ? nlohmann::ordered_json(seconds(*at)) : nlohmann::ordered_json(nullptr);
 }
@@ -110,13 +133,51 @@ nlohmann::ordered_json name_or_null(NodeId node, const schedules::Cluster& clust
   return node == kNoNode ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(node_name(node, cluster));
 }
 
+nlohmann::ordered_json checks_json(const FaultEffects& effects, const schedules::Cluster& cluster) {
+  auto checks = nlohmann::ordered_json::array();
+  for (const auto check : experiments::kAllChecks)
+    for (const bool faulty : {false, true}) {
+      const CheckSeen& seen = (faulty ? effects.by_faulty : effects.by_others)[static_cast<std::size_t>(check)];
+      if (seen.cycles == 0) continue;
+      nlohmann::ordered_json one = {{"check", name_of(check)}, {"by_faulty_node", faulty}, {"cycles", seen.cycles},
+                                    {"first_s", seconds(seen.first)}, {"nodes", names_json(seen.nodes, cluster)}};
+      if (check == experiments::Check::kGuardian) {
+        one["guardians"] = nlohmann::ordered_json::array();
+        for (const auto channel : {schedules::Channel::kA, schedules::Channel::kB})
+          if (seen.guardians[index_of(channel)]) one["guardians"].push_back(std::string(1, letter(channel)));
+      }
+      checks.push_back(std::move(one));
+    }
+  return checks;
+}
+
+// What came of a fault, or of none, is added to `one`.
+void add_effects(nlohmann::ordered_json& one, const FaultEffects& effects, const schedules::Cluster& cluster) {
+  one["checks"] = checks_json(effects, cluster);
+  one["guardians"] = nlohmann::ordered_json::array();
+  for (const GuardianSeen& kept : effects.guardians)
+    one["guardians"].push_back({{"what", kept.cut ? "cut" : "blocked"}, {"why", kept.why}, {"signals", kept.signals},
+                                {"first_cycle", kept.first_cycle}, {"first_s", seconds(kept.first)}});
+  one["states"] = nlohmann::ordered_json::array();
+  for (const StateSeen& state : effects.states)
+    one["states"].push_back({{"node", node_name(state.node, cluster)}, {"from", state.from}, {"to", state.to},
+                             {"why", state.why}, {"first_s", seconds(state.first)}, {"times", state.times}});
+  one["harmed"] = effects.harmed();
+  one["harms"] = nlohmann::ordered_json::array();
+  for (const Harm harm : experiments::kAllHarms)
+    for (const HarmSeen& harmed : effects.harms[static_cast<std::size_t>(harm)])
+      one["harms"].push_back({{"harm", name_of(harm)}, {"first_s", seconds(harmed.first)},
+                              {"node", name_or_null(harmed.node, cluster)}, {"sender", name_or_null(harmed.sender, cluster)},
+                              {"slot", harmed.slot}, {"times", harmed.times}});
+}
+
 }  // namespace
 
-std::string faults_text(std::string_view run, const std::vector<FaultSeen>& faults, const schedules::Cluster& cluster) {
+std::string faults_text(std::string_view run, const FaultFindings& findings, const schedules::Cluster& cluster) {
   std::string text = fmt::format("Faults, {}\n", run);
-  if (faults.empty()) return text + "None of the plan's faults began.\n";
-  return text + injected_text(faults, cluster) + "\n" + checks_text(faults, cluster) + "\n" + states_text(faults, cluster) +
-         "\n" + harms_text(faults, cluster);
+  if (findings.faults.empty()) return text + "None of the plan's faults began.\n";
+  return text + injected_text(findings, cluster) + "\n" + checks_text(findings, cluster) + "\n" +
+         guardians_text(findings) + states_text(findings, cluster) + "\n" + harms_text(findings, cluster);
 }
 
 nlohmann::ordered_json faults_json(const std::vector<FaultSeen>& faults, const schedules::Cluster& cluster) {
@@ -131,21 +192,16 @@ nlohmann::ordered_json faults_json(const std::vector<FaultSeen>& faults, const s
     one["acts"] = fault.acts;
     one["first_act_s"] = seconds_or_null(fault.first_act);
     one["first_act"] = fault.text;
-    one["checks"] = checks_json(fault, cluster);
-    one["states"] = nlohmann::ordered_json::array();
-    for (const StateSeen& state : fault.states)
-      one["states"].push_back({{"node", node_name(state.node, cluster)}, {"from", state.from}, {"to", state.to},
-                               {"why", state.why}, {"first_s", seconds(state.first)}, {"times", state.times}});
-    one["harmed"] = fault.harmed();
-    one["harms"] = nlohmann::ordered_json::array();
-    for (const Harm harm : experiments::kAllHarms)
-      if (const auto& harmed = fault.harms[static_cast<std::size_t>(harm)])
-        one["harms"].push_back({{"harm", name_of(harm)}, {"first_s", seconds(harmed->first)},
-                                {"node", name_or_null(harmed->node, cluster)},
-                                {"sender", name_or_null(harmed->sender, cluster)}, {"slot", harmed->slot}});
+    add_effects(one, fault, cluster);
     json.push_back(std::move(one));
   }
   return json;
+}
+
+nlohmann::ordered_json unattributed_json(const FaultEffects& effects, const schedules::Cluster& cluster) {
+  nlohmann::ordered_json one;
+  add_effects(one, effects, cluster);
+  return one;
 }
 
 }  // namespace ttf::cli

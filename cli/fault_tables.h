@@ -1,5 +1,5 @@
-// What `ttfusion run` says of a fault plan: what was injected, which check saw it and in how many cycles, which nodes changed
-// state, and whether a node without a fault was harmed.
+// What `ttfusion run` says of a fault plan: what was injected, which check saw it and in how many cycles, what guardians kept from
+// the others and why, which nodes changed state, and whether a node without a fault was harmed.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -12,10 +12,10 @@
 
 namespace ttf::cli {
 
-// `run`: what the tables are of, in their first line.
-std::string faults_text(std::string_view run, const std::vector<experiments::FaultSeen>& faults,
-                        const schedules::Cluster& cluster);
+// `run`: what the tables are of, in their first line. What fits none of the faults has lines of its own, "unattributed".
+std::string faults_text(std::string_view run, const experiments::FaultFindings& findings, const schedules::Cluster& cluster);
 // The same, times in seconds from the start of the run; null where there is none.
 nlohmann::ordered_json faults_json(const std::vector<experiments::FaultSeen>& faults, const schedules::Cluster& cluster);
+nlohmann::ordered_json unattributed_json(const experiments::FaultEffects& effects, const schedules::Cluster& cluster);
 
 }  // namespace ttf::cli

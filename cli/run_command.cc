@@ -105,7 +105,7 @@ StrategyResult run_strategy(const RunOptions& options, const nodes::Scenario& sc
   result.cluster = checked_cluster(scenario.cluster_files[static_cast<std::size_t>(strategy)]);
   experiments::DriveMeasures measures(sim::evaluation_start(scenario));
   experiments::StartupAccount startup(result.cluster.cycle());
-  experiments::FaultReport faults(result.cluster, !scenario.startup.cold);
+  experiments::FaultReport faults(result.cluster, nodes::resolve(scenario.faults, result.cluster), !scenario.startup.cold);
   std::vector<records::Sink*> sinks{&measures, &startup};
   if (!scenario.faults.empty()) sinks.push_back(&faults);
   std::unique_ptr<recording::LogWriter> log;
@@ -125,7 +125,7 @@ StrategyResult run_strategy(const RunOptions& options, const nodes::Scenario& sc
   result.summary = measures.finish();
   result.startup = startup.nodes();
   faults.finish(sim::kFirstCycle + scenario.duration);
-  result.faults = faults.faults();
+  result.faults = faults.findings();
   if (log) {
     log->close();
     result.content_hash = log->content_hash_text();

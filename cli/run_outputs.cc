@@ -174,7 +174,10 @@ nlohmann::ordered_json to_json(const nodes::Scenario& scenario, std::uint64_t se
       one["can_load"][result.cluster.can_buses[b].name] = result.outcome.can_load[b];
     one["content_hash"] = result.content_hash;
     one["log"] = result.log_path;
-    if (!scenario.faults.empty()) one["faults"] = faults_json(result.faults, result.cluster);
+    if (!scenario.faults.empty()) {
+      one["faults"] = faults_json(result.faults.faults, result.cluster);
+      one["unattributed"] = unattributed_json(result.faults.unattributed, result.cluster);
+    }
     json["strategies"].push_back(std::move(one));
   }
   return json;

@@ -21,7 +21,7 @@ struct StrategyResult {
   sim::DriveOutcome outcome;
   experiments::DriveSummary summary;
   std::vector<experiments::NodeStartup> startup;   // nodes that started up or changed their state
-  std::vector<experiments::FaultSeen> faults;   // as many of the plan's as began
+  experiments::FaultFindings faults;
   std::string log_path;
   std::string content_hash;
 };

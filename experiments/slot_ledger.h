@@ -4,7 +4,8 @@
 // does not report was a valid frame: of the sender, if that sent there, of somebody else otherwise. A slot it reports counts as
 // not received, though a valid frame may have come before what disturbed it: reports do not tell these apart.
 //
-// A cycle is settled two cycles after it, when all have reported; nodes count whole rounds of the cycle counter each for itself.
+// A cycle is settled two cycles after it, when all have reported, or when the run is over: then those of its slots that have
+// ended. Nodes count whole rounds of the cycle counter each for itself.
 #pragma once
 
 #include <array>
@@ -23,6 +24,7 @@ struct SlotLoss {
   TrueTime at{};
   NodeId receiver{}, sender{};
   int slot = 0;
+  std::int64_t cycle = 0;   // counter
   bool forged = false;   // a valid frame where the sender sent none; else the sender's frame came on no channel
 };
 
@@ -34,6 +36,9 @@ class SlotLedger {
 
   void on(const records::SlotFrameSent& frame);
   void on(const records::SlotProblem& problem);
+  // The run is over at `at`: settles what is open still. A slot counts if those that have not received anything in it must have
+  // reported by then, which they do when their static segment is over.
+  void finish(TrueTime at);
 
  private:
   static constexpr std::size_t kCycles = 4;   // open at a time: the present one, and those whose reports may be missing still
@@ -49,12 +54,14 @@ class SlotLedger {
     std::vector<Slot> slots;                  // by Cluster::frames
   };
   Cycle& open(std::int64_t cycle);
-  void settle(const Cycle& cycle);
+  void settle(const Cycle& cycle, TrueTime over);
 
   const schedules::Cluster& cluster_;
   std::function<bool(NodeId)> counts_;
   std::function<void(const SlotLoss&)> told_;
   std::array<Cycle, kCycles> cycles_;
+  std::int64_t newest_ = -1;                  // counter of the cycle that was opened last
+  Duration slot_;                             // how long a static one lasts
 };
 
 }  // namespace ttf::experiments

@@ -206,6 +206,19 @@ sed -i 's/channels: A, length: 1 us, interval: 500 ms/length: 1 ms, interval: 0 
 expect 0 'HARMED by fault 0, .*never became normal active' \
   run "$work/cold_faulty.yaml" --strategy tt --no-log --out "$work/cold_faulty"
 
+# What guardians keep from the others is told, and is a check.
+sed "s#\.\./schedules#$source/schedules#" "$source/scenarios/cold_start.yaml" >"$work/guarded.yaml"
+printf 'faults:\n  - {kind: babbling_idiot, node: feature, channels: B, interval: 1 ms, from: 2 s, duration: 50 ms}\n' >>"$work/guarded.yaml"
+expect 0 '^0 +guardian +1[01] .*guardian B' run "$work/guarded.yaml" --strategy tt --no-log --out "$work/guarded"
+expect 0 '^0 +blocked +[0-9]+ +[0-9]+ +2\.0' run "$work/guarded.yaml" --strategy tt --no-log --out "$work/guarded"
+python3 - "$work/guarded/summary.json" <<'PY' || fail "the JSON does not say what the guardians did"
+import json, sys
+run = json.load(open(sys.argv[1]))["strategies"][0]
+kept = run["faults"][0]["guardians"]
+assert sum(k["signals"] for k in kept) == 50 and all(k["what"] == "blocked" and k["why"] for k in kept), kept
+assert run["unattributed"] == {"checks": [], "guardians": [], "states": [], "harmed": False, "harms": []}, run["unattributed"]
+PY
+
 # What is wrong with a scenario is found before an earlier run's log is written over.
 mkdir "$work/kept" && echo "an earlier log" >"$work/kept/tt.mcap"
 sed "s#\.\./schedules#$source/schedules#; 0,/node: camera_pre/s//node: camera_per/" "$source/scenarios/faulty_bus.yaml" >"$work/typo.yaml"

@@ -63,5 +63,11 @@ TEST(Time, DifferencesAreDurations) {
   EXPECT_DOUBLE_EQ(Duration::milliseconds(40).seconds(), 0.04);
 }
 
+TEST(Time, IsReadInMillisecondsAndInUnitsOfAnother) {
+  EXPECT_DOUBLE_EQ(in_ms(Duration::microseconds(1'500)), 1.5);
+  EXPECT_DOUBLE_EQ(in_units_of(Duration::milliseconds(5), Duration::milliseconds(12)), 2.4);
+  EXPECT_DOUBLE_EQ(in_units_of(Duration::milliseconds(5), Duration::milliseconds(-5)), -1.0);
+}
+
 }  // namespace
 }  // namespace ttf

@@ -210,5 +210,38 @@ TEST(FaultJudge, WhatStartUpShowsWithoutAFaultCountsOnceItIsOver) {
   EXPECT_TRUE(judge.finish(in_cycle(8)).seen_by_others[static_cast<std::size_t>(Check::kNoFrame)]);
 }
 
+TEST(FaultNames, AreThoseWhoseBitsAreSetJoinedByPlus) {
+  EXPECT_EQ(names_of(0, kAllHarms), "");
+  EXPECT_EQ(names_of(1u << 3, kAllHarms), "frame_lost");
+  EXPECT_EQ(names_of(1u | 1u << 2 | 1u << 4, kAllHarms), "left_active+precision+frame_forged");
+  EXPECT_EQ(names_of(1u << 9, kAllChecks), "guardian");
+}
+
+TEST(NamedBy, IsTheFaultyNodeAndWhoseSupplyItTakes) {
+  const schedules::Cluster cluster = sim::bus_cluster(4, 2, 3);
+  nodes::Fault fault;
+  fault.kind = nodes::FaultKind::kNoise;
+  EXPECT_EQ(named_by(fault, cluster), (std::vector{false, false, false, false}));
+  fault.kind = nodes::FaultKind::kOmission;
+  fault.node = NodeId{3};
+  EXPECT_EQ(named_by(fault, cluster), (std::vector{false, false, false, true}));
+  fault.kind = nodes::FaultKind::kLoneColdstart;
+  fault.node = NodeId{1};
+  EXPECT_EQ(named_by(fault, cluster), (std::vector{true, true, false, false}));
+  fault.all_others = true;
+  EXPECT_EQ(named_by(fault, cluster), (std::vector{true, true, true, true}));
+}
+
+TEST(OwnerOf, IsWhoSendsThereInThisCycleOnThisChannel) {
+  schedules::Cluster cluster = sim::bus_cluster(3, 3, 3);
+  cluster.frames.push_back({9, schedules::Channels::kA, 1, 4, NodeId{2}, kNoPdu, 0, 0});
+  EXPECT_EQ(owner_of(cluster, 2, Channel::kB, 17), NodeId{1});
+  EXPECT_EQ(owner_of(cluster, 9, Channel::kA, 5), NodeId{2});
+  EXPECT_EQ(owner_of(cluster, 9, Channel::kA, 64 + 5), NodeId{2}) << "running cycles count on";
+  EXPECT_EQ(owner_of(cluster, 9, Channel::kA, 6), kNoNode);
+  EXPECT_EQ(owner_of(cluster, 9, Channel::kB, 5), kNoNode);
+  EXPECT_EQ(owner_of(cluster, 0, Channel::kA, 5), kNoNode);
+}
+
 }  // namespace
 }  // namespace ttf::experiments

@@ -99,6 +99,16 @@ TEST(CycleRules, PaperLayoutIsTheTightestThatHolds) {
   EXPECT_EQ(shortest_static_slot(g), 84);
 }
 
+// What clocks may be apart is never less than the parameters say, whatever part of a nanosecond they say.
+TEST(CycleRules, TheAssumedPrecisionIsWholeNanosecondsRoundedUp) {
+  GlobalParameters g;
+  EXPECT_EQ(assumed_precision(g), Duration::nanoseconds(6'850));
+  g.gdMaxPropagationDelay_ps += 1;
+  EXPECT_EQ(assumed_precision(g), Duration::nanoseconds(6'851));
+  g.gdMaxPropagationDelay_ps += 499;
+  EXPECT_EQ(assumed_precision(g), Duration::nanoseconds(6'851));
+}
+
 TEST(Instants, ActionPointDifferenceCountsOnlyWithADynamicSegment) {
   GlobalParameters g = fibex_example();
   g.gdMinislotActionPointOffset = 1;   // one below the action point: one macrotick more
