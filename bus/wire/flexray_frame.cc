@@ -65,6 +65,27 @@ DecodedFrame decode_frame(schedules::Channel channel, std::span<const std::byte>
   return decoded;
 }
 
+std::optional<FrameHeader> header_of(std::span<const std::byte> frame) {
+  if (frame.size() < kHeaderBytes) return std::nullopt;
+  std::array<std::byte, kHeaderBytes + kTrailerBytes> alone{};
+  std::copy_n(frame.begin(), kHeaderBytes, alone.begin());
+  return decode_frame(schedules::Channel::kA, alone).header;
+}
+
+FrameCrcs check_crcs(schedules::Channel channel, std::span<const std::byte> frame) {
+  const std::optional<FrameHeader> header = header_of(frame);
+  if (!header) return {};
+  FrameCrcs crcs;
+  crcs.header_holds =
+      header_crc(header->sync, header->startup, header->frame_id, header->payload_words) == header->header_crc;
+  const std::size_t until_trailer = kHeaderBytes + std::size_t{2} * header->payload_words;
+  if (frame.size() != until_trailer + kTrailerBytes) return crcs;
+  std::uint32_t trailer = 0;
+  for (const std::byte byte : frame.last(kTrailerBytes)) trailer = (trailer << 8) | static_cast<std::uint32_t>(byte);
+  crcs.frame_holds = frame_crc(channel, frame.first(until_trailer)) == trailer;
+  return crcs;
+}
+
 bool has_header(const DecodedFrame& frame) {
   return frame.error != FrameError::kTooShort && frame.error != FrameError::kHeaderCrc;
 }

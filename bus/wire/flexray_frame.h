@@ -60,6 +60,16 @@ struct DecodedFrame {
 // the cycle are the receiver's to judge: they depend on the slot.
 DecodedFrame decode_frame(schedules::Channel channel, std::span<const std::byte> frame);
 
+// Both CRCs of any bytes, each by itself. Bytes that are too few for a header fail both; too few for a trailer, too, or
+// not as many as the header says, fail the frame CRC.
+struct FrameCrcs {
+  bool header_holds = false;
+  bool frame_holds = false;
+};
+FrameCrcs check_crcs(schedules::Channel channel, std::span<const std::byte> frame);
+// What the header says, held against its own CRC or not; nothing where it is not there as a whole.
+std::optional<FrameHeader> header_of(std::span<const std::byte> frame);
+
 // Whether the header could be made out.
 bool has_header(const DecodedFrame& frame);
 
