@@ -44,6 +44,7 @@ struct Payloads {
   ttfusion::Power power;
   ttfusion::Fault fault;
   ttfusion::Guardian guardian;
+  ttfusion::ChannelFrame channel_frame;
 
   // The payload of each kind; null for a value that is no kind.
   google::protobuf::Message* of(RecordKind kind);
@@ -77,6 +78,7 @@ Encoded encode(const records::SymbolSent&, Payloads&);
 Encoded encode(const records::PowerChanged&, Payloads&);
 Encoded encode(const records::FaultActivity&, Payloads&);
 Encoded encode(const records::GuardianIntervention&, Payloads&);
+Encoded encode(const records::ChannelFrame&, Payloads&);
 
 class Decoder {
  public:

@@ -111,6 +111,8 @@ google::protobuf::Message* Payloads::of(RecordKind kind) {
       return &fault;
     case RecordKind::kGuardian:
       return &guardian;
+    case RecordKind::kChannelFrame:
+      return &channel_frame;
   }
   return nullptr;
 }
@@ -280,6 +282,15 @@ bool Decoder::decode(RecordKind kind, std::string_view bytes, records::Sink& sin
           narrow.to<std::uint8_t>(in.channel(), std::uint8_t{0}, std::uint8_t{1}),
           narrow.to<std::uint8_t>(in.signal(), records::kSignalFrame, records::kSignalUndecodable),
           narrow.to<std::uint8_t>(in.reason()), in.cut(), TrueTime{in.until()}, in.why()});
+    }
+    case RecordKind::kChannelFrame: {
+      const auto& in = payloads_.channel_frame;
+      constexpr std::uint8_t kAllStates = 31;
+      return hand_on(records::ChannelFrame{
+          TrueTime{in.start()}, TrueTime{in.end()}, narrow.id<NodeId>(in.sender()),
+          narrow.to<std::uint8_t>(in.channel()), narrow.to<std::uint8_t>(in.state(), std::uint8_t{0}, kAllStates),
+          narrow.to<std::uint16_t>(in.slot()), narrow.to<std::uint8_t>(in.cycle_counter()), TrueTime{in.sent()},
+          narrow.to<std::uint8_t>(in.sent_channel()), bytes_of(in.bytes())});
     }
   }
   return false;

@@ -322,4 +322,19 @@ Encoded encode(const records::GuardianIntervention& in, Payloads& payloads) {
   return {RecordKind::kGuardian, &out, {in.at.ns, in.at.ns}};
 }
 
+Encoded encode(const records::ChannelFrame& in, Payloads& payloads) {
+  auto& out = payloads.channel_frame;
+  out.set_start(in.start.ns);
+  out.set_end(in.end.ns);
+  out.set_sender(number(in.sender));
+  out.set_channel(in.channel);
+  out.set_state(in.state);
+  out.set_slot(in.slot);
+  out.set_cycle_counter(in.cycle_counter);
+  out.set_sent(in.sent.ns);
+  out.set_sent_channel(in.sent_channel);
+  fill_bytes(*out.mutable_bytes(), in.bytes);
+  return {RecordKind::kChannelFrame, &out, {in.start.ns, in.start.ns}};
+}
+
 }  // namespace ttf::recording

@@ -60,8 +60,9 @@ enum class RecordKind : std::uint8_t {
   kPower,
   kFault,
   kGuardian,
+  kChannelFrame,
 };
-inline constexpr std::size_t kRecordKinds = 22;
+inline constexpr std::size_t kRecordKinds = 23;
 
 // Topic of each kind, by value - 1.
 inline constexpr std::array<std::string_view, kRecordKinds> kTopics{
@@ -69,7 +70,7 @@ inline constexpr std::array<std::string_view, kRecordKinds> kTopics{
     "/clock_corrected", "/precision", "/fusion_input", "/list_fused",   "/fusion_step", "/track",
     "/observation",     "/image",     "/feature",      "/reference",    "/truth",
     "/state_change",    "/symbol",    "/power",        "/fault",
-    "/guardian"};
+    "/guardian",        "/channel_frame"};
 
 constexpr std::string_view topic_of(RecordKind kind) { return kTopics[static_cast<std::size_t>(kind) - 1]; }
 

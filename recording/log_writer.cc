@@ -130,5 +130,6 @@ void LogWriter::on(const records::SymbolSent& record) { write(record); }
 void LogWriter::on(const records::PowerChanged& record) { write(record); }
 void LogWriter::on(const records::FaultActivity& record) { write(record); }
 void LogWriter::on(const records::GuardianIntervention& record) { write(record); }
+void LogWriter::on(const records::ChannelFrame& record) { write(record); }
 
 }  // namespace ttf::recording

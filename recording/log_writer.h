@@ -59,6 +59,7 @@ class LogWriter final : public records::Sink {
   void on(const records::PowerChanged&) override;
   void on(const records::FaultActivity&) override;
   void on(const records::GuardianIntervention&) override;
+  void on(const records::ChannelFrame&) override;
 
  private:
   struct Impl;

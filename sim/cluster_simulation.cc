@@ -125,10 +125,12 @@ ClusterSimulation::ClusterSimulation(const SimulationConfig& config, records::Si
     : Crank(*config.cluster, kPendingEvents),
       config_(config),
       sink_(sink),
+      channel_log_(cluster_.flexray, FlexRayMedium::kMostLogged, sink),
       can_ports_(cluster_.nodes.size(), std::vector<bus::CanPort*>(cluster_.can_buses.size())),
       can_log_(std::make_unique<CanLog>(*this, cluster_.can_buses.size())),
       nodes_(cluster_.nodes.size()),
       watched_cycle_(cluster_.nodes.size(), kNoCycle) {
+  medium_.set_log(&channel_log_);
   std::vector<std::vector<bool>> on_can(cluster_.can_buses.size(), std::vector<bool>(cluster_.nodes.size()));
   for (std::size_t n = 0; n < cluster_.nodes.size(); ++n)
     for (const schedules::Task& task : cluster_.nodes[n].tasks)

@@ -19,6 +19,7 @@
 #include "recording/records/records.h"
 #include "schedules/cluster.h"
 #include "sim/can_medium.h"
+#include "sim/channel_log.h"
 #include "sim/crank.h"
 
 namespace ttf::sim {
@@ -88,6 +89,7 @@ class ClusterSimulation final : public Crank, private nodes::SensorLines {
 
   const SimulationConfig config_;
   records::Sink& sink_;
+  ChannelLog channel_log_;
   std::vector<std::unique_ptr<CanMedium>> cans_;
   std::vector<std::unique_ptr<FlexRayTap>> flexray_taps_;      // by NodeId, null off FlexRay
   std::vector<std::unique_ptr<CanTap>> can_taps_;

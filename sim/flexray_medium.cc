@@ -23,6 +23,7 @@ FlexRayMedium::FlexRayMedium(const schedules::Cluster& cluster, MediumQueue& que
       position_(cluster.nodes.size(), -1),
       lanes_(2 * cluster.nodes.size()),
       sent_until_(2 * cluster.nodes.size()),
+      spoken_(2 * cluster.nodes.size()),
       min_delay_ps_(cluster.flexray.gdMinPropagationDelay_ps),
       max_delay_ps_(cluster.flexray.gdMaxPropagationDelay_ps),
       star_(cluster.topology == schedules::Topology::kStar) {
@@ -80,57 +81,73 @@ Duration FlexRayMedium::delay(NodeId from, NodeId to) const {
 
 void FlexRayMedium::transmit(NodeId sender, const bus::Transmission& transmission, TrueTime start, TrueTime end) {
   Leaving signal{sender, transmission.channel, transmission.signal, start, end, {}};
-  const bool in_bytes = wants_bytes(sender, transmission.channel);
+  const bool in_bytes = carries_bytes(sender, transmission.channel);
   if (in_bytes) signal.bytes = transmission.bytes;
-  if (disturbance_ != nullptr && !disturbance_->leaving(signal)) return;
+  const ChannelLog::Id logged = log_ != nullptr ? log_->sent(sender, transmission, start, end) : ChannelLog::kNone;
+  if (disturbance_ != nullptr) {
+    const bool leaves = disturbance_->leaving(signal);
+    if (log_ != nullptr) leaves ? log_->leaves(logged, signal) : log_->withheld(logged);
+    if (!leaves) return;
+  }
+  if (log_ != nullptr) speaks(sender, signal);
   busy_[index_of(signal.channel)] += signal.end - signal.start;
   sent_until_[lane_of(sender, signal.channel)] = signal.end;
-  if (coupler_[index_of(signal.channel)] != nullptr) return to_coupler(signal, sender, start);
-  spread(signal, sender, false, in_bytes ? nullptr : &transmission.content);
+  if (coupler_[index_of(signal.channel)] != nullptr) return to_coupler(signal, sender, start, logged);
+  spread(signal, sender, false, logged, in_bytes ? nullptr : &transmission.content);
 }
 
 void FlexRayMedium::emit(const Leaving& signal, std::optional<NodeId> source) {
   Coupler* coupler = coupler_[index_of(signal.channel)];
-  if (coupler == nullptr) return spread(signal, source, false);
-  if (source) return to_coupler(signal, *source, signal.start);
+  const ChannelLog::Id logged = log_ != nullptr ? log_->appears(signal) : ChannelLog::kNone;
+  if (log_ != nullptr && source) speaks(*source, signal);
+  if (coupler == nullptr) return spread(signal, source, false, logged);
+  if (source) return to_coupler(signal, *source, signal.start, logged);
   coupler->disturbed(signal);
-  spread(signal, source, false);
+  spread(signal, source, false, logged);
 }
 
 void FlexRayMedium::spread(const Leaving& signal, std::optional<NodeId> sender, bool regenerated,
-                           const wire::DecodedFrame* content) {
+                           ChannelLog::Id logged, const wire::DecodedFrame* content) {
   const auto c = index_of(signal.channel);
   const Way& way = regenerated ? from_coupler_[c] : sender ? ways_[lane_of(*sender, signal.channel)] : from_nowhere_[c];
   const bool itself =
       regenerated && std::any_of(way.begin(), way.end(), [&](const Leg& leg) { return leg.receiver == sender; });
   const int receivers = static_cast<int>(way.size()) - (itself ? 1 : 0);
-  if (receivers == 0) return;
+  if (log_ != nullptr) log_->spreads(logged, receivers);
+  if (receivers == 0) {
+    if (log_ != nullptr) log_->arrived(logged);
+    return;
+  }
   std::uint32_t frame = 0;
   if (signal.signal == Signal::kFrame)
     frame = content != nullptr ? pool_.put_content(*content, receivers)
                                : pool_.put_frame(signal.channel, signal.bytes, receivers);
-  Flight& flight = take_off(signal.sender, signal.channel);
+  Flight& flight = take_off(signal.sender, signal.channel, logged);
   for (const Leg& leg : way) {
     if (leg.receiver == sender) continue;
     Arriving last{signal.sender, leg.receiver, signal.channel, signal.signal, signal.start + leg.delay,
                   signal.end + leg.delay, regenerated, signal.bytes};
     const bool arrives = disturbance_ == nullptr || disturbance_->arriving(last);
-    Arrival arrival{last.start, last.end, frame, signal.channel, last.signal};
+    Arrival arrival{last.start, last.end, frame, signal.channel, last.signal, ChannelLog::kNone};
     const bool as_it_left = arrives && last.signal == Signal::kFrame && last.bytes.data() == signal.bytes.data();
     if (signal.signal == Signal::kFrame && !as_it_left) pool_.release(frame);
     if (arrives && last.signal == Signal::kFrame && !as_it_left)
       arrival.frame = pool_.put_frame(signal.channel, last.bytes, 1);
+    if (log_ != nullptr) arrival.logged = witness(logged, signal, last, arrives);
     if (arrives) put(flight, leg.receiver, arrival);
   }
   depart(flight);
 }
 
-void FlexRayMedium::to_coupler(const Leaving& signal, NodeId sender, TrueTime now) {
+void FlexRayMedium::to_coupler(const Leaving& signal, NodeId sender, TrueTime now, ChannelLog::Id logged) {
   const Duration on_the_way = branch(sender);
   Arriving last{sender, kNoNode, signal.channel, signal.signal, signal.start + on_the_way, signal.end + on_the_way,
                 false, signal.bytes};
-  if (disturbance_ != nullptr && !disturbance_->arriving(last)) return;
-  Pending made{{last.start, last.end, 0, signal.channel, last.signal}, next_id_++, sender, false};
+  if (disturbance_ != nullptr && !disturbance_->arriving(last)) {
+    if (log_ != nullptr) log_->withheld(logged);
+    return;
+  }
+  Pending made{{last.start, last.end, 0, signal.channel, last.signal, logged}, next_id_++, sender, false};
   if (last.signal == Signal::kFrame) made.arrival.frame = pool_.put_frame(signal.channel, last.bytes, 1);
   to_coupler_.push_back(made);
   MediumEvent event;
@@ -154,19 +171,54 @@ void FlexRayMedium::at_coupler(const MediumEvent& event) {
   const bool is_frame = arrived.signal == Signal::kFrame;
   Leaving signal{sender, arrived.channel, arrived.signal, arrived.start, arrived.end, {}};
   if (is_frame) signal.bytes = pool_.bytes(arrived.frame);
-  if (coupler_[index_of(arrived.channel)]->pass(signal, is_frame ? &pool_.decoded(arrived.frame) : nullptr))
-    spread(signal, sender, true);
+  const Leaving as_it_came = signal;
+  const bool passes =
+      coupler_[index_of(arrived.channel)]->pass(signal, is_frame ? &pool_.decoded(arrived.frame) : nullptr);
+  if (log_ != nullptr)
+    passes ? log_->regenerated(arrived.logged, as_it_came, signal, branch(sender)) : log_->withheld(arrived.logged);
+  if (passes) spread(signal, sender, true, arrived.logged);
   release(arrived);
 }
 
-FlexRayMedium::Flight& FlexRayMedium::take_off(NodeId sender, Channel channel) {
+FlexRayMedium::Flight& FlexRayMedium::take_off(NodeId sender, Channel channel, ChannelLog::Id logged) {
   TTF_CHECK(!free_flights_.empty(), "{} signals are on their way", kFlights);
   Flight& flight = flights_[free_flights_.back()];
   free_flights_.pop_back();
   flight.size = flight.next = 0;
+  flight.logged = logged;
   flight.sender = sender;
   flight.channel = channel;
   return flight;
+}
+
+void FlexRayMedium::land(Flight& flight) {
+  free_flights_.push_back(static_cast<std::uint32_t>(&flight - flights_.data()));
+  if (log_ != nullptr) log_->arrived(flight.logged);
+}
+
+// What a receiver makes of a signal's arrival: kNone if it will not make it out. Who sends at the same time does not.
+ChannelLog::Id FlexRayMedium::witness(ChannelLog::Id logged, const Leaving& signal, const Arriving& last,
+                                      bool arrives) {
+  if (!arrives) {
+    log_->unheard(logged);
+    return ChannelLog::kNone;
+  }
+  const Spoken& own = spoken_[lane_of(last.receiver, signal.channel)];
+  if (last.signal != signal.signal || (last.start < own.end && own.start < last.end)) {
+    log_->lost(logged);
+    return ChannelLog::kNone;
+  }
+  if (last.signal == Signal::kFrame && last.bytes.data() != signal.bytes.data()) log_->changed(logged, last.bytes);
+  return logged;
+}
+
+void FlexRayMedium::speaks(NodeId node, const Leaving& signal) {
+  spoken_[lane_of(node, signal.channel)] = {signal.start, signal.end};
+  for (Pending& one : lane(node, signal.channel)) {
+    if (one.arrival.end <= signal.start || signal.end <= one.arrival.start) continue;
+    log_->lost(one.arrival.logged);
+    one.arrival.logged = ChannelLog::kNone;
+  }
 }
 
 // A stop more: what arrives there, together with what it overlaps with.
@@ -183,6 +235,8 @@ void FlexRayMedium::put(Flight& flight, NodeId receiver, const Arrival& arrival)
     const bool cas = other.signal == Signal::kCas && made.arrival.signal == Signal::kCas;
     release(other);
     release(made.arrival);
+    if (log_ != nullptr) log_->lost(made.arrival.logged), log_->lost(other.logged);
+    made.arrival.logged = ChannelLog::kNone;
     made.arrival.signal = cas ? Signal::kCas : Signal::kUndecodable;
     made.arrival.start = std::min(made.arrival.start, other.start);
     made.arrival.end = std::max(made.arrival.end, other.end);
@@ -203,7 +257,7 @@ void FlexRayMedium::depart(Flight& flight) {
   const std::span<Stop> stops = flight.room.first(flight.size);
   if (!std::is_sorted(stops.begin(), stops.end(), by_end)) std::sort(stops.begin(), stops.end(), by_end);
   const MediumEvent event = event_of(flight);
-  if (stops.empty()) return free_flights_.push_back(event.frame);
+  if (stops.empty()) return land(flight);
   const EventOrder first = order_of(flight);
   flight.sequence = queue_.schedule(first.time, first.phase, first.node, event, first.rank);
 }
@@ -233,7 +287,7 @@ std::optional<FlexRayMedium::Arrival> FlexRayMedium::arrive(const MediumEvent& e
   if (flight.next < flight.size)
     queue_.go_on(order_of(flight), event_of(flight));
   else
-    free_flights_.push_back(event.frame);
+    land(flight);
   Lane& pending = lane(stop.receiver, flight.channel);
   const auto found =
       std::find_if(pending.begin(), pending.end(), [&](const Pending& one) { return one.id == stop.id; });
@@ -246,6 +300,7 @@ std::optional<FlexRayMedium::Arrival> FlexRayMedium::arrive(const MediumEvent& e
 
 void FlexRayMedium::power_off(NodeId node, TrueTime now) {
   if (position_[index_of(node)] < 0) return;
+  if (log_ != nullptr) log_->breaks_off(node, now);
   for (Pending& one : to_coupler_) {
     const TrueTime cut = now + branch(node);
     if (one.sender != node || one.arrival.end <= cut) continue;
@@ -281,7 +336,8 @@ void FlexRayMedium::power_off(NodeId node, TrueTime now) {
         Arrival rest = one.arrival;
         rest.signal = Signal::kUndecodable;
         rest.end = ends + on_the_way;
-        Flight& flight = take_off(node, channel);
+        rest.logged = ChannelLog::kNone;
+        Flight& flight = take_off(node, channel, ChannelLog::kNone);
         put(flight, receiver, rest);
         depart(flight);
       }

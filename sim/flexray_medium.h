@@ -23,6 +23,7 @@
 #include "core/ids.h"
 #include "core/time.h"
 #include "schedules/cluster.h"
+#include "sim/channel_log.h"
 #include "sim/coupler.h"
 #include "sim/disturbance.h"
 #include "sim/frame_pool.h"
@@ -36,15 +37,18 @@ class FlexRayMedium {
   static constexpr std::size_t kFlights = 512;
   // The frames and the events of the queue that it may need.
   static constexpr std::size_t kMostPending = kFlights + 64;
+  // What a channel log has to have room for.
+  static constexpr std::size_t kMostLogged = kFlights + 128;
 
   FlexRayMedium(const schedules::Cluster& cluster, MediumQueue& queue, FramePool& pool);
 
   // Null: nothing goes wrong.
   void set_disturbance(Disturbance* disturbance) { disturbance_ = disturbance; }
   void set_transparent(bool transparent) { transparent_ = transparent; }
+  // Null: nobody is told what becomes of frames on their way.
+  void set_log(ChannelLog* log) { log_ = log; }
   bool wants_bytes(NodeId sender, schedules::Channel channel) const {
-    return !transparent_ || coupler_[index_of(channel)] != nullptr ||
-           (disturbance_ != nullptr && disturbance_->touches(sender, channel));
+    return log_ != nullptr || carries_bytes(sender, channel);
   }
   // In the middle of a star; null: it forwards everything.
   void set_coupler(schedules::Channel channel, Coupler* coupler) { coupler_[index_of(channel)] = coupler; }
@@ -71,6 +75,7 @@ class FlexRayMedium {
     std::uint32_t frame = 0;          // in the pool, of a frame
     schedules::Channel channel{};
     bus::Signal signal{};
+    ChannelLog::Id logged = ChannelLog::kNone;   // while its receiver may still make it out
   };
   std::optional<Arrival> arrive(const MediumEvent& event, TrueTime now);
   const wire::DecodedFrame& frame(const Arrival& arrival) const { return pool_.decoded(arrival.frame); }
@@ -114,8 +119,13 @@ class FlexRayMedium {
     std::span<Stop> room;             // in stops_, for every node
     std::size_t size = 0, next = 0;   // stops, by (end, receiver) once it has departed
     std::uint64_t sequence = 0;       // in the queue
+    ChannelLog::Id logged = ChannelLog::kNone;
     NodeId sender{};
     schedules::Channel channel{};
+  };
+  // When a node sent last, for the log.
+  struct Spoken {
+    TrueTime start{}, end{};
   };
   // From a sender, or from the coupler of a star, to a node.
   struct Leg {
@@ -123,14 +133,21 @@ class FlexRayMedium {
     Duration delay{};
   };
   using Way = std::vector<Leg>;       // by (delay, receiver)
+  bool carries_bytes(NodeId sender, schedules::Channel channel) const {
+    return !transparent_ || coupler_[index_of(channel)] != nullptr ||
+           (disturbance_ != nullptr && disturbance_->touches(sender, channel));
+  }
   Way make_way(schedules::Channel channel, std::optional<NodeId> sender, bool from_coupler) const;
   std::int64_t branch_ps(NodeId node) const;
   // `content`: of a frame without bytes.
-  void spread(const Leaving& signal, std::optional<NodeId> sender, bool regenerated,
+  void spread(const Leaving& signal, std::optional<NodeId> sender, bool regenerated, ChannelLog::Id logged,
               const wire::DecodedFrame* content = nullptr);
-  void to_coupler(const Leaving& signal, NodeId sender, TrueTime now);
+  void to_coupler(const Leaving& signal, NodeId sender, TrueTime now, ChannelLog::Id logged);
   void at_coupler(const MediumEvent& event);
-  Flight& take_off(NodeId sender, schedules::Channel channel);
+  Flight& take_off(NodeId sender, schedules::Channel channel, ChannelLog::Id logged);
+  void land(Flight& flight);
+  ChannelLog::Id witness(ChannelLog::Id logged, const Leaving& signal, const Arriving& last, bool arrives);
+  void speaks(NodeId node, const Leaving& signal);
   void put(Flight& flight, NodeId receiver, const Arrival& arrival);
   void depart(Flight& flight);
   MediumEvent event_of(const Flight& flight) const;
@@ -150,6 +167,7 @@ class FlexRayMedium {
   std::vector<std::uint32_t> free_flights_;
   std::array<Duration, 2> busy_{};                // by channel
   std::vector<TrueTime> sent_until_;              // by NodeId and channel
+  std::vector<Spoken> spoken_;                    // by NodeId and channel
   int ends_ = 0;                                  // hops between the two ends of the line
   std::int64_t min_delay_ps_, max_delay_ps_;
   std::uint32_t next_id_ = 0;
@@ -157,6 +175,7 @@ class FlexRayMedium {
   std::array<Coupler*, 2> coupler_{};             // by channel
   std::vector<Pending> to_coupler_;               // signals that have not begun there yet
   Disturbance* disturbance_ = nullptr;
+  ChannelLog* log_ = nullptr;
   bool transparent_ = false;
 };
 

@@ -72,6 +72,28 @@ struct SlotFrameSent {
   std::span<const std::byte> bytes;  // header, payload and trailer as on the wire
 };
 
+// A frame that was on a channel otherwise than its sender's controller sent it, or that no controller sent, noise
+// included: as the best-placed of its receivers had it, so that what one of them alone could not make out is that one's
+// SlotProblem and no record here. Reported when it has arrived everywhere, or is sure to arrive nowhere, which may be
+// before its sender reports it. Symbols have none.
+inline constexpr std::uint8_t kChannelHeaderCrc = 1;   // it fails its header CRC
+inline constexpr std::uint8_t kChannelFrameCrc = 2;    // it fails its frame CRC, or is not as long as its header says
+inline constexpr std::uint8_t kChannelCoding = 4;      // nobody can make it out, or no more of it than `bytes`
+inline constexpr std::uint8_t kChannelCut = 8;         // it breaks off after `bytes`; a CRC that has not come is not wrong
+inline constexpr std::uint8_t kChannelNothing = 16;    // nothing of it reached anybody; alone
+struct ChannelFrame {
+  TrueTime start{};                  // first and last bit, as and where they left the sender, or appeared
+  TrueTime end{};
+  NodeId sender = kNoNode;           // kNoNode: it came out of nothing
+  std::uint8_t channel = 0;          // 0 A, 1 B
+  std::uint8_t state = 0;            // bits as above, of our own decoder; 0: a sound frame
+  std::uint16_t slot = 0;            // it was sent in; 0: no controller sent it, and the next three are 0, too
+  std::uint8_t cycle_counter = 0;
+  TrueTime sent{};                   // the stamp of its SlotFrameSent, which has the same sender
+  std::uint8_t sent_channel = 0;     // and this channel
+  std::span<const std::byte> bytes;  // header, payload and trailer as on the wire; none of what nobody can make out
+};
+
 // Per-slot, per-channel status as one receiver saw it, reported when it is anything but one valid frame in an owned
 // slot. Bits: 1 syntax error, 2 content error, 4 boundary violation, 8 transmission conflict, 16 no frame.
 struct SlotProblem {
@@ -321,6 +343,7 @@ class Sink {
   virtual void on(const PowerChanged&) {}
   virtual void on(const FaultActivity&) {}
   virtual void on(const GuardianIntervention&) {}
+  virtual void on(const ChannelFrame&) {}
 };
 
 }  // namespace ttf::records

@@ -33,6 +33,7 @@ class Tee final : public Sink {
   void on(const PowerChanged& record) override { pass(record); }
   void on(const FaultActivity& record) override { pass(record); }
   void on(const GuardianIntervention& record) override { pass(record); }
+  void on(const ChannelFrame& record) override { pass(record); }
 
  private:
   template <class Record>

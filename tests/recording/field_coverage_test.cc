@@ -110,6 +110,7 @@ class Again final : public records::Sink {
   void on(const records::PowerChanged& r) override { again(r); }
   void on(const records::FaultActivity& r) override { again(r); }
   void on(const records::GuardianIntervention& r) override { again(r); }
+  void on(const records::ChannelFrame& r) override { again(r); }
 
  private:
   template <class Record>
@@ -218,6 +219,7 @@ TEST(LogFields, ARecordHasAsManyFieldsAsItsPayload) {
   expect_same_fields<records::PowerChanged, ttfusion::Power>();
   expect_same_fields<records::FaultActivity, ttfusion::Fault>();
   expect_same_fields<records::GuardianIntervention, ttfusion::Guardian>();
+  expect_same_fields<records::ChannelFrame, ttfusion::ChannelFrame>();
 }
 
 }  // namespace

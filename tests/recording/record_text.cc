@@ -234,6 +234,11 @@ void TextSink::on(const records::GuardianIntervention& r) {
   lines.push_back(line("guardian", r.at, r.branch, r.channel, r.signal, r.reason, r.cut, r.until, r.why));
 }
 
+void TextSink::on(const records::ChannelFrame& r) {
+  lines.push_back(line("channel", r.start, r.end, r.sender, r.channel, r.state, r.slot, r.cycle_counter, r.sent,
+                       r.sent_channel, r.bytes));
+}
+
 void emit(records::Sink& sink, int kind, Values values, std::uint32_t index, std::int64_t at_ns) {
   Draw d(kind, values, index, at_ns);
   const auto stamp = d.get<records::Stamp>();
@@ -334,6 +339,12 @@ void emit(records::Sink& sink, int kind, Values values, std::uint32_t index, std
       return sink.on(records::GuardianIntervention{d.get<TrueTime>(), d.get<NodeId>(), d.choice(U8{0}, U8{1}),
                                                    d.choice(records::kSignalFrame, records::kSignalUndecodable),
                                                    d.get<U8>(), d.get<bool>(), d.get<TrueTime>(), words[0]});
+    }
+    case 23: {
+      const auto bytes = d.list<std::byte>(262);
+      return sink.on(records::ChannelFrame{d.get<TrueTime>(), d.get<TrueTime>(), d.get<NodeId>(), d.get<U8>(),
+                                           d.choice(std::uint8_t{0}, records::kChannelNothing), d.get<U16>(),
+                                           d.get<U8>(), d.get<TrueTime>(), d.get<U8>(), bytes});
     }
   }
 }

@@ -37,6 +37,7 @@ class TextSink final : public records::Sink {
   void on(const records::PowerChanged&) override;
   void on(const records::FaultActivity&) override;
   void on(const records::GuardianIntervention&) override;
+  void on(const records::ChannelFrame&) override;
 };
 
 // What the drawn fields look like. kSmallest and kLargest: every field at that end of its type, lists empty

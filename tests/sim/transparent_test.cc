@@ -10,6 +10,7 @@
 
 #include "core/random.h"
 #include "recording/log_writer.h"
+#include "sim/channel_log.h"
 #include "sim/bus_simulation.h"
 #include "sim/cluster_simulation.h"
 #include "tests/sim/bus_clusters.h"
@@ -99,12 +100,29 @@ class Trouble final : public Disturbance {
   TrueTime next_{20'000'000};
 };
 
+// What became of frames on their way, with their bytes.
+struct ChannelDiary final : records::Sink {
+  std::vector<std::int64_t> entries;
+  int frames = 0;
+  using records::Sink::on;
+  void on(const records::ChannelFrame& frame) override {
+    ++frames;
+    for (const std::int64_t entry :
+         {frame.start.ns, frame.end.ns, frame.sent.ns, std::int64_t{frame.channel}, std::int64_t{frame.sent_channel},
+          std::int64_t{frame.state}, std::int64_t{frame.slot}, std::int64_t{frame.cycle_counter},
+          static_cast<std::int64_t>(frame.sender), static_cast<std::int64_t>(frame.bytes.size())})
+      entries.push_back(entry);
+    for (const std::byte byte : frame.bytes) entries.push_back(static_cast<std::int64_t>(byte));
+  }
+};
+
 struct Told {
   std::vector<Diary> diaries;
+  ChannelDiary channels;
   int frames = 0, encoded = 0;
 };
 
-Told run(std::uint64_t seed, bool troubled, bool transparent) {
+Told run(std::uint64_t seed, bool troubled, bool transparent, bool logged = false) {
   RandomStream draw({seed, 0, Purpose::kTest, 4, 0});
   const int nodes = static_cast<int>(draw.integer(2, 9));
   const int coldstart = static_cast<int>(draw.integer(2, nodes));
@@ -120,6 +138,8 @@ Told run(std::uint64_t seed, bool troubled, bool transparent) {
   }
   BusSimulation simulation(cluster, std::move(begin), std::move(events));
   simulation.medium().set_transparent(transparent);
+  ChannelLog log(cluster.flexray, FlexRayMedium::kMostLogged, told.channels);
+  if (logged) simulation.medium().set_log(&log);
   Trouble trouble(simulation, seed, nodes);
   trouble.transparent = transparent;
   if (troubled) simulation.set_disturbance(&trouble);
@@ -142,6 +162,20 @@ TEST(TransparentMedium, ControllersAreToldTheSame) {
       EXPECT_EQ(bit_true.encoded, bit_true.frames);
       EXPECT_EQ(transparent.encoded == 0, !troubled) << "only what a fault may touch has bytes";
       EXPECT_LT(transparent.encoded, transparent.frames * 3 / 4);
+    }
+}
+
+TEST(TransparentMedium, TheLogIsToldTheSameOfTheChannels) {
+  for (const bool troubled : {false, true})
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+      const Told unlogged = run(seed, troubled, false), bit_true = run(seed, troubled, false, true),
+                 transparent = run(seed, troubled, true, true);
+      ASSERT_EQ(bit_true.channels.entries, transparent.channels.entries) << "seed " << seed;
+      for (std::size_t n = 0; n < unlogged.diaries.size(); ++n)
+        ASSERT_EQ(unlogged.diaries[n].entries, bit_true.diaries[n].entries) << "seed " << seed << " node " << n;
+      if (troubled) {
+        EXPECT_GT(bit_true.channels.frames, 20) << "seed " << seed;
+      }
     }
 }
 
