@@ -89,6 +89,11 @@ class CaptureChecker {
 
   void check(const Frame& frame) {
     const FlexRayPacket& packet = frame.packet;
+    const bool coding = (packet.errors & (kTssViolation | kCodingError | kFrameEndError)) != 0;
+    if (packet.kind == FlexRayPacket::Kind::kFrame && !packet.whole_header && coding)
+      return report(Contradiction::kCoding, frame.number,
+                    fmt::format("on {}: coding errors are flagged ({:#04x}), and there is no header", letter(packet.channel),
+                                packet.errors));
     if (packet.kind != FlexRayPacket::Kind::kFrame || !packet.whole_header)
       return report(Contradiction::kMalformed, frame.number, "holds neither a symbol nor a whole frame header");
     const wire::FrameHeader& header = packet.header;
@@ -97,7 +102,7 @@ class CaptureChecker {
              fmt::format("slot {} on {}, cycle {}: {}", header.frame_id, letter(packet.channel), header.cycle, what));
     };
     if ((packet.errors & kFrameCrcError) != 0) say(Contradiction::kFrameCrc, "the frame CRC is flagged as wrong");
-    if ((packet.errors & (kTssViolation | kCodingError | kFrameEndError)) != 0)
+    if (coding)
       say(Contradiction::kCoding, fmt::format("coding errors are flagged ({:#04x})", packet.errors));
     if (!packet.header_crc_holds) {
       // Neither slot nor length can be believed.

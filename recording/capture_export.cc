@@ -25,12 +25,34 @@ void put_hex(std::string& out, std::span<const std::byte> bytes) {
   }
 }
 
-std::string comment_of(const LoggedFrame& frame, const LogNames& names) {
+// What our own checks say of a frame's bytes, and the decoder of what is not there.
+CheckedFlexRayFrame checked(const LoggedFrame& frame, std::span<const std::byte> bytes) {
+  if ((frame.state & records::kChannelCoding) == 0) return check_flexray_frame(channel_of(frame), bytes);
+  CheckedFlexRayFrame broken = check_broken_frame(channel_of(frame), bytes);
+  broken.errors |= kCodingError;
+  if ((frame.state & records::kChannelCut) != 0) broken.errors |= kFrameEndError;
+  return broken;
+}
+
+// Whose it is, where the frame itself does not say so truly.
+std::string origin_of(const LoggedFrame& frame, const LogNames& names) {
+  if (!frame.flexray || frame.as_sent) return "";
+  if (frame.of_controller) return fmt::format("slot {} of {}", frame.id, names.node(frame.sender));
+  if (frame.sender == kNoNode) return "nobody sent it";
+  return fmt::format("the controller of {} did not send it", names.node(frame.sender));
+}
+
+std::string list_of(const LoggedFrame& frame, const LogNames& names) {
   if (frame.pdu == kNoPdu || frame.null_frame) return "";
   const std::string measurement = names.measurement(frame);
   if (measurement.empty())
     return fmt::format("{} {}, fragment {}", names.pdu(frame.pdu), frame.sequence, frame.fragment);
   return fmt::format("measurement {}: {}, fragment {}", measurement, names.pdu(frame.pdu), frame.fragment);
+}
+
+std::string comment_of(const LoggedFrame& frame, const LogNames& names) {
+  const std::string origin = origin_of(frame, names), list = list_of(frame, names);
+  return origin + (origin.empty() || list.empty() ? "" : "; ") + list;
 }
 
 bool can_be_a_device(const std::string& name) {
@@ -56,11 +78,18 @@ std::string flexray_flags(const CheckedFlexRayFrame& frame) {
                                                 {frame.header.startup, "startup"},
                                                 {frame.header.payload_preamble, "preamble"},
                                                 {(frame.errors & kHeaderCrcError) != 0, "header_crc_error"},
-                                                {(frame.errors & kFrameCrcError) != 0, "frame_crc_error"}};
+                                                {(frame.errors & kFrameCrcError) != 0, "frame_crc_error"},
+                                                {(frame.errors & kCodingError) != 0, "coding_error"},
+                                                {(frame.errors & kFrameEndError) != 0, "frame_end_error"}};
   std::string text;
   for (const auto& [set, name] : flags)
     if (set) text += (text.empty() ? "" : "+") + std::string(name);
   return text;
+}
+
+std::string flexray_kind(const LoggedFrame& frame) {
+  if (!frame.of_controller && (frame.state & records::kChannelCoding) != 0) return "noise";
+  return frame.null_frame ? "null" : "frame";
 }
 
 std::string can_flags(const LoggedFrame& frame) {
@@ -87,7 +116,7 @@ std::string export_pcapng(const FrameCollector& collector, const std::vector<Log
   for (const LoggedFrame& frame : frames) {
     packet.clear();
     if (frame.flexray)
-      put_flexray_packet(packet, channel_of(frame), check_flexray_frame(channel_of(frame), collector.data(frame)));
+      put_flexray_packet(packet, channel_of(frame), checked(frame, collector.data(frame)));
     else
       put_can_packet(packet, frame.id, frame.flexible_data_rate, collector.data(frame));
     writer.packet(frame.flexray ? 0 : frame.channel + std::size_t{1}, frame.time_ns, packet, comment_of(frame, names));
@@ -119,19 +148,19 @@ std::string export_csv(const FrameCollector& collector, const std::vector<Logged
     std::string flags;
     std::span<const std::byte> payload = collector.data(frame);
     if (frame.flexray) {
-      const CheckedFlexRayFrame checked = check_flexray_frame(channel_of(frame), payload);
-      flags = flexray_flags(checked);
-      payload = checked.header_and_payload;
+      const CheckedFlexRayFrame there = checked(frame, payload);
+      flags = flexray_flags(there);
+      payload = there.header_and_payload;
       payload = payload.subspan(std::min(payload.size(), wire::kHeaderBytes));
-      out += fmt::format("{},{},{},{},", frame.time_ns, kFlexRayName, letter(channel_of(frame)), frame.cycle);
+      out += fmt::format("{},{},{},{},", frame.time_ns, kFlexRayName, letter(channel_of(frame)),
+                         frame.of_controller ? std::to_string(frame.cycle) : "");
     } else {
       flags = can_flags(frame);
       out += fmt::format("{},{},,,", frame.time_ns, quoted(names.can_bus(frame.channel)));
     }
-    const char* kind = frame.flexray              ? (frame.null_frame ? "null" : "frame")
-                       : frame.flexible_data_rate ? "can_fd"
-                                                  : "can";
-    out += fmt::format("{},{},{},{},{},{},{},{},", frame.id, quoted(names.node(frame.sender)), kind, flags,
+    const std::string kind = frame.flexray ? flexray_kind(frame) : frame.flexible_data_rate ? "can_fd" : "can";
+    out += fmt::format("{},{},{},{},{},{},{},{},", kind == "noise" ? "" : std::to_string(frame.id),
+                       frame.sender == kNoNode ? "" : quoted(names.node(frame.sender)), kind, flags,
                        list ? quoted(names.pdu(frame.pdu)) : "", list ? std::to_string(frame.sequence) : "",
                        list ? std::to_string(frame.fragment) : "", quoted(names.measurement(frame)));
     put_hex(out, payload);

@@ -3,6 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <tuple>
+
+#include "bus/wire/flexray_frame.h"
 
 namespace ttf::recording {
 namespace {
@@ -35,7 +39,7 @@ void FrameCollector::on(const records::SlotFrameSent& record) {
   frame.sensor = record.sensor;
   frame.sequence = record.sequence;
   frame.fragment = record.fragment;
-  keep(frame, record.bytes);
+  frames_.push_back(with_data(frame, record.bytes));
 }
 
 void FrameCollector::on(const records::CanFrameSent& record) {
@@ -49,18 +53,62 @@ void FrameCollector::on(const records::CanFrameSent& record) {
   frame.sensor = record.sensor;
   frame.sequence = record.sequence;
   frame.fragment = record.fragment;
-  keep(frame, record.data);
+  frames_.push_back(with_data(frame, record.data));
 }
 
-void FrameCollector::keep(LoggedFrame frame, std::span<const std::byte> data) {
+void FrameCollector::on(const records::ChannelFrame& record) {
+  LoggedFrame frame;
+  frame.time_ns = record.start.ns;
+  frame.flexray = true;
+  frame.as_sent = false;
+  frame.of_controller = record.slot != 0;
+  frame.channel = record.channel == 0 ? 0 : 1;
+  frame.sender = record.sender;
+  frame.state = record.state;
+  if (const auto header = wire::header_of(record.bytes)) {
+    frame.id = header->frame_id;
+    frame.null_frame = header->null_frame;
+  }
+  frame = with_data(frame, record.bytes);
+  const bool nothing = (record.state & records::kChannelNothing) != 0;
+  if (frame.of_controller)
+    on_channel_.push_back({record.sent.ns, record.sender, std::uint8_t{record.sent_channel != 0}, nothing, frame});
+  else if (!nothing)
+    frames_.push_back(frame);
+}
+
+LoggedFrame FrameCollector::with_data(LoggedFrame frame, std::span<const std::byte> data) {
   frame.data_begin = bytes_.size();
   frame.data_size = data.size();
   bytes_.insert(bytes_.end(), data.begin(), data.end());
-  frames_.push_back(frame);
+  return frame;
 }
 
 std::vector<LoggedFrame> FrameCollector::in_order() const {
-  std::vector<LoggedFrame> frames = frames_;
+  // A frame is told of twice: as it was sent, and, if it was not so there, as it was on the channel.
+  using Key = std::tuple<std::int64_t, std::uint8_t, NodeId>;
+  std::map<Key, const OnChannel*> became;
+  for (const OnChannel& one : on_channel_) became[{one.sent_ns, one.sent_channel, one.sender}] = &one;
+  std::vector<LoggedFrame> frames;
+  frames.reserve(frames_.size());
+  for (const LoggedFrame& frame : frames_) {
+    const bool sent = frame.flexray && frame.of_controller;
+    const auto found = sent ? became.find({frame.time_ns, frame.channel, frame.sender}) : became.end();
+    if (found == became.end()) {
+      frames.push_back(frame);
+      continue;
+    }
+    const OnChannel& other = *found->second;
+    if (other.nothing) continue;
+    LoggedFrame there = frame;
+    there.as_sent = false;
+    there.time_ns = other.frame.time_ns;
+    there.channel = other.frame.channel;
+    there.state = other.frame.state;
+    there.data_begin = other.frame.data_begin;
+    there.data_size = other.frame.data_size;
+    frames.push_back(there);
+  }
   std::stable_sort(frames.begin(), frames.end(),
                    [](const LoggedFrame& a, const LoggedFrame& b) { return a.time_ns < b.time_ns; });
   return frames;

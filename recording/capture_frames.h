@@ -26,7 +26,10 @@ struct LoggedFrame {
   SensorId sensor = kNoSensor;  // with `sequence` the measurement the frame carries something of
   std::uint32_t sequence = 0;
   std::uint8_t fragment = 0;
-  std::size_t data_begin = 0, data_size = 0;  // FlexRay: header, payload and trailer
+  bool as_sent = true;          // FlexRay: by a controller, and so it was on the channel
+  bool of_controller = true;    // FlexRay: else nobody's; then `cycle` is not known, and `id` is what the frame says
+  std::uint8_t state = 0;       // FlexRay: of records::ChannelFrame; never kChannelNothing
+  std::size_t data_begin = 0, data_size = 0;  // FlexRay: header, payload and trailer, as far as they were there
 };
 
 // The names that a log's numbers stand for; numbers without one are written out.
@@ -46,12 +49,14 @@ class LogNames {
   LogManifest manifest_;
 };
 
-// Collects frames while a log is read.
+// Collects frames while a log is read. FlexRay frames are as they were on the channel: what reached nobody is none, and
+// what nobody sent is one.
 class FrameCollector final : public records::Sink {
  public:
   using records::Sink::on;
   void on(const records::SlotFrameSent& record) override;
   void on(const records::CanFrameSent& record) override;
+  void on(const records::ChannelFrame& record) override;
 
   // All so far, by time; frames of the same instant as they were recorded.
   std::vector<LoggedFrame> in_order() const;
@@ -60,8 +65,18 @@ class FrameCollector final : public records::Sink {
   }
 
  private:
-  void keep(LoggedFrame frame, std::span<const std::byte> data);
+  // What became of a frame that was sent.
+  struct OnChannel {
+    std::int64_t sent_ns = 0;
+    NodeId sender{};
+    std::uint8_t sent_channel = 0;
+    bool nothing = false;
+    LoggedFrame frame;        // without what only the sender's record says
+  };
+  LoggedFrame with_data(LoggedFrame frame, std::span<const std::byte> data);
+
   std::vector<LoggedFrame> frames_;
+  std::vector<OnChannel> on_channel_;
   std::vector<std::byte> bytes_;
 };
 

@@ -1,9 +1,7 @@
 #include "recording/capture_packet.h"
 
 #include <algorithm>
-#include <array>
-
-#include "bus/wire/flexray_crc.h"
+#include <optional>
 
 namespace ttf::recording {
 namespace {
@@ -17,43 +15,33 @@ void put_bytes(std::string& out, std::span<const std::byte> bytes) {
   out.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
 }
 
-bool header_crc_holds(const wire::FrameHeader& h) {
-  return wire::header_crc(h.sync, h.startup, h.frame_id, h.payload_words) == h.header_crc;
-}
-
-// Fields of a header that may belong to no valid frame.
-wire::FrameHeader header_of(std::span<const std::byte> bytes) {
-  std::array<std::byte, wire::kHeaderBytes + wire::kTrailerBytes> alone{};
-  std::copy_n(bytes.begin(), wire::kHeaderBytes, alone.begin());
-  return wire::decode_frame(schedules::Channel::kA, alone).header;
-}
-
 }  // namespace
 
 CheckedFlexRayFrame check_flexray_frame(schedules::Channel channel, std::span<const std::byte> bytes) {
   CheckedFlexRayFrame frame;
-  if (bytes.size() < wire::kHeaderBytes + wire::kTrailerBytes) {
-    frame.header_and_payload = bytes.first(std::min(bytes.size(), wire::kHeaderBytes));
-    frame.errors = kFrameCrcError;
-  } else {
-    frame.header_and_payload =
-        bytes.first(std::min(bytes.size() - wire::kTrailerBytes, wire::kHeaderBytes + wire::kMaxPayloadBytes));
-  }
-  if (frame.header_and_payload.size() < wire::kHeaderBytes) {
-    frame.errors |= kHeaderCrcError;
-    return frame;
-  }
-  frame.header = header_of(frame.header_and_payload);
-  if (!header_crc_holds(frame.header)) frame.errors |= kHeaderCrcError;
-  const std::size_t size = wire::kHeaderBytes + std::size_t{2} * frame.header.payload_words + wire::kTrailerBytes;
-  if (bytes.size() != size) {
-    frame.errors |= kFrameCrcError;
-    return frame;
-  }
-  std::uint32_t trailer = 0;
-  for (const std::byte byte : bytes.last(wire::kTrailerBytes))
-    trailer = (trailer << 8) | static_cast<std::uint32_t>(byte);
-  if (wire::frame_crc(channel, frame.header_and_payload) != trailer) frame.errors |= kFrameCrcError;
+  const wire::FrameCrcs crcs = wire::check_crcs(channel, bytes);
+  if (!crcs.header_holds) frame.errors |= kHeaderCrcError;
+  if (!crcs.frame_holds) frame.errors |= kFrameCrcError;
+  frame.header = wire::header_of(bytes).value_or(wire::FrameHeader{});
+  const bool trailer = bytes.size() >= wire::kHeaderBytes + wire::kTrailerBytes;
+  frame.header_and_payload =
+      trailer ? bytes.first(std::min(bytes.size() - wire::kTrailerBytes, wire::kHeaderBytes + wire::kMaxPayloadBytes))
+              : bytes.first(std::min(bytes.size(), wire::kHeaderBytes));
+  return frame;
+}
+
+CheckedFlexRayFrame check_broken_frame(schedules::Channel channel, std::span<const std::byte> bytes) {
+  CheckedFlexRayFrame frame;
+  frame.header_and_payload = bytes.first(std::min(bytes.size(), wire::kHeaderBytes + wire::kMaxPayloadBytes));
+  const std::optional<wire::FrameHeader> header = wire::header_of(bytes);
+  if (!header) return frame;
+  frame.header = *header;
+  const wire::FrameCrcs crcs = wire::check_crcs(channel, bytes);
+  if (!crcs.header_holds) frame.errors |= kHeaderCrcError;
+  const std::size_t until_trailer = wire::kHeaderBytes + std::size_t{2} * header->payload_words;
+  if (bytes.size() == until_trailer + wire::kTrailerBytes && !crcs.frame_holds) frame.errors |= kFrameCrcError;
+  // Without a sound header nobody knows where the payload ends.
+  if (crcs.header_holds) frame.header_and_payload = bytes.first(std::min(bytes.size(), until_trailer));
   return frame;
 }
 
@@ -82,10 +70,11 @@ FlexRayPacket parse_flexray_packet(std::span<const std::byte> data) {
   }
   packet.errors = static_cast<std::uint8_t>(data[1]) & 0x1f;
   const std::span<const std::byte> frame = data.subspan(kFlexRayPrefix);
-  if (frame.size() < wire::kHeaderBytes) return packet;
+  const std::optional<wire::FrameHeader> header = wire::header_of(frame);
+  if (!header) return packet;
   packet.whole_header = true;
-  packet.header = header_of(frame);
-  packet.header_crc_holds = header_crc_holds(packet.header);
+  packet.header = *header;
+  packet.header_crc_holds = wire::check_crcs(packet.channel, frame).header_holds;
   packet.payload = frame.subspan(wire::kHeaderBytes);
   return packet;
 }

@@ -40,6 +40,10 @@ struct CheckedFlexRayFrame {
 // or not as many as the header says, fail the frame CRC, too few for a header also the header CRC.
 CheckedFlexRayFrame check_flexray_frame(schedules::Channel channel, std::span<const std::byte> bytes);
 
+// The same of what is left of a frame that could not be made out to its end: `bytes`, as many as were there as a whole,
+// with the trailer, if that was there, too. Whatever can be checked of it is.
+CheckedFlexRayFrame check_broken_frame(schedules::Channel channel, std::span<const std::byte> bytes);
+
 // Appends a packet of link type 210.
 void put_flexray_packet(std::string& out, schedules::Channel channel, const CheckedFlexRayFrame& frame);
 

@@ -186,6 +186,22 @@ TEST(CaptureCheck, APacketThatWasCutWhenCaptured) {
             counts({{Contradiction::kPayloadLength, 1}, {Contradiction::kMalformed, 1}, {Contradiction::kMissing, 1}}));
 }
 
+TEST(CaptureCheck, AFlaggedFrameWithoutAHeaderIsACodingErrorAndMissingInItsSlot) {
+  std::vector<BusFrame> frames = scheduled_frames(cluster(), 6);
+  const std::size_t at = place_of(frames, 12, Channel::kB, 3);
+  frames[at].errors = kCodingError;
+  const CaptureInterface interface { LinkType::kFlexRay, "FlexRay" };
+  for (const std::size_t bytes_left : {2u, 4u, 6u}) {
+    std::string bytes;
+    CaptureWriter writer(bytes, {&interface, 1}, "");
+    for (std::size_t i = 0; i < frames.size(); ++i)
+      writer.packet(0, frames[i].time_ns, frames[i].packet().substr(0, i == at ? bytes_left : 400), "");
+    const CaptureVerdict verdict = check_capture(parse_capture(bytes, "bus.pcapng"), "bus.pcapng", cluster(), {});
+    EXPECT_EQ(verdict.counts, counts({{Contradiction::kCoding, 1}, {Contradiction::kMissing, 1}}));
+    EXPECT_THAT(texts(verdict), testing::Contains(packet(at) + "on B: coding errors are flagged (0x02), and there is no header"));
+  }
+}
+
 TEST(CaptureCheck, ADamagedHeaderIsFoundWithoutTheCapturesFlagAndNotMissingBesides) {
   const std::vector<BusFrame> frames = scheduled_frames(cluster(), 6);
   for (const int slot : {1, 12}) {

@@ -64,6 +64,19 @@ struct Exported {
     sent.bytes = bytes;
     collector.on(sent);
   }
+  // What was on the channel for a frame of the gateway, sent at `sent_ns`; slot 0: no frame of its controller.
+  void on_channel(std::int64_t start_ns, std::int64_t sent_ns, int slot, std::uint8_t channel, std::uint8_t state,
+                  std::span<const std::byte> bytes) {
+    records::ChannelFrame frame;
+    frame.start = frame.end = {start_ns};
+    frame.sender = *nodes.find_node("gateway");
+    frame.channel = channel;
+    frame.state = state;
+    frame.slot = static_cast<std::uint16_t>(slot);
+    frame.sent = {sent_ns};
+    frame.bytes = bytes;
+    collector.on(frame);
+  }
   std::string csv() const { return export_csv(collector, collector.in_order(), LogNames(manifest)); }
   std::string candump() const { return export_candump(collector, collector.in_order(), LogNames(manifest)); }
   Capture capture() const {
@@ -120,6 +133,57 @@ TEST(CaptureExport, PacketsCarryTheMeasurementInTheirComments) {
                                    "measurement laser 12: laser_objects, fragment 0", "", "image 12, fragment 0"));
   EXPECT_EQ(capture.packets[0].time_ns, 4);
   EXPECT_EQ(capture.packets[0].interface, 1u);
+}
+
+// Five frames that were sent in vain or otherwise than they were there, and two that no controller sent.
+Exported disturbed() {
+  Exported log;
+  const PduId list = *log.nodes.find_pdu("laser_objects");
+  for (const int slot : {6, 7, 8, 9, 10}) log.flexray(slot, slot, 0, list, false);
+  wire::FrameHeader header;
+  header.frame_id = 6;
+  header.cycle = 9;
+  const std::array payload{std::byte{1}, std::byte{0xab}};
+  std::array<std::byte, 10> bytes{};
+  wire::encode_frame(header, Channel::kA, payload, bytes);
+  log.on_channel(16, 6, 6, 0, 0, bytes);   // late
+  bytes[6] = std::byte{0xaa};
+  log.on_channel(7, 7, 7, 0, records::kChannelFrameCrc, bytes);
+  log.on_channel(8, 8, 8, 0, records::kChannelCoding | records::kChannelCut, std::span(bytes).first(6));
+  log.on_channel(9, 9, 9, 0, records::kChannelNothing, {});
+  log.on_channel(10, 10, 10, 0, records::kChannelCoding, {});
+  bytes[6] = std::byte{0xab};
+  log.on_channel(11, 0, 0, 0, 0, bytes);
+  log.on_channel(12, 0, 0, 1, records::kChannelCoding, {});
+  return log;
+}
+
+TEST(CaptureExport, FramesAreAsTheyWereOnTheChannel) {
+  EXPECT_EQ(disturbed().csv(), std::string(kCsvHeader) +
+                                   "7,FlexRay,A,73,7,gateway,frame,frame_crc_error,laser_objects,12,0,laser 12,01AA\n"
+                                   "8,FlexRay,A,73,8,gateway,frame,coding_error+frame_end_error,laser_objects,12,0,laser 12,01\n"
+                                   "10,FlexRay,A,73,10,gateway,frame,coding_error,laser_objects,12,0,laser 12,\n"
+                                   "11,FlexRay,A,,6,gateway,frame,,,,,,01AB\n"
+                                   "12,FlexRay,B,,,gateway,noise,coding_error,,,,,\n"
+                                   "16,FlexRay,A,73,6,gateway,frame,,laser_objects,12,0,laser 12,01AB\n");
+}
+
+TEST(CaptureExport, PacketsOfFramesThatWereNotAsTheyWereSentSayWhoseTheyAre) {
+  const Capture capture = disturbed().capture();
+  std::vector<std::string> comments;
+  std::vector<int> errors;
+  std::vector<std::size_t> sizes;
+  for (const CapturedPacket& packet : capture.packets) {
+    comments.push_back(packet.comment);
+    errors.push_back(parse_flexray_packet(capture.data(packet)).errors);
+    sizes.push_back(packet.data_size);
+  }
+  const std::string list = "measurement laser 12: laser_objects, fragment 0";
+  EXPECT_THAT(comments, testing::ElementsAre("slot 7 of gateway; " + list, "slot 8 of gateway; " + list,
+                                             "slot 10 of gateway; " + list, "the controller of gateway did not send it",
+                                             "the controller of gateway did not send it", "slot 6 of gateway; " + list));
+  EXPECT_THAT(errors, testing::ElementsAre(kFrameCrcError, kCodingError | kFrameEndError, kCodingError, 0, kCodingError, 0));
+  EXPECT_THAT(sizes, testing::ElementsAre(9u, 8u, 2u, 9u, 2u, 9u));
 }
 
 TEST(CaptureExport, NumbersWithoutANameAreWrittenOut) {

@@ -58,6 +58,22 @@ TEST(CapturePacket, FramesCutShortFailWhatCannotBeChecked) {
   }
 }
 
+TEST(CapturePacket, OfAFrameThatBreaksOffOnlyWhatIsThereIsChecked) {
+  const std::vector<std::byte> sound = known_frame();
+  for (std::size_t size = 0; size <= sound.size(); ++size) {
+    const CheckedFlexRayFrame frame = check_broken_frame(Channel::kA, std::span(sound).first(size));
+    EXPECT_EQ(frame.errors, 0) << size;
+    EXPECT_EQ(frame.header_and_payload.size(), std::min(size, sound.size() - wire::kTrailerBytes));
+    EXPECT_EQ(frame.header.frame_id, size < wire::kHeaderBytes ? 0 : 1);
+    std::vector<std::byte> bytes(sound.begin(), sound.begin() + static_cast<std::ptrdiff_t>(size));
+    if (size < 2) continue;
+    bytes[1] ^= std::byte{1};
+    const bool whole = size == sound.size();
+    EXPECT_EQ(check_broken_frame(Channel::kA, bytes).errors,
+              (size < wire::kHeaderBytes ? 0 : kHeaderCrcError) | (whole ? kFrameCrcError : 0));
+  }
+}
+
 TEST(CapturePacket, WhatIsPutIsParsed) {
   for (const Channel channel : {Channel::kA, Channel::kB})
     for (const int words : {0, 1, 28, 127}) {
