@@ -164,7 +164,8 @@ void FlexRayController::State::tell_slot_problems(Microticks at) {
   const int now = counter();
   for (int slot = 1; slot <= g.gNumberOfStaticSlots; ++slot) {
     const Seen& status = seen[static_cast<std::size_t>(slot - 1)];
-    if ((status.errors[0] | status.errors[1]) == 0 && !slots.others_send_in(slot)) continue;
+    if ((status.errors[0] | status.errors[1]) == 0 && ((status.valid[0] && status.valid[1]) || !slots.others_send_in(slot)))
+      continue;
     for (const schedules::Channel channel : kChannels) {
       const auto c = index_of(channel);
       std::uint8_t errors = status.errors[c];
@@ -225,6 +226,7 @@ void FlexRayController::start_integrated(const InitialClock& clock) {
   s.poc.kind = PocKind::kNormalActive;
   s.begin_schedule(clock.cycle_start, clock.rate, 0);
   s.start_cycle();
+  s.due = s.next_event();
 }
 
 void FlexRayController::start_cold(Microticks now) {
@@ -234,18 +236,20 @@ void FlexRayController::start_cold(Microticks now) {
   s.tell({PocEventKind::kConfigComplete}, now);
   if (s.p.pKeySlotUsedForStartup) s.tell({PocEventKind::kAllowColdstart}, now);
   s.tell({PocEventKind::kRun}, now);
+  s.due = s.next_event();
 }
 
 void FlexRayController::command(PocEventKind command, Microticks now) {
   TTF_CHECK(command >= PocEventKind::kConfig && command <= PocEventKind::kFreeze, "{} is no command",
             to_text(command));
   state_->tell({command}, now);
+  state_->due = state_->next_event();
 }
 
-Microticks FlexRayController::next_event() const { return state_->next_event(); }
+Microticks FlexRayController::next_event() const { return state_->due; }
 
 void FlexRayController::advance(Microticks now) {
-  for (Microticks at = state_->next_event(); at <= now; at = state_->next_event()) state_->handle(at);
+  for (State& s = *state_; s.due <= now; s.due = s.next_event()) s.handle(s.due);
 }
 
 void FlexRayController::receive(const Reception& reception) { state_->receive(reception); }

@@ -44,17 +44,21 @@ void FlexRayController::State::receive(const Reception& reception) {
   const auto c = index_of(reception.channel);
   // A controller that sends cannot make out what others send.
   const bool conflict = sending_from[c] != kNever && reception.start < sending_to[c] && reception.end > sending_from[c];
-  if (!clock || in_startup(poc.kind)) {
-    tell({PocEventKind::kChannelActive}, reception.end);
-    if (conflict && wakeup_sent != kNever) {
-      tell({PocEventKind::kWakeupCollision}, reception.end);
-    } else if (!conflict) {
-      if (reception.signal == Signal::kCas) tell({PocEventKind::kCasReceived}, reception.end);
-      if (reception.signal == Signal::kWakeup && reception.channel == p.pWakeupChannel)
-        tell({PocEventKind::kWakeupPatternReceived}, reception.end);
-      if (reception.signal == Signal::kFrame && wire::has_header(reception.frame))
-        tell({PocEventKind::kHeaderReceived}, reception.end);
-    }
+  if (clock && !in_startup(poc.kind)) return judge(reception, conflict);
+  hear_in_startup(reception, conflict);
+  due = next_event();
+}
+
+void FlexRayController::State::hear_in_startup(const Reception& reception, bool conflict) {
+  tell({PocEventKind::kChannelActive}, reception.end);
+  if (conflict && wakeup_sent != kNever) {
+    tell({PocEventKind::kWakeupCollision}, reception.end);
+  } else if (!conflict) {
+    if (reception.signal == Signal::kCas) tell({PocEventKind::kCasReceived}, reception.end);
+    if (reception.signal == Signal::kWakeup && reception.channel == p.pWakeupChannel)
+      tell({PocEventKind::kWakeupPatternReceived}, reception.end);
+    if (reception.signal == Signal::kFrame && wire::has_header(reception.frame))
+      tell({PocEventKind::kHeaderReceived}, reception.end);
   }
   if (clock)
     judge(reception, conflict);
@@ -94,17 +98,19 @@ void FlexRayController::State::hear(const Reception& reception) {
   }
 }
 
-int FlexRayController::State::static_slot_at(Microticks at) {
-  if (at >= slot_at.from && at < slot_at.to) return slot_at.slot;
+int FlexRayController::State::look_up_static_slot(Microticks at) {
   if (at < clock->cycle_start()) return 0;
-  if (at >= clock->start_of(static_end())) return g.gNumberOfStaticSlots + 1;
   // An estimate on the nominal grid, put right by a slot at most.
   const std::int64_t into = (at - clock->cycle_start()).value;
-  int slot = static_cast<int>(nominal_slot.floor(into)) + 1;
-  if (slot > g.gNumberOfStaticSlots) slot = g.gNumberOfStaticSlots;
-  while (slot > 1 && clock->start_of(slot_start(slot)) > at) --slot;
-  while (slot < g.gNumberOfStaticSlots && clock->start_of(slot_start(slot + 1)) <= at) ++slot;
-  slot_at = {slot, clock->start_of(slot_start(slot)), clock->start_of(slot_start(slot + 1))};
+  int slot = static_cast<int>(std::min<std::int64_t>(nominal_slot.floor(into) + 1, g.gNumberOfStaticSlots));
+  Microticks from = clock->start_of(slot_start(slot)), to = clock->start_of(slot_start(slot + 1));
+  for (; from > at; from = clock->start_of(slot_start(slot))) to = from, --slot;
+  for (; to <= at; to = clock->start_of(slot_start(slot + 1))) {
+    if (slot == g.gNumberOfStaticSlots) return slot + 1;
+    from = to, ++slot;
+  }
+  slot_at = {slot, from, to, {}};
+  for (const Channel channel : kChannels) slot_at.expected[index_of(channel)] = slots.expected(slot, counter(), channel);
   return slot;
 }
 
@@ -131,7 +137,7 @@ void FlexRayController::State::judge(const Reception& reception, bool conflict) 
 void FlexRayController::State::judge_static(const Reception& reception, int slot, std::uint8_t errors) {
   const auto c = index_of(reception.channel);
   const wire::FrameHeader& header = reception.frame.header;
-  const FrameSlot* expected = slots.expected(slot, counter(), reception.channel);
+  const FrameSlot* expected = slot_at.expected[c];   // `slot` has just been looked up
   // A frame that outlasts the segment is judged when that has been closed without it.
   std::vector<Seen>& slots_seen = segment == Segment::kStatic ? seen : seen_last;
   Seen& status = slots_seen[static_cast<std::size_t>(slot - 1)];
@@ -165,7 +171,7 @@ void FlexRayController::State::judge_static(const Reception& reception, int slot
     sync.heard(slot, reception.channel, deviation, header.startup && std::abs(deviation) <= p.pdAcceptedStartupRange);
   }
   if (header.payload_preamble) network_management.combine(reception.frame.payload);
-  if (!store(*expected, reception)) status.errors[c] |= kContentError;   // a frame, but not of this slot's list
+  if (expected->pdu != kNoPdu && !store(*expected, reception)) status.errors[c] |= kContentError;   // a frame, but not of this slot's list
 }
 
 void FlexRayController::State::judge_dynamic(const Reception& reception, std::uint8_t errors) {
@@ -179,6 +185,7 @@ void FlexRayController::State::judge_dynamic(const Reception& reception, std::ui
   if (last > minislots.count()) errors |= kBoundaryViolation;
   d.counter.occupied(first, last < first ? first : last);
   plan_dynamic(reception.channel, reception.end);
+  due = next_event();
 
   const FrameSlot* expected = slots.expected(slot, counter(), reception.channel, wire::message_id(reception.frame));
   if (errors == 0 && (header.frame_id != slot || header.cycle != counter() || header.sync || header.startup ||

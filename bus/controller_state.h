@@ -60,6 +60,7 @@ struct FlexRayController::State {
   struct SlotAt {
     int slot = 0;
     Microticks from{}, to{};               // [from, to): none
+    std::array<const schedules::FrameSlot*, 2> expected{};   // by channel, as SlotTable has it
   };
   SlotAt slot_at;
 
@@ -67,6 +68,7 @@ struct FlexRayController::State {
   // kBefore: the first cycle is to start; kDynamic: with the symbol window.
   enum class Segment : std::uint8_t { kBefore, kStatic, kDynamic, kRest };
   Segment segment = Segment::kStatic;
+  Microticks due = kNever;                 // next_event(), which what arrives in a static slot changes nothing about
   std::size_t next_static = 0;             // in slots.own_static()
   struct Dynamic {
     DynamicSlotCounter counter;
@@ -133,12 +135,17 @@ struct FlexRayController::State {
 
   // --- receiving (controller_receive.cc)
   void receive(const Reception& reception);
+  void hear_in_startup(const Reception& reception, bool conflict);   // or without a schedule
   void hear(const Reception& reception);                   // without a schedule
   void judge(const Reception& reception, bool conflict);   // within the schedule
   void judge_static(const Reception& reception, int slot, std::uint8_t errors);
   void judge_dynamic(const Reception& reception, std::uint8_t errors);
   bool store(const schedules::FrameSlot& slot, const Reception& reception);
-  int static_slot_at(Microticks at);                 // 0 before, gNumberOfStaticSlots + 1 after the segment
+  // 0 before, gNumberOfStaticSlots + 1 after the segment; else it is in slot_at then.
+  int static_slot_at(Microticks at) {
+    return at >= slot_at.from && at < slot_at.to ? slot_at.slot : look_up_static_slot(at);
+  }
+  int look_up_static_slot(Microticks at);
 };
 
 }  // namespace ttf::bus

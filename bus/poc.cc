@@ -62,10 +62,6 @@ MacMode mac_mode(const PocState& state) {
   return MacMode::kNothing;
 }
 
-bool in_startup(PocKind kind) {
-  return kind >= PocKind::kColdstartListen && kind <= PocKind::kInitialiseSchedule;
-}
-
 bool has_schedule(PocKind kind) {
   return kind == PocKind::kNormalActive || kind == PocKind::kNormalPassive ||
          (in_startup(kind) && kind != PocKind::kColdstartListen && kind != PocKind::kIntegrationListen);

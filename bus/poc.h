@@ -173,7 +173,9 @@ PocState poc_power_on(const PocParameters& parameters);
 PocStep poc_step(const PocParameters& parameters, const PocState& state, const PocEvent& event);
 
 MacMode mac_mode(const PocState& state);
-bool in_startup(PocKind kind);
+constexpr bool in_startup(PocKind kind) {
+  return kind >= PocKind::kColdstartListen && kind <= PocKind::kInitialiseSchedule;
+}
 // Whether a schedule is derived or runs, that is whether cycle starts can come.
 bool has_schedule(PocKind kind);
 // Whether computed corrections are applied: not while the own frame is the only one on the bus.

@@ -23,14 +23,15 @@ void SyncCollector::measure(int frame_id, schedules::Channel channel, int deviat
   valid = std::min(valid + 1, timebase::kMaxSyncNodes);
   auto& list = even_ ? measurements_.even : measurements_.odd;
   int& count = even_ ? measurements_.even_count : measurements_.odd_count;
-  int index = 0;
-  while (index < count && list[static_cast<std::size_t>(index)].frame_id != frame_id) ++index;
-  if (index == std::min(sync_node_max_, timebase::kMaxSyncNodes)) return;
-  timebase::SyncDeviation& entry = list[static_cast<std::size_t>(index)];
-  if (index == count) {
-    entry = {frame_id, std::nullopt, std::nullopt};
-    ++count;
+  // From the end: the other channel's frame of it comes next.
+  int index = count - 1;
+  while (index >= 0 && list[static_cast<std::size_t>(index)].frame_id != frame_id) --index;
+  if (index < 0) {
+    if (count == std::min(sync_node_max_, timebase::kMaxSyncNodes)) return;
+    index = count++;
+    list[static_cast<std::size_t>(index)] = {frame_id, std::nullopt, std::nullopt};
   }
+  timebase::SyncDeviation& entry = list[static_cast<std::size_t>(index)];
   (channel == schedules::Channel::kA ? entry.a : entry.b) = deviation;
 }
 
