@@ -166,12 +166,11 @@ void FlexRayController::State::tell_slot_problems(Microticks at) {
     const Seen& status = seen[static_cast<std::size_t>(slot - 1)];
     if ((status.errors[0] | status.errors[1]) == 0 && ((status.valid[0] && status.valid[1]) || !slots.others_send_in(slot)))
       continue;
+    const auto expected = slots.expected(slot, now);
     for (const schedules::Channel channel : kChannels) {
       const auto c = index_of(channel);
       std::uint8_t errors = status.errors[c];
-      if (errors == 0 && !status.valid[c] && includes(p.pChannels, channel) &&
-          slots.expected(slot, now, channel) != nullptr)
-        errors = kNoFrame;
+      if (errors == 0 && !status.valid[c] && includes(p.pChannels, channel) && expected[c] != nullptr) errors = kNoFrame;
       if (errors != 0) events.slot_problem(clock->cycle(), slot, channel, static_cast<SlotStatus>(errors), at);
     }
   }

@@ -109,8 +109,8 @@ int FlexRayController::State::look_up_static_slot(Microticks at) {
     if (slot == g.gNumberOfStaticSlots) return slot + 1;
     from = to, ++slot;
   }
-  slot_at = {slot, from, to, {}};
-  for (const Channel channel : kChannels) slot_at.expected[index_of(channel)] = slots.expected(slot, counter(), channel);
+  const int cycle = counter();
+  slot_at = {slot, from, to, cycle, slots.expected(slot, cycle)};
   return slot;
 }
 
@@ -121,6 +121,11 @@ void FlexRayController::State::judge(const Reception& reception, bool conflict) 
   if (reception.signal != Signal::kFrame || reception.frame.error != wire::FrameError::kNone) errors |= kSyntaxError;
   const int slot = static_slot_at(reception.start);
   if (slot >= 1 && slot <= g.gNumberOfStaticSlots) return judge_static(reception, slot, errors);
+  judge_elsewhere(reception, slot, errors, conflict);
+}
+
+// Before or behind the static segment, as `slot` says.
+void FlexRayController::State::judge_elsewhere(const Reception& reception, int slot, std::uint8_t errors, bool conflict) {
   const int minislot = slot == 0 ? 0 : minislots.minislot_at(*clock, reception.start);
   if (minislot >= 1 && minislot <= minislots.count()) return judge_dynamic(reception, errors);
 
@@ -138,6 +143,7 @@ void FlexRayController::State::judge_static(const Reception& reception, int slot
   const auto c = index_of(reception.channel);
   const wire::FrameHeader& header = reception.frame.header;
   const FrameSlot* expected = slot_at.expected[c];   // `slot` has just been looked up
+  const int cycle = slot_at.counter;
   // A frame that outlasts the segment is judged when that has been closed without it.
   std::vector<Seen>& slots_seen = segment == Segment::kStatic ? seen : seen_last;
   Seen& status = slots_seen[static_cast<std::size_t>(slot - 1)];
@@ -149,7 +155,7 @@ void FlexRayController::State::judge_static(const Reception& reception, int slot
   }
   if (status.element[c]) errors |= kSyntaxError;   // a second communication element
   status.element[c] = true;
-  if (errors == 0 && (header.frame_id != slot || header.cycle != counter() ||
+  if (errors == 0 && (header.frame_id != slot || header.cycle != cycle ||
                       header.payload_words != g.gPayloadLengthStatic || expected == nullptr ||
                       (header.startup && !header.sync)))
     errors |= kContentError;

@@ -60,6 +60,7 @@ struct FlexRayController::State {
   struct SlotAt {
     int slot = 0;
     Microticks from{}, to{};               // [from, to): none
+    int counter = 0;                       // of the cycle
     std::array<const schedules::FrameSlot*, 2> expected{};   // by channel, as SlotTable has it
   };
   SlotAt slot_at;
@@ -139,6 +140,7 @@ struct FlexRayController::State {
   void hear(const Reception& reception);                   // without a schedule
   void judge(const Reception& reception, bool conflict);   // within the schedule
   void judge_static(const Reception& reception, int slot, std::uint8_t errors);
+  void judge_elsewhere(const Reception& reception, int slot, std::uint8_t errors, bool conflict);
   void judge_dynamic(const Reception& reception, std::uint8_t errors);
   bool store(const schedules::FrameSlot& slot, const Reception& reception);
   // 0 before, gNumberOfStaticSlots + 1 after the segment; else it is in slot_at then.

@@ -26,10 +26,14 @@ SlotTable::SlotTable(const schedules::Cluster& cluster, NodeId node) {
   for (auto& own : own_dynamic_) std::stable_sort(own.begin(), own.end(), by_slot);
 }
 
-const FrameSlot* SlotTable::expected(int slot, int counter, Channel channel) const {
-  for (const FrameSlot* frame : others_in(slot))
-    if (in_cycle(*frame, counter) && includes(frame->channels, channel)) return frame;
-  return nullptr;
+std::array<const FrameSlot*, 2> SlotTable::expected(int slot, int counter) const {
+  std::array<const FrameSlot*, 2> found{};
+  for (const FrameSlot* frame : others_in(slot)) {
+    if (!in_cycle(*frame, counter)) continue;
+    for (const Channel channel : {Channel::kA, Channel::kB})
+      if (found[index_of(channel)] == nullptr && includes(frame->channels, channel)) found[index_of(channel)] = frame;
+  }
+  return found;
 }
 
 const FrameSlot* SlotTable::expected(int slot, int counter, Channel channel,

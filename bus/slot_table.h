@@ -23,8 +23,11 @@ class SlotTable {
   }
   // Whether another node ever sends in the slot.
   bool others_send_in(int slot) const { return !others_in(slot).empty(); }
-  // The frame that another node sends there; null where nobody does. `counter`: cycle counter, 0..63.
-  const schedules::FrameSlot* expected(int slot, int counter, schedules::Channel channel) const;
+  // The frame that another node sends there, by channel; null where nobody does. `counter`: cycle counter, 0..63.
+  std::array<const schedules::FrameSlot*, 2> expected(int slot, int counter) const;
+  const schedules::FrameSlot* expected(int slot, int counter, schedules::Channel channel) const {
+    return expected(slot, counter)[index_of(channel)];
+  }
   // The same in the dynamic segment, where several may share a slot, told apart by message id: the one with that id (or
   // without one); null where that is not expected.
   const schedules::FrameSlot* expected(int slot, int counter, schedules::Channel channel,

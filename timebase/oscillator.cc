@@ -9,7 +9,6 @@ namespace ttf::timebase {
 namespace {
 
 constexpr std::int64_t kAttosecondsPerPicosecond = 1'000'000;
-constexpr std::int64_t kAttosecondsPerNanosecond = 1'000'000'000;
 constexpr std::int64_t kLongAgo = std::numeric_limits<std::int64_t>::min();
 
 // A clock that is fast by d has the period nominal / (1 + d): rounded once, to the nearest attosecond.
@@ -49,7 +48,6 @@ void Oscillator::change_drift(TrueTime now, std::int64_t drift_ppb) {
   line_ = Line(period, at + rest - static_cast<Int128>(counted.value + 1) * period);
 }
 
-Microticks Oscillator::ticks_at(TrueTime t) const { return (t <= changed_ ? before_ : line_).ticks_at(t); }
 TrueTime Oscillator::time_of(Microticks k) const { return (k <= changed_tick_ ? before_ : line_).time_of(k); }
 
 Oscillator::Line::Line(std::int64_t period_as, Int128 phase_as)
@@ -62,23 +60,12 @@ Oscillator::Line::Line(std::int64_t period_as, Int128 phase_as)
       frequency_(static_cast<std::uint64_t>((static_cast<UInt128>(kAttosecondsPerNanosecond) << 64) /
                                             static_cast<UInt128>(period_as))) {}
 
-// The estimates are off by a few ticks or nanoseconds at most, so the remainders fit 64 bits, whatever is lost above
-// them.
-Microticks Oscillator::Line::ticks_at(TrueTime t) const {
-  const std::int64_t since = t.ns - phase_ns_;
-  if (since < 0) {
-    const Int128 at = static_cast<Int128>(t.ns) * kAttosecondsPerNanosecond;
-    return {static_cast<std::int64_t>(floor_div(at - phase_as_, period_as_))};
-  }
-  auto k = static_cast<std::int64_t>((static_cast<UInt128>(since) * frequency_) >> 64);
-  auto rest = static_cast<std::int64_t>(static_cast<std::uint64_t>(t.ns) * kAttosecondsPerNanosecond -
-                                        static_cast<std::uint64_t>(phase_as_) -
-                                        static_cast<std::uint64_t>(k) * static_cast<std::uint64_t>(period_as_));
-  for (; rest < 0; rest += period_as_) --k;
-  for (; rest >= period_as_; rest -= period_as_) ++k;
-  return {k};
+Microticks Oscillator::Line::ticks_before(TrueTime t) const {
+  const Int128 at = static_cast<Int128>(t.ns) * kAttosecondsPerNanosecond;
+  return {static_cast<std::int64_t>(floor_div(at - phase_as_, period_as_))};
 }
 
+// As in ticks_at(), the estimate is off by a few nanoseconds at most.
 TrueTime Oscillator::Line::time_of(Microticks k) const {
   if (k.value < 0) return {static_cast<std::int64_t>(-floor_div(-attoseconds(k), kAttosecondsPerNanosecond))};
   std::int64_t ns = phase_ns_ + k.value * period_ns_ +

@@ -21,6 +21,8 @@
 
 namespace ttf::timebase {
 
+inline constexpr std::int64_t kAttosecondsPerNanosecond = 1'000'000'000;
+
 class Oscillator {
  public:
   // What a faulty crystal may do; the specification's +-1'500 ppm is the schedule's business.
@@ -33,7 +35,8 @@ class Oscillator {
   // From `now` on the clock drifts by `drift_ppb`. `now` is never before an earlier change.
   void change_drift(TrueTime now, std::int64_t drift_ppb);
 
-  Microticks ticks_at(TrueTime t) const;      // ticks that have happened up to and including t
+  // Ticks that have happened up to and including t.
+  Microticks ticks_at(TrueTime t) const { return (t <= changed_ ? before_ : line_).ticks_at(t); }
   TrueTime time_of(Microticks k) const;       // first nanosecond at or after tick k
   LocalTime local_time(Microticks k) const;   // k nominal periods, rounded down to whole nanoseconds
   std::int64_t nominal_period_ps() const { return nominal_period_ps_; }
@@ -46,13 +49,26 @@ class Oscillator {
    public:
     Line() = default;
     Line(std::int64_t period_as, Int128 phase_as);
-    Microticks ticks_at(TrueTime t) const;
+    Microticks ticks_at(TrueTime t) const {
+      if (t.ns < phase_ns_) return ticks_before(t);
+      const auto since = static_cast<std::uint64_t>(t.ns - phase_ns_);
+      auto k = static_cast<std::int64_t>((static_cast<UInt128>(since) * frequency_) >> 64);
+      // The estimate is off by a few ticks at most, so the remainder fits 64 bits, whatever is lost above them.
+      auto rest = static_cast<std::int64_t>(static_cast<std::uint64_t>(t.ns) * kAttosecondsPerNanosecond -
+                                            static_cast<std::uint64_t>(phase_as_) -
+                                            static_cast<std::uint64_t>(k) * static_cast<std::uint64_t>(period_as_));
+      for (; rest < 0; rest += period_as_) --k;
+      for (; rest >= period_as_; rest -= period_as_) ++k;
+      return {k};
+    }
     TrueTime time_of(Microticks k) const;
     // phase + k * period
     Int128 attoseconds(Microticks k) const { return phase_as_ + static_cast<Int128>(k.value) * period_as_; }
     std::int64_t period_as() const { return period_as_; }
 
    private:
+    Microticks ticks_before(TrueTime t) const;   // the phase, rounded down to a nanosecond
+
     std::int64_t period_as_ = 0;
     Int128 phase_as_ = 0;
     std::int64_t phase_ns_ = 0;          // rounded down
