@@ -25,7 +25,7 @@ Crank::Crank(const schedules::Cluster& cluster, std::size_t others)
 void Crank::seat(const timebase::Oscillator& oscillator, std::optional<TrueTime> power_on) {
   TTF_CHECK(seats_.size() < cluster_.nodes.size(), "{} nodes are all", seats_.size());
   TTF_CHECK(!power_on || *power_on >= TrueTime{}, "power-on at {} ns", power_on->ns);
-  seats_.push_back({oscillator, !power_on, TrueTime{} - Duration{1}, kUnknown});
+  seats_.push_back({oscillator, !power_on, TrueTime{} - Duration{1}, kUnknown, kNever, kNever, {}, {}});
   next_.push_back(kNever);
   if (power_on) set_next(seats_.size() - 1, *power_on);
 }
@@ -64,6 +64,7 @@ void Crank::change_drift(NodeId node, std::int64_t ppb) {
   const std::size_t n = index_of(node);
   seats_[n].oscillator.change_drift(now_, ppb);
   seats_[n].next = kUnknown;
+  seats_[n].ended = kNever;
   if (!seats_[n].powered) return;
   drifts(n);
   refresh(n);
@@ -105,8 +106,7 @@ void Crank::set_next(std::size_t node, TrueTime time) {
 
 void Crank::run_until(TrueTime end) {
   while (true) {
-    const bool node_is_due = queue_.empty() || EventOrder{next_[earliest_], Phase::kNode,
-                                                          static_cast<std::uint8_t>(earliest_), 0, 0} < queue_.next();
+    const bool node_is_due = queue_.empty() || next_of_nodes() < queue_.next();
     const TrueTime time = node_is_due ? next_[earliest_] : queue_.next().time;
     if (disturbance_ != nullptr && disturbance_->next() < time) {
       if (disturbance_->next() > end) break;
@@ -122,7 +122,7 @@ void Crank::run_until(TrueTime end) {
     } else {
       const MediumEvent event = queue_.pop();
       if (event.kind == MediumEvent::Kind::kFlexRayArrival)
-        arrive(event);
+        arrive(event, end);
       else
         happen(event);
     }
@@ -142,23 +142,43 @@ void Crank::step(std::size_t node) {
   refresh(node);
 }
 
-void Crank::arrive(const MediumEvent& event) {
-  const auto arrival = medium_.arrive(event, now_);
-  if (!arrival) return;
-  const Seat& seat = seats_[event.node];
+// Goes along with a signal from receiver to receiver, as long as nothing else comes between.
+void Crank::arrive(MediumEvent event, TrueTime end) {
+  while (true) {
+    const auto [arrival, goes_on] = medium_.stop_over(event, now_);
+    if (arrival) deliver(event.node, *arrival);
+    if (!goes_on) return;
+    const EventOrder next = medium_.next_arrival(event);
+    if (next.time > end || !comes_next(next)) return queue_.go_on(next, event);
+    now_ = next.time;
+  }
+}
+
+bool Crank::comes_next(const EventOrder& order) const {
+  return order < next_of_nodes() && queue_.is_first(order) &&
+         (disturbance_ == nullptr || disturbance_->next() >= order.time);
+}
+
+void Crank::deliver(std::size_t node, const FlexRayMedium::Arrival& arrival) {
+  Seat& seat = seats_[node];
   if (seat.powered) {
-    bus::Reception reception{arrival->channel, arrival->signal, seat.oscillator.ticks_at(arrival->start),
-                             seat.oscillator.ticks_at(arrival->end), {}};
-    if (arrival->start < seat.since) {
+    if (arrival.start != seat.started || arrival.end != seat.ended) {
+      seat.started = arrival.start;
+      seat.ended = arrival.end;
+      seat.start = seat.oscillator.ticks_at(arrival.start);
+      seat.end = seat.oscillator.ticks_at(arrival.end);
+    }
+    bus::Reception reception{arrival.channel, arrival.signal, seat.start, seat.end, {}};
+    if (arrival.start < seat.since) {
       reception.signal = bus::Signal::kUndecodable;
       reception.start = seat.oscillator.ticks_at(seat.since);
-    } else if (arrival->signal == bus::Signal::kFrame) {
-      reception.frame = medium_.frame(*arrival);
+    } else if (arrival.signal == bus::Signal::kFrame) {
+      reception.frame = medium_.frame(arrival);
     }
-    receive(event.node, reception);
-    refresh(event.node);
+    receive(node, reception);
+    refresh(node);
   }
-  medium_.release(*arrival);
+  medium_.release(arrival);
 }
 
 void CrankPort::transmit(const bus::Transmission& transmission) {

@@ -84,10 +84,18 @@ class Crank : public Plant {
     bool powered = false;
     TrueTime since{};                  // it is with or without supply
     Microticks next{};                 // its next own event, when it was asked last
+    // What it received last, on the one and on the other clock: the other channel's frame comes at the same instants.
+    TrueTime started{}, ended{};
+    Microticks start{}, end{};
   };
   void set_next(std::size_t node, TrueTime time);
   void step(std::size_t node);
-  void arrive(const MediumEvent& event);
+  void arrive(MediumEvent event, TrueTime end);
+  void deliver(std::size_t node, const FlexRayMedium::Arrival& arrival);
+  EventOrder next_of_nodes() const {
+    return {next_[earliest_], Phase::kNode, static_cast<std::uint8_t>(earliest_), 0, 0};
+  }
+  bool comes_next(const EventOrder& order) const;
 
   std::array<std::unique_ptr<StarCoupler>, 2> couplers_;   // by channel
   std::vector<Seat> seats_;            // by NodeId

@@ -47,6 +47,13 @@ class EventQueue {
   // What goes on that was scheduled before, in `order.sequence` and not before it happened last.
   void go_on(const EventOrder& order, const Payload& payload) { push({order, payload}); }
   bool empty() const { return heap_.size() == (hole_ ? 1 : 0); }
+  // Whether this comes before all that is pending.
+  bool is_first(const EventOrder& order) const {
+    if (!hole_) return heap_.empty() || order < heap_.front().order;
+    for (std::size_t child = 1; child < std::min<std::size_t>(3, heap_.size()); ++child)
+      if (heap_[child].order < order) return false;
+    return true;
+  }
   const EventOrder& next() {
     fill();
     return heap_.front().order;

@@ -22,6 +22,7 @@ FlexRayMedium::FlexRayMedium(const schedules::Cluster& cluster, MediumQueue& que
       pool_(pool),
       position_(cluster.nodes.size(), -1),
       lanes_(2 * cluster.nodes.size()),
+      ways_(cluster.nodes.size()),
       sent_until_(2 * cluster.nodes.size()),
       spoken_(2 * cluster.nodes.size()),
       min_delay_ps_(cluster.flexray.gdMinPropagationDelay_ps),
@@ -43,7 +44,8 @@ FlexRayMedium::FlexRayMedium(const schedules::Cluster& cluster, MediumQueue& que
   }
   for (std::size_t n = 0; n < cluster.nodes.size(); ++n)
     for (const Channel channel : {Channel::kA, Channel::kB})
-      ways_.push_back(position_[n] < 0 ? Way{} : make_way(channel, static_cast<NodeId>(n), false));
+      if (position_[n] >= 0) ways_[n][index_of(channel)] = make_way(channel, static_cast<NodeId>(n), false);
+  same_receivers_ = attached_[0] == attached_[1];
   flights_.resize(kFlights);
   free_flights_.reserve(kFlights);
   const auto most = static_cast<std::size_t>(on_bus);
@@ -109,7 +111,8 @@ void FlexRayMedium::emit(const Leaving& signal, std::optional<NodeId> source) {
 void FlexRayMedium::spread(const Leaving& signal, std::optional<NodeId> sender, bool regenerated,
                            ChannelLog::Id logged, const wire::DecodedFrame* content) {
   const auto c = index_of(signal.channel);
-  const Way& way = regenerated ? from_coupler_[c] : sender ? ways_[lane_of(*sender, signal.channel)] : from_nowhere_[c];
+  const Ways& ways = regenerated ? from_coupler_ : sender ? ways_[index_of(*sender)] : from_nowhere_;
+  const Way& way = ways[c];
   const bool itself =
       regenerated && std::any_of(way.begin(), way.end(), [&](const Leg& leg) { return leg.receiver == sender; });
   const int receivers = static_cast<int>(way.size()) - (itself ? 1 : 0);
@@ -122,21 +125,39 @@ void FlexRayMedium::spread(const Leaving& signal, std::optional<NodeId> sender, 
   if (signal.signal == Signal::kFrame)
     frame = content != nullptr ? pool_.put_content(*content, receivers)
                                : pool_.put_frame(signal.channel, signal.bytes, receivers);
-  Flight& flight = take_off(signal.sender, signal.channel, logged);
+  const NodeId passed_over = itself ? *sender : kNoNode;
+  const Arrival left{signal.start, signal.end, frame, signal.channel, signal.signal, ChannelLog::kNone};
+  // It is clear until something is changed on its last metre; the log wants to know of every receiver.
+  Flight* flight = nullptr;
+  if (log_ != nullptr || aloft_[c] > 0) {
+    crowd(signal.channel);
+    flight = &take_off(signal.sender, signal.channel, logged);
+  } else if (disturbance_ == nullptr) {
+    return depart_clear(signal.sender, left, ways, passed_over);
+  }
   for (const Leg& leg : way) {
     if (leg.receiver == sender) continue;
     Arriving last{signal.sender, leg.receiver, signal.channel, signal.signal, signal.start + leg.delay,
                   signal.end + leg.delay, regenerated, signal.bytes};
     const bool arrives = disturbance_ == nullptr || disturbance_->arriving(last);
+    const bool same_bytes = last.bytes.data() == signal.bytes.data();
+    if (flight == nullptr) {
+      if (arrives && same_bytes && last.signal == signal.signal && last.start == signal.start + leg.delay &&
+          last.end == signal.end + leg.delay)
+        continue;
+      flight = &take_off(signal.sender, signal.channel, logged);
+      lay_out(*flight, std::span(way.data(), &leg), passed_over, left);
+    }
     Arrival arrival{last.start, last.end, frame, signal.channel, last.signal, ChannelLog::kNone};
-    const bool as_it_left = arrives && last.signal == Signal::kFrame && last.bytes.data() == signal.bytes.data();
+    const bool as_it_left = arrives && last.signal == Signal::kFrame && same_bytes;
     if (signal.signal == Signal::kFrame && !as_it_left) pool_.release(frame);
     if (arrives && last.signal == Signal::kFrame && !as_it_left)
       arrival.frame = pool_.put_frame(signal.channel, last.bytes, 1);
     if (log_ != nullptr) arrival.logged = witness(logged, signal, last, arrives);
-    if (arrives) put(flight, leg.receiver, arrival);
+    if (arrives) put(*flight, leg.receiver, arrival);
   }
-  depart(flight);
+  if (flight == nullptr) return depart_clear(signal.sender, left, ways, passed_over);
+  depart(*flight);
 }
 
 void FlexRayMedium::to_coupler(const Leaving& signal, NodeId sender, TrueTime now, ChannelLog::Id logged) {
@@ -184,6 +205,7 @@ FlexRayMedium::Flight& FlexRayMedium::take_off(NodeId sender, Channel channel, C
   TTF_CHECK(!free_flights_.empty(), "{} signals are on their way", kFlights);
   Flight& flight = flights_[free_flights_.back()];
   free_flights_.pop_back();
+  ++aloft_[index_of(channel)];
   flight.size = flight.next = 0;
   flight.logged = logged;
   flight.sender = sender;
@@ -192,6 +214,8 @@ FlexRayMedium::Flight& FlexRayMedium::take_off(NodeId sender, Channel channel, C
 }
 
 void FlexRayMedium::land(Flight& flight) {
+  --aloft_[index_of(flight.channel)];
+  flight.ways = nullptr;
   free_flights_.push_back(static_cast<std::uint32_t>(&flight - flights_.data()));
   if (log_ != nullptr) log_->arrived(flight.logged);
 }
@@ -256,51 +280,70 @@ void FlexRayMedium::depart(Flight& flight) {
   // As the way is, unless something has changed a signal on its last metre.
   const std::span<Stop> stops = flight.room.first(flight.size);
   if (!std::is_sorted(stops.begin(), stops.end(), by_end)) std::sort(stops.begin(), stops.end(), by_end);
-  const MediumEvent event = event_of(flight);
   if (stops.empty()) return land(flight);
-  const EventOrder first = order_of(flight);
-  flight.sequence = queue_.schedule(first.time, first.phase, first.node, event, first.rank);
+  schedule(flight);
+}
+
+FlexRayMedium::Stop FlexRayMedium::next_stop(const Flight& flight) const {
+  if (flight.ways == nullptr) return flight.room[flight.next];
+  const Leg& leg = (*flight.ways)[index_of(flight.channel)][flight.next];
+  return {flight.left[index_of(flight.channel)].end + leg.delay, leg.receiver, 0};
+}
+
+EventOrder FlexRayMedium::next_arrival(MediumEvent& event) const {
+  const Flight& flight = flights_[event.frame];
+  const Stop stop = next_stop(flight);
+  event.node = static_cast<std::uint8_t>(stop.receiver);
+  event.channel_or_bus = static_cast<std::uint8_t>(flight.channel);
+  const auto rank = static_cast<std::uint16_t>((index_of(flight.channel) << 8) | index_of(flight.sender));
+  return {stop.end, Phase::kArrival, event.node, rank, flight.sequence};
 }
 
 MediumEvent FlexRayMedium::event_of(const Flight& flight) const {
   MediumEvent event;
   event.kind = MediumEvent::Kind::kFlexRayArrival;
-  event.channel_or_bus = static_cast<std::uint8_t>(flight.channel);
   event.frame = static_cast<std::uint32_t>(&flight - flights_.data());
-  if (flight.next < flight.size) event.node = static_cast<std::uint8_t>(flight.room[flight.next].receiver);
   return event;
 }
 
-EventOrder FlexRayMedium::order_of(const Flight& flight) const {
-  const Stop& stop = flight.room[flight.next];
-  const auto rank = static_cast<std::uint16_t>((index_of(flight.channel) << 8) | index_of(flight.sender));
-  return {stop.end, Phase::kArrival, static_cast<std::uint8_t>(stop.receiver), rank, flight.sequence};
+void FlexRayMedium::schedule(Flight& flight) {
+  MediumEvent event = event_of(flight);
+  const EventOrder first = next_arrival(event);
+  flight.sequence = queue_.schedule(first.time, first.phase, first.node, event, first.rank);
 }
 
 std::optional<FlexRayMedium::Arrival> FlexRayMedium::arrive(const MediumEvent& event, TrueTime now) {
+  const Stopover here = stop_over(event, now);
+  MediumEvent next = event;
+  if (here.goes_on) queue_.go_on(next_arrival(next), next);
+  return here.arrival;
+}
+
+FlexRayMedium::Stopover FlexRayMedium::stop_over(const MediumEvent& event, TrueTime now) {
   if (event.at_coupler) {
     at_coupler(event);
-    return std::nullopt;
+    return {};
   }
   Flight& flight = flights_[event.frame];
+  if (flight.ways != nullptr) return stop_over_clear(flight, now);
   const Stop stop = flight.room[flight.next++];
-  if (flight.next < flight.size)
-    queue_.go_on(order_of(flight), event_of(flight));
-  else
-    land(flight);
+  Stopover here;
+  here.goes_on = flight.next < flight.size;
+  if (!here.goes_on) land(flight);
   Lane& pending = lane(stop.receiver, flight.channel);
   const auto found =
       std::find_if(pending.begin(), pending.end(), [&](const Pending& one) { return one.id == stop.id; });
-  if (found == pending.end()) return std::nullopt;
-  const Arrival arrival = found->arrival;
-  TTF_CHECK(arrival.end == now, "an arrival of {} ns at {} ns", arrival.end.ns, now.ns);
+  if (found == pending.end()) return here;
+  here.arrival = found->arrival;
+  TTF_CHECK(here.arrival->end == now, "an arrival of {} ns at {} ns", here.arrival->end.ns, now.ns);
   pending.take_out(static_cast<std::size_t>(found - pending.begin()));
-  return arrival;
+  return here;
 }
 
 void FlexRayMedium::power_off(NodeId node, TrueTime now) {
   if (position_[index_of(node)] < 0) return;
   if (log_ != nullptr) log_->breaks_off(node, now);
+  for (const Channel channel : {Channel::kA, Channel::kB}) crowd(channel);
   for (Pending& one : to_coupler_) {
     const TrueTime cut = now + branch(node);
     if (one.sender != node || one.arrival.end <= cut) continue;
@@ -350,6 +393,7 @@ void FlexRayMedium::release(const Arrival& arrival) {
 }
 
 bool FlexRayMedium::carrier(NodeId node, Channel channel, TrueTime now) const {
+  if (const Flight* clear = clear_[index_of(channel)]) return carrier_of_clear(*clear, node, channel, now);
   const Lane& pending = lanes_[2 * index_of(node) + index_of(channel)];
   return std::any_of(pending.begin(), pending.end(), [&](const Pending& one) { return one.arrival.start <= now; });
 }

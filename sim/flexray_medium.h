@@ -78,6 +78,14 @@ class FlexRayMedium {
     ChannelLog::Id logged = ChannelLog::kNone;   // while its receiver may still make it out
   };
   std::optional<Arrival> arrive(const MediumEvent& event, TrueTime now);
+  // The same for who goes along with a signal from receiver to receiver: what it brings where it is, and whether it goes
+  // on from there. Then next_arrival() turns the event into its next one and says when that is; it is not in the queue.
+  struct Stopover {
+    std::optional<Arrival> arrival;
+    bool goes_on = false;
+  };
+  Stopover stop_over(const MediumEvent& event, TrueTime now);
+  EventOrder next_arrival(MediumEvent& event) const;
   const wire::DecodedFrame& frame(const Arrival& arrival) const { return pool_.decoded(arrival.frame); }
   void release(const Arrival& arrival);
 
@@ -109,30 +117,39 @@ class FlexRayMedium {
     std::vector<Pending> room_;
     std::size_t size_ = 0;
   };
-  // One signal on its way to all its receivers: a single event of the queue, which goes on from one stop to the next.
-  struct Stop {
-    TrueTime end{};
-    NodeId receiver{};
-    std::uint32_t id = 0;
-  };
-  struct Flight {
-    std::span<Stop> room;             // in stops_, for every node
-    std::size_t size = 0, next = 0;   // stops, by (end, receiver) once it has departed
-    std::uint64_t sequence = 0;       // in the queue
-    ChannelLog::Id logged = ChannelLog::kNone;
-    NodeId sender{};
-    schedules::Channel channel{};
-  };
-  // When a node sent last, for the log.
-  struct Spoken {
-    TrueTime start{}, end{};
-  };
   // From a sender, or from the coupler of a star, to a node.
   struct Leg {
     NodeId receiver{};
     Duration delay{};
   };
   using Way = std::vector<Leg>;       // by (delay, receiver)
+  using Ways = std::array<Way, 2>;    // by channel
+  // One signal on its way to all its receivers: a single event of the queue, which goes on from one stop to the next.
+  struct Stop {
+    TrueTime end{};
+    NodeId receiver{};
+    std::uint32_t id = 0;
+  };
+  // A flight is clear while its signal is as it left and has its channel to itself: then it stops wherever its way
+  // leads, and no lane knows of it. What leaves on both channels at once and is clear on both, for the same receivers,
+  // is one flight, which stops on A and then on B.
+  struct Flight {
+    std::span<Stop> room;             // in stops_, for every node; not of a clear flight
+    std::size_t size = 0, next = 0;   // stops, by (end, receiver) once it has departed; legs of a clear flight's way
+    std::uint64_t sequence = 0;       // in the queue
+    ChannelLog::Id logged = ChannelLog::kNone;
+    NodeId sender{};
+    schedules::Channel channel{};     // of the next stop
+    // Of a clear flight:
+    const Ways* ways = nullptr;       // null: it is none
+    NodeId passed_over = kNoNode;     // on its way, but no receiver
+    bool both_channels = false;
+    std::array<Arrival, 2> left{};    // as it left, by channel
+  };
+  // When a node sent last, for the log.
+  struct Spoken {
+    TrueTime start{}, end{};
+  };
   bool carries_bytes(NodeId sender, schedules::Channel channel) const {
     return !transparent_ || coupler_[index_of(channel)] != nullptr ||
            (disturbance_ != nullptr && disturbance_->touches(sender, channel));
@@ -150,8 +167,16 @@ class FlexRayMedium {
   void speaks(NodeId node, const Leaving& signal);
   void put(Flight& flight, NodeId receiver, const Arrival& arrival);
   void depart(Flight& flight);
+  Stop next_stop(const Flight& flight) const;
   MediumEvent event_of(const Flight& flight) const;
-  EventOrder order_of(const Flight& flight) const;
+  void schedule(Flight& flight);
+  // --- clear flights (flexray_clear_flights.cc)
+  void depart_clear(NodeId sender, const Arrival& left, const Ways& ways, NodeId passed_over);
+  Stopover stop_over_clear(Flight& flight, TrueTime now);
+  bool carrier_of_clear(const Flight& flight, NodeId node, schedules::Channel channel, TrueTime now) const;
+  // Something else comes onto the channel: what is clear there is so no longer.
+  void crowd(schedules::Channel channel);
+  void lay_out(Flight& flight, std::span<const Leg> way, NodeId passed_over, const Arrival& left);
   static std::size_t lane_of(NodeId node, schedules::Channel channel) { return 2 * index_of(node) + index_of(channel); }
   Lane& lane(NodeId node, schedules::Channel channel) { return lanes_[lane_of(node, channel)]; }
 
@@ -160,11 +185,14 @@ class FlexRayMedium {
   std::array<std::vector<NodeId>, 2> attached_;   // by channel
   std::vector<int> position_;                     // by NodeId, -1 off the bus
   std::vector<Lane> lanes_;                       // by NodeId and channel
-  std::vector<Way> ways_;                         // by sender and channel
-  std::array<Way, 2> from_nowhere_, from_coupler_;   // by channel
+  bool same_receivers_;                           // whoever is attached is so to both channels
+  std::vector<Ways> ways_;                        // by sender
+  Ways from_nowhere_, from_coupler_;
   std::vector<Stop> stops_;
   std::vector<Flight> flights_;
   std::vector<std::uint32_t> free_flights_;
+  std::array<Flight*, 2> clear_{};                // by channel; null where there is none
+  std::array<int, 2> aloft_{};                    // flights, by channel; none beside a clear one
   std::array<Duration, 2> busy_{};                // by channel
   std::vector<TrueTime> sent_until_;              // by NodeId and channel
   std::vector<Spoken> spoken_;                    // by NodeId and channel
