@@ -74,7 +74,7 @@ void FlexRayController::State::drop_schedule() {
 void FlexRayController::State::begin_schedule(Microticks start, int rate, std::int64_t cycle) {
   clock.emplace(geometry, start, rate, cycle);
   next_rate = rate;
-  slot_at = {};
+  slot_at = {0, clock->cycle_start(), clock->cycle_start(), 0, {}};
   sync.reset();
   sync_status = {};
   std::fill(seen_last.begin(), seen_last.end(), Seen{});
@@ -145,7 +145,7 @@ void FlexRayController::State::handle(Microticks at) {
 
 void FlexRayController::State::start_cycle() {
   std::fill(seen.begin(), seen.end(), Seen{});
-  slot_at = {};
+  slot_at = {0, clock->cycle_start(), clock->cycle_start(), 0, {}};
   sync.start_cycle(counter());
   segment = Segment::kStatic;
   next_static = 0;
@@ -164,13 +164,14 @@ void FlexRayController::State::tell_slot_problems(Microticks at) {
   const int now = counter();
   for (int slot = 1; slot <= g.gNumberOfStaticSlots; ++slot) {
     const Seen& status = seen[static_cast<std::size_t>(slot - 1)];
-    if ((status.errors[0] | status.errors[1]) == 0 && ((status.valid[0] && status.valid[1]) || !slots.others_send_in(slot)))
-      continue;
+    const bool both_valid = status.valid[0] && status.valid[1];
+    if ((status.errors[0] | status.errors[1]) == 0 && (both_valid || !slots.others_send_in(slot))) continue;
     const auto expected = slots.expected(slot, now);
     for (const schedules::Channel channel : kChannels) {
       const auto c = index_of(channel);
       std::uint8_t errors = status.errors[c];
-      if (errors == 0 && !status.valid[c] && includes(p.pChannels, channel) && expected[c] != nullptr) errors = kNoFrame;
+      if (errors == 0 && !status.valid[c] && includes(p.pChannels, channel) && expected[c] != nullptr)
+        errors = kNoFrame;
       if (errors != 0) events.slot_problem(clock->cycle(), slot, channel, static_cast<SlotStatus>(errors), at);
     }
   }

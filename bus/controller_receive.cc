@@ -100,14 +100,22 @@ void FlexRayController::State::hear(const Reception& reception) {
 
 int FlexRayController::State::look_up_static_slot(Microticks at) {
   if (at < clock->cycle_start()) return 0;
-  // An estimate on the nominal grid, put right by a slot at most.
-  const std::int64_t into = (at - clock->cycle_start()).value;
-  int slot = static_cast<int>(std::min<std::int64_t>(nominal_slot.floor(into) + 1, g.gNumberOfStaticSlots));
-  Microticks from = clock->start_of(slot_start(slot)), to = clock->start_of(slot_start(slot + 1));
-  for (; from > at; from = clock->start_of(slot_start(slot))) to = from, --slot;
-  for (; to <= at; to = clock->start_of(slot_start(slot + 1))) {
-    if (slot == g.gNumberOfStaticSlots) return slot + 1;
-    from = to, ++slot;
+  const auto start = [this](int slot) { return clock->start_of(slot_start(slot)); };
+  // The one behind it, as a rule.
+  int slot = slot_at.slot + 1;
+  Microticks from = slot_at.to;
+  Microticks to = slot <= g.gNumberOfStaticSlots ? start(slot + 1) : from;
+  if (at < from || at >= to) {
+    // An estimate on the nominal grid, put right by a slot at most.
+    const std::int64_t into = (at - clock->cycle_start()).value;
+    slot = static_cast<int>(std::min<std::int64_t>(nominal_slot.floor(into) + 1, g.gNumberOfStaticSlots));
+    from = start(slot);
+    to = start(slot + 1);
+    for (; from > at; from = start(slot)) to = from, --slot;
+    for (; to <= at; to = start(slot + 1)) {
+      if (slot == g.gNumberOfStaticSlots) return slot + 1;
+      from = to, ++slot;
+    }
   }
   const int cycle = counter();
   slot_at = {slot, from, to, cycle, slots.expected(slot, cycle)};
@@ -125,7 +133,8 @@ void FlexRayController::State::judge(const Reception& reception, bool conflict) 
 }
 
 // Before or behind the static segment, as `slot` says.
-void FlexRayController::State::judge_elsewhere(const Reception& reception, int slot, std::uint8_t errors, bool conflict) {
+void FlexRayController::State::judge_elsewhere(const Reception& reception, int slot, std::uint8_t errors,
+                                               bool conflict) {
   const int minislot = slot == 0 ? 0 : minislots.minislot_at(*clock, reception.start);
   if (minislot >= 1 && minislot <= minislots.count()) return judge_dynamic(reception, errors);
 
@@ -177,7 +186,8 @@ void FlexRayController::State::judge_static(const Reception& reception, int slot
     sync.heard(slot, reception.channel, deviation, header.startup && std::abs(deviation) <= p.pdAcceptedStartupRange);
   }
   if (header.payload_preamble) network_management.combine(reception.frame.payload);
-  if (expected->pdu != kNoPdu && !store(*expected, reception)) status.errors[c] |= kContentError;   // a frame, but not of this slot's list
+  if (expected->pdu != kNoPdu && !store(*expected, reception))
+    status.errors[c] |= kContentError;   // a frame, but not of this slot's list
 }
 
 void FlexRayController::State::judge_dynamic(const Reception& reception, std::uint8_t errors) {

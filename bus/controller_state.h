@@ -56,7 +56,8 @@ struct FlexRayController::State {
   std::vector<Seen> seen_last;             // ... in the one that is over
   SyncStatus sync_status;                  // without its counter, which is protocol operation control's
 
-  // The static slot of this cycle that was looked up last: the other channel's frame of it comes next.
+  // The static slot of this cycle that was looked up last: the other channel's frame of it comes next, then that of the
+  // slot behind it. Slot 0 is behind nothing.
   struct SlotAt {
     int slot = 0;
     Microticks from{}, to{};               // [from, to): none

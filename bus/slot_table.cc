@@ -23,10 +23,14 @@ SlotTable::SlotTable(const schedules::Cluster& cluster, NodeId node) {
   std::stable_sort(others_.begin(), others_.end(), by_slot);
   for (std::size_t f = 0; f < others_.size(); ++f) first_.resize(static_cast<std::size_t>(others_[f]->slot), f);
   first_.push_back(others_.size());
+  steady_.resize(first_.size() - 1);
+  for (const FrameSlot* frame : others_)
+    steady_[static_cast<std::size_t>(frame->slot - 1)].every_cycle &= frame->repetition == 1;
+  for (std::size_t s = 0; s < steady_.size(); ++s) steady_[s].frames = expected_by_cycle(static_cast<int>(s) + 1, 0);
   for (auto& own : own_dynamic_) std::stable_sort(own.begin(), own.end(), by_slot);
 }
 
-std::array<const FrameSlot*, 2> SlotTable::expected(int slot, int counter) const {
+std::array<const FrameSlot*, 2> SlotTable::expected_by_cycle(int slot, int counter) const {
   std::array<const FrameSlot*, 2> found{};
   for (const FrameSlot* frame : others_in(slot)) {
     if (!in_cycle(*frame, counter)) continue;

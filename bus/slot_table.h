@@ -24,7 +24,11 @@ class SlotTable {
   // Whether another node ever sends in the slot.
   bool others_send_in(int slot) const { return !others_in(slot).empty(); }
   // The frame that another node sends there, by channel; null where nobody does. `counter`: cycle counter, 0..63.
-  std::array<const schedules::FrameSlot*, 2> expected(int slot, int counter) const;
+  std::array<const schedules::FrameSlot*, 2> expected(int slot, int counter) const {
+    if (slot < 1 || static_cast<std::size_t>(slot) > steady_.size()) return {};
+    const Steady& steady = steady_[static_cast<std::size_t>(slot - 1)];
+    return steady.every_cycle ? steady.frames : expected_by_cycle(slot, counter);
+  }
   const schedules::FrameSlot* expected(int slot, int counter, schedules::Channel channel) const {
     return expected(slot, counter)[index_of(channel)];
   }
@@ -34,6 +38,7 @@ class SlotTable {
                                        std::optional<std::uint16_t> message_id) const;
 
  private:
+  std::array<const schedules::FrameSlot*, 2> expected_by_cycle(int slot, int counter) const;
   std::vector<const schedules::FrameSlot*> own_static_;
   std::array<std::vector<const schedules::FrameSlot*>, 2> own_dynamic_;      // by channel
   std::span<const schedules::FrameSlot* const> others_in(int slot) const {
@@ -43,6 +48,12 @@ class SlotTable {
   }
   std::vector<const schedules::FrameSlot*> others_;                          // what other nodes send, by slot
   std::vector<std::size_t> first_;                                           // by slot - 1, where it begins in others_
+  // What is expected of a slot where that is the same in every cycle.
+  struct Steady {
+    bool every_cycle = true;
+    std::array<const schedules::FrameSlot*, 2> frames{};                     // by channel
+  };
+  std::vector<Steady> steady_;                                               // by slot - 1
 };
 
 // Whether the frame has its turn in a cycle with this counter.

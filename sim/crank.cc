@@ -149,14 +149,11 @@ void Crank::arrive(MediumEvent event, TrueTime end) {
     if (arrival) deliver(event.node, *arrival);
     if (!goes_on) return;
     const EventOrder next = medium_.next_arrival(event);
-    if (next.time > end || !comes_next(next)) return queue_.go_on(next, event);
+    const bool comes_next = next.time <= end && next < next_of_nodes() && queue_.is_first(next) &&
+                            (disturbance_ == nullptr || disturbance_->next() >= next.time);
+    if (!comes_next) return queue_.go_on(next, event);
     now_ = next.time;
   }
-}
-
-bool Crank::comes_next(const EventOrder& order) const {
-  return order < next_of_nodes() && queue_.is_first(order) &&
-         (disturbance_ == nullptr || disturbance_->next() >= order.time);
 }
 
 void Crank::deliver(std::size_t node, const FlexRayMedium::Arrival& arrival) {
@@ -176,7 +173,7 @@ void Crank::deliver(std::size_t node, const FlexRayMedium::Arrival& arrival) {
       reception.frame = medium_.frame(arrival);
     }
     receive(node, reception);
-    refresh(node);
+    if (next_event(node) != seat.next) refresh(node);
   }
   medium_.release(arrival);
 }

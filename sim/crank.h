@@ -95,7 +95,6 @@ class Crank : public Plant {
   EventOrder next_of_nodes() const {
     return {next_[earliest_], Phase::kNode, static_cast<std::uint8_t>(earliest_), 0, 0};
   }
-  bool comes_next(const EventOrder& order) const;
 
   std::array<std::unique_ptr<StarCoupler>, 2> couplers_;   // by channel
   std::vector<Seat> seats_;            // by NodeId

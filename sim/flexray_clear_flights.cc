@@ -10,9 +10,9 @@ using schedules::Channel;
 Channel other(Channel channel) { return channel == Channel::kA ? Channel::kB : Channel::kA; }
 
 // The first leg from `leg` on that leads to a receiver.
-template <class Way>
-std::size_t receiving_leg(const Way& way, std::size_t leg, NodeId passed_over) {
-  while (leg < way.size() && way[leg].receiver == passed_over) ++leg;
+template <class Leg>
+const Leg* receiving(const Leg* leg, const Leg* last, NodeId passed_over) {
+  while (leg != last && leg->receiver == passed_over) ++leg;
   return leg;
 }
 
@@ -24,13 +24,16 @@ FlexRayMedium::Arrival after(FlexRayMedium::Arrival left, Duration delay) {
 
 }  // namespace
 
+const FlexRayMedium::Leg* FlexRayMedium::first_leg(const Flight& flight) {
+  return receiving((*flight.ways)[index_of(flight.channel)].data(), flight.last, flight.passed_over);
+}
+
 void FlexRayMedium::depart_clear(NodeId sender, const Arrival& left, const Ways& ways, NodeId passed_over) {
   const auto c = index_of(left.channel);
-  const std::size_t first_leg = receiving_leg(ways[c], 0, passed_over);
   // The same has left on channel A, and has not reached anybody yet: they go together.
   Flight* const on_a = left.channel == Channel::kB && same_receivers_ ? clear_[index_of(Channel::kA)] : nullptr;
   if (on_a != nullptr && on_a->ways == &ways && on_a->passed_over == passed_over && on_a->sender == sender &&
-      on_a->left[0].start == left.start && on_a->left[0].end == left.end && on_a->next == first_leg) {
+      on_a->left[0].start == left.start && on_a->left[0].end == left.end && on_a->leg == first_leg(*on_a)) {
     on_a->both_channels = true;
     on_a->left[c] = left;
     clear_[c] = on_a;
@@ -42,38 +45,35 @@ void FlexRayMedium::depart_clear(NodeId sender, const Arrival& left, const Ways&
   flight.passed_over = passed_over;
   flight.both_channels = false;
   flight.left[c] = left;
-  flight.next = first_leg;
-  flight.size = ways[c].size();
+  flight.last = ways[c].data() + ways[c].size();
+  flight.leg = first_leg(flight);
   clear_[c] = &flight;
   schedule(flight);
 }
 
 FlexRayMedium::Stopover FlexRayMedium::stop_over_clear(Flight& flight, TrueTime now) {
   const auto c = index_of(flight.channel);
-  const Way& way = (*flight.ways)[c];
-  Stopover here{after(flight.left[c], way[flight.next].delay), true};
+  const Stopover here{after(flight.left[c], flight.leg->delay), true};
   TTF_CHECK(here.arrival->end == now, "an arrival of {} ns at {} ns", here.arrival->end.ns, now.ns);
-  if (!flight.both_channels || flight.channel == Channel::kB)
-    flight.next = receiving_leg(way, flight.next + 1, flight.passed_over);
   if (flight.both_channels) flight.channel = other(flight.channel);
-  if (flight.next < flight.size) return here;
-  here.goes_on = false;
+  if (flight.both_channels && flight.channel == Channel::kB) return here;
+  flight.leg = receiving(flight.leg + 1, flight.last, flight.passed_over);
+  if (flight.leg != flight.last) return here;
   clear_[c] = nullptr;
   if (flight.both_channels) {
     clear_[index_of(flight.channel)] = nullptr;
     --aloft_[c];
   }
   land(flight);
-  return here;
+  return {here.arrival, false};
 }
 
 bool FlexRayMedium::carrier_of_clear(const Flight& flight, NodeId node, Channel channel, TrueTime now) const {
-  const auto c = index_of(channel);
-  const Way& way = (*flight.ways)[c];
   // On both channels, A has been where B stops next.
   const bool ahead = flight.both_channels && channel == Channel::kA && flight.channel == Channel::kB;
-  for (std::size_t leg = flight.next + (ahead ? 1 : 0); leg < flight.size; ++leg)
-    if (way[leg].receiver == node) return node != flight.passed_over && flight.left[c].start + way[leg].delay <= now;
+  for (const Leg* leg = flight.leg + (ahead ? 1 : 0); leg != flight.last; ++leg)
+    if (leg->receiver == node)
+      return node != flight.passed_over && flight.left[index_of(channel)].start + leg->delay <= now;
   return false;
 }
 
@@ -81,21 +81,18 @@ void FlexRayMedium::crowd(Channel channel) {
   Flight* const was_clear = clear_[index_of(channel)];
   if (was_clear == nullptr) return;
   const Flight clear = *was_clear;
-  const auto rest = [&clear](Channel on, std::size_t from) {
-    return std::span((*clear.ways)[index_of(on)]).subspan(from);
-  };
   // The event that it has in the queue remains its own.
   clear_[index_of(clear.channel)] = nullptr;
   was_clear->ways = nullptr;
   was_clear->size = was_clear->next = 0;
-  lay_out(*was_clear, rest(clear.channel, clear.next), clear.passed_over, clear.left[index_of(clear.channel)]);
+  lay_out(*was_clear, {clear.leg, clear.last}, clear.passed_over, clear.left[index_of(clear.channel)]);
   if (!clear.both_channels) return;
   // What it has still to do on the other channel becomes a flight of its own. B follows A from stop to stop.
   const Channel second = other(clear.channel);
   clear_[index_of(second)] = nullptr;
   --aloft_[index_of(second)];
   Flight& flight = take_off(clear.sender, second, ChannelLog::kNone);
-  lay_out(flight, rest(second, clear.next + (second == Channel::kA ? 1 : 0)), clear.passed_over,
+  lay_out(flight, {clear.leg + (second == Channel::kA ? 1 : 0), clear.last}, clear.passed_over,
           clear.left[index_of(second)]);
   if (flight.size == 0) return land(flight);
   flight.sequence = clear.sequence;

@@ -286,8 +286,7 @@ void FlexRayMedium::depart(Flight& flight) {
 
 FlexRayMedium::Stop FlexRayMedium::next_stop(const Flight& flight) const {
   if (flight.ways == nullptr) return flight.room[flight.next];
-  const Leg& leg = (*flight.ways)[index_of(flight.channel)][flight.next];
-  return {flight.left[index_of(flight.channel)].end + leg.delay, leg.receiver, 0};
+  return {flight.left[index_of(flight.channel)].end + flight.leg->delay, flight.leg->receiver, 0};
 }
 
 EventOrder FlexRayMedium::next_arrival(MediumEvent& event) const {

@@ -78,8 +78,9 @@ class FlexRayMedium {
     ChannelLog::Id logged = ChannelLog::kNone;   // while its receiver may still make it out
   };
   std::optional<Arrival> arrive(const MediumEvent& event, TrueTime now);
-  // The same for who goes along with a signal from receiver to receiver: what it brings where it is, and whether it goes
-  // on from there. Then next_arrival() turns the event into its next one and says when that is; it is not in the queue.
+  // The same for who goes along with a signal from receiver to receiver: what it brings where it is, and whether it
+  // goes on from there. Then next_arrival() turns the event into its next one and says when that is; it is not in the
+  // queue.
   struct Stopover {
     std::optional<Arrival> arrival;
     bool goes_on = false;
@@ -135,13 +136,15 @@ class FlexRayMedium {
   // is one flight, which stops on A and then on B.
   struct Flight {
     std::span<Stop> room;             // in stops_, for every node; not of a clear flight
-    std::size_t size = 0, next = 0;   // stops, by (end, receiver) once it has departed; legs of a clear flight's way
+    std::size_t size = 0, next = 0;   // stops, by (end, receiver) once it has departed
     std::uint64_t sequence = 0;       // in the queue
     ChannelLog::Id logged = ChannelLog::kNone;
     NodeId sender{};
     schedules::Channel channel{};     // of the next stop
     // Of a clear flight:
     const Ways* ways = nullptr;       // null: it is none
+    const Leg* leg = nullptr;         // to the next stop; on both channels the legs are the same
+    const Leg* last = nullptr;        // behind the last one
     NodeId passed_over = kNoNode;     // on its way, but no receiver
     bool both_channels = false;
     std::array<Arrival, 2> left{};    // as it left, by channel
@@ -172,6 +175,7 @@ class FlexRayMedium {
   void schedule(Flight& flight);
   // --- clear flights (flexray_clear_flights.cc)
   void depart_clear(NodeId sender, const Arrival& left, const Ways& ways, NodeId passed_over);
+  static const Leg* first_leg(const Flight& flight);
   Stopover stop_over_clear(Flight& flight, TrueTime now);
   bool carrier_of_clear(const Flight& flight, NodeId node, schedules::Channel channel, TrueTime now) const;
   // Something else comes onto the channel: what is clear there is so no longer.
