@@ -39,6 +39,16 @@ bool receiver_on(PocKind kind) {
 
 }  // namespace
 
+inline void FlexRayController::State::judge(const Reception& reception, bool conflict) {
+  if (g.gdSymbolWindow > 0 && (segment == Segment::kDynamic || segment == Segment::kRest))
+    judge_symbol_window(reception, conflict);
+  std::uint8_t errors = conflict ? kTransmissionConflict | kSyntaxError : 0;
+  if (reception.signal != Signal::kFrame || reception.frame.error != wire::FrameError::kNone) errors |= kSyntaxError;
+  const int slot = static_slot_at(reception.start);
+  if (slot >= 1 && slot <= g.gNumberOfStaticSlots) return judge_static(reception, slot, errors);
+  judge_elsewhere(reception, slot, errors, conflict);
+}
+
 void FlexRayController::State::receive(const Reception& reception) {
   if (!receiver_on(poc.kind)) return;
   const auto c = index_of(reception.channel);
@@ -120,16 +130,6 @@ int FlexRayController::State::look_up_static_slot(Microticks at) {
   const int cycle = counter();
   slot_at = {slot, from, to, cycle, slots.expected(slot, cycle)};
   return slot;
-}
-
-void FlexRayController::State::judge(const Reception& reception, bool conflict) {
-  if (g.gdSymbolWindow > 0 && (segment == Segment::kDynamic || segment == Segment::kRest))
-    judge_symbol_window(reception, conflict);
-  std::uint8_t errors = conflict ? kTransmissionConflict | kSyntaxError : 0;
-  if (reception.signal != Signal::kFrame || reception.frame.error != wire::FrameError::kNone) errors |= kSyntaxError;
-  const int slot = static_slot_at(reception.start);
-  if (slot >= 1 && slot <= g.gNumberOfStaticSlots) return judge_static(reception, slot, errors);
-  judge_elsewhere(reception, slot, errors, conflict);
 }
 
 // Before or behind the static segment, as `slot` says.

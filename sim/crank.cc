@@ -146,7 +146,10 @@ void Crank::step(std::size_t node) {
 void Crank::arrive(MediumEvent event, TrueTime end) {
   while (true) {
     const auto [arrival, goes_on] = medium_.stop_over(event, now_);
-    if (arrival) deliver(event.node, *arrival);
+    if (arrival) {
+      if (seats_[event.node].powered) deliver(event.node, *arrival);
+      medium_.release(*arrival);
+    }
     if (!goes_on) return;
     const EventOrder next = medium_.next_arrival(event);
     const bool comes_next = next.time <= end && next < next_of_nodes() && queue_.is_first(next) &&
@@ -158,24 +161,22 @@ void Crank::arrive(MediumEvent event, TrueTime end) {
 
 void Crank::deliver(std::size_t node, const FlexRayMedium::Arrival& arrival) {
   Seat& seat = seats_[node];
-  if (seat.powered) {
-    if (arrival.start != seat.started || arrival.end != seat.ended) {
-      seat.started = arrival.start;
-      seat.ended = arrival.end;
-      seat.start = seat.oscillator.ticks_at(arrival.start);
-      seat.end = seat.oscillator.ticks_at(arrival.end);
-    }
-    bus::Reception reception{arrival.channel, arrival.signal, seat.start, seat.end, {}};
-    if (arrival.start < seat.since) {
-      reception.signal = bus::Signal::kUndecodable;
-      reception.start = seat.oscillator.ticks_at(seat.since);
-    } else if (arrival.signal == bus::Signal::kFrame) {
-      reception.frame = medium_.frame(arrival);
-    }
-    receive(node, reception);
-    if (next_event(node) != seat.next) refresh(node);
+  if (arrival.start != seat.started || arrival.end != seat.ended) {
+    seat.started = arrival.start;
+    seat.ended = arrival.end;
+    seat.start = seat.oscillator.ticks_at(arrival.start);
+    seat.end = seat.oscillator.ticks_at(arrival.end);
   }
-  medium_.release(arrival);
+  const bool is_frame = arrival.signal == bus::Signal::kFrame;
+  bus::Reception reception{arrival.channel, arrival.signal, seat.start, seat.end,
+                           is_frame ? medium_.frame(arrival) : wire::DecodedFrame{}};
+  if (arrival.start < seat.since) {
+    reception.signal = bus::Signal::kUndecodable;
+    reception.start = seat.oscillator.ticks_at(seat.since);
+    reception.frame = {};
+  }
+  receive(node, reception);
+  if (next_event(node) != seat.next) refresh(node);
 }
 
 void CrankPort::transmit(const bus::Transmission& transmission) {

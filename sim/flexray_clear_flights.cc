@@ -16,12 +16,6 @@ const Leg* receiving(const Leg* leg, const Leg* last, NodeId passed_over) {
   return leg;
 }
 
-FlexRayMedium::Arrival after(FlexRayMedium::Arrival left, Duration delay) {
-  left.start = left.start + delay;
-  left.end = left.end + delay;
-  return left;
-}
-
 }  // namespace
 
 const FlexRayMedium::Leg* FlexRayMedium::first_leg(const Flight& flight) {
@@ -51,21 +45,14 @@ void FlexRayMedium::depart_clear(NodeId sender, const Arrival& left, const Ways&
   schedule(flight);
 }
 
-FlexRayMedium::Stopover FlexRayMedium::stop_over_clear(Flight& flight, TrueTime now) {
-  const auto c = index_of(flight.channel);
-  const Stopover here{after(flight.left[c], flight.leg->delay), true};
-  TTF_CHECK(here.arrival->end == now, "an arrival of {} ns at {} ns", here.arrival->end.ns, now.ns);
-  if (flight.both_channels) flight.channel = other(flight.channel);
-  if (flight.both_channels && flight.channel == Channel::kB) return here;
-  flight.leg = receiving(flight.leg + 1, flight.last, flight.passed_over);
-  if (flight.leg != flight.last) return here;
-  clear_[c] = nullptr;
+// From its last stop: on both channels, it is on A again.
+void FlexRayMedium::land_clear(Flight& flight) {
   if (flight.both_channels) {
-    clear_[index_of(flight.channel)] = nullptr;
-    --aloft_[c];
+    clear_[index_of(Channel::kB)] = nullptr;
+    --aloft_[index_of(Channel::kB)];
   }
+  clear_[index_of(flight.channel)] = nullptr;
   land(flight);
-  return {here.arrival, false};
 }
 
 bool FlexRayMedium::carrier_of_clear(const Flight& flight, NodeId node, Channel channel, TrueTime now) const {

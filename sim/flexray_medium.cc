@@ -284,20 +284,6 @@ void FlexRayMedium::depart(Flight& flight) {
   schedule(flight);
 }
 
-FlexRayMedium::Stop FlexRayMedium::next_stop(const Flight& flight) const {
-  if (flight.ways == nullptr) return flight.room[flight.next];
-  return {flight.left[index_of(flight.channel)].end + flight.leg->delay, flight.leg->receiver, 0};
-}
-
-EventOrder FlexRayMedium::next_arrival(MediumEvent& event) const {
-  const Flight& flight = flights_[event.frame];
-  const Stop stop = next_stop(flight);
-  event.node = static_cast<std::uint8_t>(stop.receiver);
-  event.channel_or_bus = static_cast<std::uint8_t>(flight.channel);
-  const auto rank = static_cast<std::uint16_t>((index_of(flight.channel) << 8) | index_of(flight.sender));
-  return {stop.end, Phase::kArrival, event.node, rank, flight.sequence};
-}
-
 MediumEvent FlexRayMedium::event_of(const Flight& flight) const {
   MediumEvent event;
   event.kind = MediumEvent::Kind::kFlexRayArrival;
@@ -318,13 +304,12 @@ std::optional<FlexRayMedium::Arrival> FlexRayMedium::arrive(const MediumEvent& e
   return here.arrival;
 }
 
-FlexRayMedium::Stopover FlexRayMedium::stop_over(const MediumEvent& event, TrueTime now) {
+FlexRayMedium::Stopover FlexRayMedium::stop_over_noted(const MediumEvent& event, TrueTime now) {
   if (event.at_coupler) {
     at_coupler(event);
     return {};
   }
   Flight& flight = flights_[event.frame];
-  if (flight.ways != nullptr) return stop_over_clear(flight, now);
   const Stop stop = flight.room[flight.next++];
   Stopover here;
   here.goes_on = flight.next < flight.size;
@@ -385,10 +370,6 @@ void FlexRayMedium::power_off(NodeId node, TrueTime now) {
       }
     }
   }
-}
-
-void FlexRayMedium::release(const Arrival& arrival) {
-  if (arrival.signal == Signal::kFrame) pool_.release(arrival.frame);
 }
 
 bool FlexRayMedium::carrier(NodeId node, Channel channel, TrueTime now) const {

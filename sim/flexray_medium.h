@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "bus/flexray_port.h"
+#include "core/check.h"
 #include "core/ids.h"
 #include "core/time.h"
 #include "schedules/cluster.h"
@@ -85,10 +86,15 @@ class FlexRayMedium {
     std::optional<Arrival> arrival;
     bool goes_on = false;
   };
-  Stopover stop_over(const MediumEvent& event, TrueTime now);
+  Stopover stop_over(const MediumEvent& event, TrueTime now) {
+    const bool clear = !event.at_coupler && flights_[event.frame].ways != nullptr;
+    return clear ? stop_over_clear(flights_[event.frame], now) : stop_over_noted(event, now);
+  }
   EventOrder next_arrival(MediumEvent& event) const;
   const wire::DecodedFrame& frame(const Arrival& arrival) const { return pool_.decoded(arrival.frame); }
-  void release(const Arrival& arrival);
+  void release(const Arrival& arrival) {
+    if (arrival.signal == bus::Signal::kFrame) pool_.release(arrival.frame);
+  }
 
  private:
   // What is on its way to one node on one channel.
@@ -170,13 +176,17 @@ class FlexRayMedium {
   void speaks(NodeId node, const Leaving& signal);
   void put(Flight& flight, NodeId receiver, const Arrival& arrival);
   void depart(Flight& flight);
-  Stop next_stop(const Flight& flight) const;
+  Stopover stop_over_noted(const MediumEvent& event, TrueTime now);
   MediumEvent event_of(const Flight& flight) const;
   void schedule(Flight& flight);
   // --- clear flights (flexray_clear_flights.cc)
   void depart_clear(NodeId sender, const Arrival& left, const Ways& ways, NodeId passed_over);
   static const Leg* first_leg(const Flight& flight);
+  static Arrival after(const Arrival& left, Duration delay) {
+    return {left.start + delay, left.end + delay, left.frame, left.channel, left.signal};
+  }
   Stopover stop_over_clear(Flight& flight, TrueTime now);
+  void land_clear(Flight& flight);
   bool carrier_of_clear(const Flight& flight, NodeId node, schedules::Channel channel, TrueTime now) const;
   // Something else comes onto the channel: what is clear there is so no longer.
   void crowd(schedules::Channel channel);
@@ -210,5 +220,34 @@ class FlexRayMedium {
   ChannelLog* log_ = nullptr;
   bool transparent_ = false;
 };
+
+// --- what is done for every receiver
+
+inline FlexRayMedium::Stopover FlexRayMedium::stop_over_clear(Flight& flight, TrueTime now) {
+  using schedules::Channel;
+  const Stopover here{after(flight.left[index_of(flight.channel)], flight.leg->delay), true};
+  TTF_CHECK(here.arrival->end == now, "an arrival of {} ns at {} ns", here.arrival->end.ns, now.ns);
+  if (flight.both_channels) {
+    flight.channel = flight.channel == Channel::kA ? Channel::kB : Channel::kA;
+    if (flight.channel == Channel::kB) return here;
+  }
+  do ++flight.leg;
+  while (flight.leg != flight.last && flight.leg->receiver == flight.passed_over);
+  if (flight.leg != flight.last) return here;
+  land_clear(flight);
+  return {here.arrival, false};
+}
+
+inline EventOrder FlexRayMedium::next_arrival(MediumEvent& event) const {
+  const Flight& flight = flights_[event.frame];
+  const bool clear = flight.ways != nullptr;
+  const NodeId receiver = clear ? flight.leg->receiver : flight.room[flight.next].receiver;
+  const TrueTime end =
+      clear ? flight.left[index_of(flight.channel)].end + flight.leg->delay : flight.room[flight.next].end;
+  event.node = static_cast<std::uint8_t>(receiver);
+  event.channel_or_bus = static_cast<std::uint8_t>(flight.channel);
+  const auto rank = static_cast<std::uint16_t>((index_of(flight.channel) << 8) | index_of(flight.sender));
+  return {end, Phase::kArrival, event.node, rank, flight.sequence};
+}
 
 }  // namespace ttf::sim
