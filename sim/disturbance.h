@@ -44,6 +44,7 @@ class Disturbance {
   // False: it does not leave.
   virtual bool leaving(Leaving& signal) { return (void)signal, true; }
   // False: it does not arrive. A frame can be made undecodable or another frame here; nothing else can become a frame.
+  // Nothing may be emitted from within: the signal is not on its way before all its receivers have been asked.
   virtual bool arriving(Arriving& signal) { return (void)signal, true; }
   // When it acts by itself next, after all nodes' events of that instant; and what it does then.
   virtual TrueTime next() const { return kNever; }

@@ -66,6 +66,7 @@ TEST(EventQueue, TheSameAsASortedList) {
       if (draw.integer(0, 2) == 0) continue;
       order.time = order.time + Duration{draw.integer(0, 20)};
       order.node = 4;
+      ASSERT_EQ(queue.is_first(order), sorted.empty() || order < sorted.front().first);
       queue.go_on(order, payload);
       sorted.push_back({order, payload});
       std::sort(sorted.begin(), sorted.end());
