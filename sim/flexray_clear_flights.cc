@@ -34,7 +34,7 @@ void FlexRayMedium::depart_clear(NodeId sender, const Arrival& left, const Ways&
     ++aloft_[c];
     return;
   }
-  Flight& flight = take_off(sender, left.channel, ChannelLog::kNone);
+  Flight& flight = take_off(sender, left.channel, left.logged);
   flight.ways = &ways;
   flight.passed_over = passed_over;
   flight.both_channels = false;
@@ -45,9 +45,17 @@ void FlexRayMedium::depart_clear(NodeId sender, const Arrival& left, const Ways&
   schedule(flight);
 }
 
+// On both channels: the log hears of the end of what is on A where that ends, one stop before what is on B.
+void FlexRayMedium::stopped_on_a(Flight& flight) {
+  if (receiving(flight.leg + 1, flight.last, flight.passed_over) != flight.last) return;
+  log_->arrived(flight.left[index_of(Channel::kA)].logged);
+  flight.left[index_of(Channel::kA)].logged = ChannelLog::kNone;
+}
+
 // From its last stop: on both channels, it is on A again.
 void FlexRayMedium::land_clear(Flight& flight) {
   if (flight.both_channels) {
+    flight.logged = flight.left[index_of(Channel::kB)].logged;
     clear_[index_of(Channel::kB)] = nullptr;
     --aloft_[index_of(Channel::kB)];
   }
@@ -72,13 +80,14 @@ void FlexRayMedium::crowd(Channel channel) {
   clear_[index_of(clear.channel)] = nullptr;
   was_clear->ways = nullptr;
   was_clear->size = was_clear->next = 0;
+  was_clear->logged = clear.left[index_of(clear.channel)].logged;
   lay_out(*was_clear, {clear.leg, clear.last}, clear.passed_over, clear.left[index_of(clear.channel)]);
   if (!clear.both_channels) return;
   // What it has still to do on the other channel becomes a flight of its own. B follows A from stop to stop.
   const Channel second = other(clear.channel);
   clear_[index_of(second)] = nullptr;
   --aloft_[index_of(second)];
-  Flight& flight = take_off(clear.sender, second, ChannelLog::kNone);
+  Flight& flight = take_off(clear.sender, second, clear.left[index_of(second)].logged);
   lay_out(flight, {clear.leg + (second == Channel::kA ? 1 : 0), clear.last}, clear.passed_over,
           clear.left[index_of(second)]);
   if (flight.size == 0) return land(flight);

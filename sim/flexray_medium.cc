@@ -126,13 +126,13 @@ void FlexRayMedium::spread(const Leaving& signal, std::optional<NodeId> sender, 
     frame = content != nullptr ? pool_.put_content(*content, receivers)
                                : pool_.put_frame(signal.channel, signal.bytes, receivers);
   const NodeId passed_over = itself ? *sender : kNoNode;
-  const Arrival left{signal.start, signal.end, frame, signal.channel, signal.signal, ChannelLog::kNone};
-  // It is clear until something is changed on its last metre; the log wants to know of every receiver.
+  const Arrival left{signal.start, signal.end, frame, signal.channel, signal.signal, logged};
+  // It is clear until something is changed on its last metre, or one of its receivers sends at the same time.
   Flight* flight = nullptr;
-  if (log_ != nullptr || aloft_[c] > 0) {
+  if (aloft_[c] > 0) {
     crowd(signal.channel);
     flight = &take_off(signal.sender, signal.channel, logged);
-  } else if (disturbance_ == nullptr) {
+  } else if (disturbance_ == nullptr && log_ == nullptr) {
     return depart_clear(signal.sender, left, ways, passed_over);
   }
   for (const Leg& leg : way) {
@@ -143,7 +143,7 @@ void FlexRayMedium::spread(const Leaving& signal, std::optional<NodeId> sender, 
     const bool same_bytes = last.bytes.data() == signal.bytes.data();
     if (flight == nullptr) {
       if (arrives && same_bytes && last.signal == signal.signal && last.start == signal.start + leg.delay &&
-          last.end == signal.end + leg.delay)
+          last.end == signal.end + leg.delay && !(log_ != nullptr && talks_over(last, signal.channel)))
         continue;
       flight = &take_off(signal.sender, signal.channel, logged);
       lay_out(*flight, std::span(way.data(), &leg), passed_over, left);
@@ -227,8 +227,7 @@ ChannelLog::Id FlexRayMedium::witness(ChannelLog::Id logged, const Leaving& sign
     log_->unheard(logged);
     return ChannelLog::kNone;
   }
-  const Spoken& own = spoken_[lane_of(last.receiver, signal.channel)];
-  if (last.signal != signal.signal || (last.start < own.end && own.start < last.end)) {
+  if (last.signal != signal.signal || talks_over(last, signal.channel)) {
     log_->lost(logged);
     return ChannelLog::kNone;
   }
@@ -237,6 +236,7 @@ ChannelLog::Id FlexRayMedium::witness(ChannelLog::Id logged, const Leaving& sign
 }
 
 void FlexRayMedium::speaks(NodeId node, const Leaving& signal) {
+  crowd(signal.channel);
   spoken_[lane_of(node, signal.channel)] = {signal.start, signal.end};
   for (Pending& one : lane(node, signal.channel)) {
     if (one.arrival.end <= signal.start || signal.end <= one.arrival.start) continue;

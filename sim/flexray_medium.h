@@ -173,6 +173,11 @@ class FlexRayMedium {
   Flight& take_off(NodeId sender, schedules::Channel channel, ChannelLog::Id logged);
   void land(Flight& flight);
   ChannelLog::Id witness(ChannelLog::Id logged, const Leaving& signal, const Arriving& last, bool arrives);
+  // Whether the receiver sends at the same time; for the log.
+  bool talks_over(const Arriving& last, schedules::Channel channel) const {
+    const Spoken& own = spoken_[lane_of(last.receiver, channel)];
+    return last.start < own.end && own.start < last.end;
+  }
   void speaks(NodeId node, const Leaving& signal);
   void put(Flight& flight, NodeId receiver, const Arrival& arrival);
   void depart(Flight& flight);
@@ -183,9 +188,10 @@ class FlexRayMedium {
   void depart_clear(NodeId sender, const Arrival& left, const Ways& ways, NodeId passed_over);
   static const Leg* first_leg(const Flight& flight);
   static Arrival after(const Arrival& left, Duration delay) {
-    return {left.start + delay, left.end + delay, left.frame, left.channel, left.signal};
+    return {left.start + delay, left.end + delay, left.frame, left.channel, left.signal, left.logged};
   }
   Stopover stop_over_clear(Flight& flight, TrueTime now);
+  void stopped_on_a(Flight& flight);
   void land_clear(Flight& flight);
   bool carrier_of_clear(const Flight& flight, NodeId node, schedules::Channel channel, TrueTime now) const;
   // Something else comes onto the channel: what is clear there is so no longer.
@@ -229,7 +235,10 @@ inline FlexRayMedium::Stopover FlexRayMedium::stop_over_clear(Flight& flight, Tr
   TTF_CHECK(here.arrival->end == now, "an arrival of {} ns at {} ns", here.arrival->end.ns, now.ns);
   if (flight.both_channels) {
     flight.channel = flight.channel == Channel::kA ? Channel::kB : Channel::kA;
-    if (flight.channel == Channel::kB) return here;
+    if (flight.channel == Channel::kB) {
+      if (log_ != nullptr) stopped_on_a(flight);
+      return here;
+    }
   }
   do ++flight.leg;
   while (flight.leg != flight.last && flight.leg->receiver == flight.passed_over);
