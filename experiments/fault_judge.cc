@@ -15,23 +15,19 @@ using schedules::Channel;
 constexpr std::array kChannels = {Channel::kA, Channel::kB};
 constexpr int kCyclesUntilOverdue = 2;
 
-unsigned at(std::span<const std::byte> bytes, std::size_t index) { return static_cast<unsigned>(bytes[index]); }
-
-// Header (bus/wire/flexray_frame.h) and payload; the trailer follows from them.
-bool same_frame(std::span<const std::byte> sent, const wire::DecodedFrame& received) {
-  if (sent.size() < wire::kHeaderBytes + wire::kTrailerBytes) return false;
-  const wire::FrameHeader& header = received.header;
-  const unsigned first = at(sent, 0);
-  const std::span<const std::byte> payload =
-      sent.subspan(wire::kHeaderBytes, sent.size() - wire::kHeaderBytes - wire::kTrailerBytes);
-  return header.frame_id == ((first & 7u) << 8 | at(sent, 1)) && header.cycle == (at(sent, 4) & 63u) &&
-         header.payload_preamble == ((first & 64u) != 0) && header.null_frame == ((first & 32u) == 0) &&
-         header.sync == ((first & 16u) != 0) && header.startup == ((first & 8u) != 0) &&
-         std::equal(payload.begin(), payload.end(), received.payload.begin(), received.payload.end());
-}
-
 std::span<const std::byte> payload_of(std::span<const std::byte> frame) {
   return frame.subspan(wire::kHeaderBytes, frame.size() - wire::kHeaderBytes - wire::kTrailerBytes);
+}
+
+// In all that a frame says; length and CRCs follow from it.
+bool same_frame(std::span<const std::byte> sent, const wire::DecodedFrame& received) {
+  if (sent.size() < wire::kHeaderBytes + wire::kTrailerBytes) return false;
+  const wire::FrameHeader there = wire::parse_header(sent.first<wire::kHeaderBytes>());
+  const wire::FrameHeader& header = received.header;
+  return header.frame_id == there.frame_id && header.cycle == there.cycle &&
+         header.payload_preamble == there.payload_preamble && header.null_frame == there.null_frame &&
+         header.sync == there.sync && header.startup == there.startup &&
+         std::ranges::equal(payload_of(sent), received.payload);
 }
 
 }  // namespace

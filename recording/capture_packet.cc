@@ -74,7 +74,7 @@ FlexRayPacket parse_flexray_packet(std::span<const std::byte> data) {
   if (!header) return packet;
   packet.whole_header = true;
   packet.header = *header;
-  packet.header_crc_holds = wire::check_crcs(packet.channel, frame).header_holds;
+  packet.header_crc_holds = wire::header_crc_holds(*header);
   packet.payload = frame.subspan(wire::kHeaderBytes);
   return packet;
 }

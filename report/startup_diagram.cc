@@ -3,17 +3,12 @@
 #include <algorithm>
 #include <utility>
 
+#include "recording/logged_frame.h"
 #include "report/axes.h"
 #include "report/log_limits.h"
 #include "report/startup_painter.h"
 
 namespace ttf::report {
-namespace {
-
-// Startup frame indicator, in the first byte of a frame's header (FlexRay 2.1A, 4.2.5).
-constexpr std::byte kStartupIndicator{0x08};
-
-}  // namespace
 
 StartupDiagram::StartupDiagram(Names names, Duration cycle, TrueTime from, TrueTime to)
     : names_(std::move(names)), cycle_(cycle <= kLongestCycle ? cycle : Duration{}), from_(from), to_(to) {}
@@ -35,7 +30,7 @@ void StartupDiagram::on(const records::SlotFrameSent& r) {
   const TrueTime start = r.stamp.true_time, end = r.end.true_time;
   if (possible(start) && possible(end) && start <= to_ && possible_cycle(r.cycle))
     data_.frames.push_back({start, end, r.stamp.node, r.cycle, r.slot, r.channel, r.null_frame,
-                            !r.bytes.empty() && (r.bytes[0] & kStartupIndicator) != std::byte{}});
+                            recording::is_startup_frame(r)});
 }
 void StartupDiagram::on(const records::FaultActivity& r) {
   if (possible(r.at))

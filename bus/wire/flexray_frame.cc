@@ -6,6 +6,20 @@
 #include "core/check.h"
 
 namespace ttf::wire {
+namespace {
+
+// Where the fields of the header's 40 bits begin, from the last bit on (flexray_frame.h draws them).
+constexpr int kPreambleBit = 38, kNullBit = 37, kSyncBit = 36, kStartupBit = 35, kFrameIdBit = 24,
+              kPayloadWordsBit = 17, kHeaderCrcBit = 6;
+
+std::uint32_t trailer_of(std::span<const std::byte> frame) {
+  std::uint32_t trailer = 0;
+  for (const std::byte byte : frame.last(kTrailerBytes)) trailer = (trailer << 8) | static_cast<std::uint32_t>(byte);
+  return trailer;
+}
+
+}  // namespace
+
 std::size_t encode_frame(const FrameHeader& header, schedules::Channel channel, std::span<const std::byte> payload,
                          std::span<std::byte> frame) {
   const std::size_t size = kHeaderBytes + payload.size() + kTrailerBytes;
@@ -17,12 +31,12 @@ std::size_t encode_frame(const FrameHeader& header, schedules::Channel channel, 
   TTF_CHECK(!header.null_frame || !header.payload_preamble, "a null frame has no payload preamble");
   const auto words = static_cast<std::uint8_t>(payload.size() / 2);
   const std::uint64_t crc = header_crc(header.sync, header.startup, header.frame_id, words);
-  const std::uint64_t bits = (header.payload_preamble ? std::uint64_t{1} << 38 : 0) |
-                             (header.null_frame ? 0 : std::uint64_t{1} << 37) |
-                             (header.sync ? std::uint64_t{1} << 36 : 0) |
-                             (header.startup ? std::uint64_t{1} << 35 : 0) |
-                             (static_cast<std::uint64_t>(header.frame_id) << 24) |
-                             (static_cast<std::uint64_t>(words) << 17) | (crc << 6) | header.cycle;
+  const auto bit = [](bool set, int at) { return static_cast<std::uint64_t>(set) << at; };
+  const std::uint64_t bits = bit(header.payload_preamble, kPreambleBit) | bit(!header.null_frame, kNullBit) |
+                             bit(header.sync, kSyncBit) | bit(header.startup, kStartupBit) |
+                             (static_cast<std::uint64_t>(header.frame_id) << kFrameIdBit) |
+                             (static_cast<std::uint64_t>(words) << kPayloadWordsBit) | (crc << kHeaderCrcBit) |
+                             header.cycle;
   for (std::size_t i = 0; i < kHeaderBytes; ++i) frame[i] = static_cast<std::byte>((bits >> (8 * (4 - i))) & 0xFF);
   std::copy(payload.begin(), payload.end(), frame.begin() + kHeaderBytes);
   const std::uint32_t trailer = frame_crc(channel, frame.first(kHeaderBytes + payload.size()));
@@ -31,31 +45,44 @@ std::size_t encode_frame(const FrameHeader& header, schedules::Channel channel, 
   return size;
 }
 
+FrameHeader parse_header(std::span<const std::byte, kHeaderBytes> header) {
+  std::uint64_t bits = 0;
+  for (const std::byte byte : header) bits = (bits << 8) | static_cast<std::uint64_t>(byte);
+  FrameHeader parsed;
+  parsed.payload_preamble = (bits >> kPreambleBit) & 1;
+  parsed.null_frame = !((bits >> kNullBit) & 1);
+  parsed.sync = (bits >> kSyncBit) & 1;
+  parsed.startup = (bits >> kStartupBit) & 1;
+  parsed.frame_id = static_cast<std::uint16_t>((bits >> kFrameIdBit) & 0x7FF);
+  parsed.payload_words = static_cast<std::uint8_t>((bits >> kPayloadWordsBit) & 0x7F);
+  parsed.header_crc = static_cast<std::uint16_t>((bits >> kHeaderCrcBit) & 0x7FF);
+  parsed.cycle = static_cast<std::uint8_t>(bits & 0x3F);
+  return parsed;
+}
+
+std::optional<FrameHeader> header_of(std::span<const std::byte> frame) {
+  if (frame.size() < kHeaderBytes) return std::nullopt;
+  return parse_header(frame.first<kHeaderBytes>());
+}
+
+bool header_crc_holds(const FrameHeader& header) {
+  return header_crc(header.sync, header.startup, header.frame_id, header.payload_words) == header.header_crc;
+}
+
 DecodedFrame decode_frame(schedules::Channel channel, std::span<const std::byte> frame) {
   DecodedFrame decoded;
   if (frame.size() < kHeaderBytes + kTrailerBytes) {
     decoded.error = FrameError::kTooShort;
     return decoded;
   }
-  std::uint64_t bits = 0;
-  for (std::size_t i = 0; i < kHeaderBytes; ++i) bits = (bits << 8) | static_cast<std::uint64_t>(frame[i]);
-  FrameHeader& header = decoded.header;
-  header.payload_preamble = (bits >> 38) & 1;
-  header.null_frame = !((bits >> 37) & 1);
-  header.sync = (bits >> 36) & 1;
-  header.startup = (bits >> 35) & 1;
-  header.frame_id = static_cast<std::uint16_t>((bits >> 24) & 0x7FF);
-  header.payload_words = static_cast<std::uint8_t>((bits >> 17) & 0x7F);
-  header.header_crc = static_cast<std::uint16_t>((bits >> 6) & 0x7FF);
-  header.cycle = static_cast<std::uint8_t>(bits & 0x3F);
+  decoded.header = parse_header(frame.first<kHeaderBytes>());
+  const FrameHeader& header = decoded.header;
   const std::size_t payload = frame.size() - kHeaderBytes - kTrailerBytes;
-  std::uint32_t trailer = 0;
-  for (const std::byte byte : frame.last(kTrailerBytes)) trailer = (trailer << 8) | static_cast<std::uint32_t>(byte);
-  if (header_crc(header.sync, header.startup, header.frame_id, header.payload_words) != header.header_crc)
+  if (!header_crc_holds(header))
     decoded.error = FrameError::kHeaderCrc;
   else if (payload != std::size_t{2} * header.payload_words)
     decoded.error = FrameError::kLength;
-  else if (frame_crc(channel, frame.first(kHeaderBytes + payload)) != trailer)
+  else if (frame_crc(channel, frame.first(kHeaderBytes + payload)) != trailer_of(frame))
     decoded.error = FrameError::kFrameCrc;
   else if (header.frame_id == 0)
     decoded.error = FrameError::kReservedId;
@@ -65,24 +92,14 @@ DecodedFrame decode_frame(schedules::Channel channel, std::span<const std::byte>
   return decoded;
 }
 
-std::optional<FrameHeader> header_of(std::span<const std::byte> frame) {
-  if (frame.size() < kHeaderBytes) return std::nullopt;
-  std::array<std::byte, kHeaderBytes + kTrailerBytes> alone{};
-  std::copy_n(frame.begin(), kHeaderBytes, alone.begin());
-  return decode_frame(schedules::Channel::kA, alone).header;
-}
-
 FrameCrcs check_crcs(schedules::Channel channel, std::span<const std::byte> frame) {
   const std::optional<FrameHeader> header = header_of(frame);
   if (!header) return {};
   FrameCrcs crcs;
-  crcs.header_holds =
-      header_crc(header->sync, header->startup, header->frame_id, header->payload_words) == header->header_crc;
+  crcs.header_holds = header_crc_holds(*header);
   const std::size_t until_trailer = kHeaderBytes + std::size_t{2} * header->payload_words;
-  if (frame.size() != until_trailer + kTrailerBytes) return crcs;
-  std::uint32_t trailer = 0;
-  for (const std::byte byte : frame.last(kTrailerBytes)) trailer = (trailer << 8) | static_cast<std::uint32_t>(byte);
-  crcs.frame_holds = frame_crc(channel, frame.first(until_trailer)) == trailer;
+  if (frame.size() == until_trailer + kTrailerBytes)
+    crcs.frame_holds = frame_crc(channel, frame.first(until_trailer)) == trailer_of(frame);
   return crcs;
 }
 

@@ -60,6 +60,13 @@ struct DecodedFrame {
 // the cycle are the receiver's to judge: they depend on the slot.
 DecodedFrame decode_frame(schedules::Channel channel, std::span<const std::byte> frame);
 
+// A header taken apart, held against its own CRC or not; the one place that knows where its fields are.
+FrameHeader parse_header(std::span<const std::byte, kHeaderBytes> header);
+// The same of the beginning of a frame; nothing where its header is not there as a whole.
+std::optional<FrameHeader> header_of(std::span<const std::byte> frame);
+// Whether the header's CRC is that of its fields.
+bool header_crc_holds(const FrameHeader& header);
+
 // Both CRCs of any bytes, each by itself. Bytes that are too few for a header fail both; too few for a trailer, too, or
 // not as many as the header says, fail the frame CRC.
 struct FrameCrcs {
@@ -67,8 +74,6 @@ struct FrameCrcs {
   bool frame_holds = false;
 };
 FrameCrcs check_crcs(schedules::Channel channel, std::span<const std::byte> frame);
-// What the header says, held against its own CRC or not; nothing where it is not there as a whole.
-std::optional<FrameHeader> header_of(std::span<const std::byte> frame);
 
 // Whether the header could be made out.
 bool has_header(const DecodedFrame& frame);

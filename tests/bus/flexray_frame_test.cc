@@ -156,6 +156,45 @@ TEST(Frame, EveryHeaderFieldGoesRoundTrip) {
   }
 }
 
+// Taken apart bit by bit, by the drawing in the specification (4.2), with and without what follows it.
+TEST(Frame, AHeaderIsReadWhateverItsCrcSays) {
+  RandomStream stream({4, 0, Purpose::kTest, 2, 0});
+  int holding = 0;
+  for (int run = 0; run < 20'000; ++run) {
+    Bytes bytes(kHeaderBytes);
+    std::vector<bool> bits;
+    for (std::byte& byte : bytes) {
+      byte = static_cast<std::byte>(stream.integer(0, 255));
+      append(bits, static_cast<unsigned>(byte), 8);
+    }
+    const auto field = [&bits](std::size_t from, std::size_t count) {
+      unsigned value = 0;
+      for (std::size_t b = from; b < from + count; ++b) value = value << 1 | unsigned{bits[b]};
+      return value;
+    };
+    for (const std::size_t more : {0u, 3u, 40u}) {
+      bytes.resize(kHeaderBytes + more);
+      const auto header = header_of(bytes);
+      ASSERT_TRUE(header);
+      ASSERT_EQ(header->payload_preamble, field(1, 1) == 1);
+      ASSERT_EQ(header->null_frame, field(2, 1) == 0);
+      ASSERT_EQ(header->sync, field(3, 1) == 1);
+      ASSERT_EQ(header->startup, field(4, 1) == 1);
+      ASSERT_EQ(header->frame_id, field(5, 11));
+      ASSERT_EQ(header->payload_words, field(16, 7));
+      ASSERT_EQ(header->header_crc, field(23, 11));
+      ASSERT_EQ(header->cycle, field(34, 6));
+      const bool holds =
+          oracle_header_crc(field(3, 1) == 1, field(4, 1) == 1, field(5, 11), field(16, 7)) == field(23, 11);
+      ASSERT_EQ(header_crc_holds(*header), holds);
+      ASSERT_EQ(check_crcs(Channel::kA, bytes).header_holds, holds);
+      holding += holds ? 1 : 0;
+    }
+  }
+  EXPECT_GT(holding, 0);
+  for (std::size_t size = 0; size < kHeaderBytes; ++size) EXPECT_FALSE(header_of(Bytes(size))) << size;
+}
+
 TEST(Frame, AFrameThatCrossedTheChannelsIsDetected) {
   FrameHeader header;
   header.frame_id = 12;

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
@@ -46,9 +45,7 @@ inline std::string flexray_text(const std::string& comment, int channel, std::sp
   const std::string errors = fmt::format("{:d}\t{:d}\t{:d}\t{:d}\t0", flags.header_crc, flags.frame_crc,
                                          flags.frame_end, flags.coding);
   if (bytes.empty()) return fmt::format("FlexRay\t{}\t{}\t\t\t\t\t\t\t\t\t{}\t\t\t\t\t\t", comment, channel, errors);
-  std::array<std::byte, wire::kHeaderBytes + wire::kTrailerBytes> alone{};
-  std::copy_n(bytes.begin(), wire::kHeaderBytes, alone.begin());
-  const wire::FrameHeader h = wire::decode_frame(schedules::Channel::kA, alone).header;
+  const wire::FrameHeader h = wire::header_of(bytes).value();
   const std::size_t payload = bytes.size() - wire::kHeaderBytes - (flags.frame_end ? 0 : wire::kTrailerBytes);
   return fmt::format("FlexRay\t{}\t{}\t{}\t{}\t{:d}\t{:d}\t{:d}\t{:d}\t{}\t{}\t{}\t{}\t{}\t\t\t\t", comment, channel,
                      h.frame_id, h.cycle, h.payload_preamble, !h.null_frame, h.sync, h.startup, h.payload_words,
