@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "core/errors.h"
 #include "recording/capture_coverage.h"
 #include "recording/capture_cycles.h"
 #include "recording/capture_packet.h"
+#include "recording/capture_slots.h"
 
 namespace ttf::recording {
 namespace {
@@ -20,6 +22,11 @@ struct Frame {
   std::uint64_t number = 0;
   std::optional<std::int64_t> time_ns;
   FlexRayPacket packet;
+  std::optional<int> elsewhere;   // where it was if not in the slot it claims (frames_in_wrong_slots)
+
+  bool is_sound() const {
+    return packet.kind == FlexRayPacket::Kind::kFrame && packet.whole_header && packet.header_crc_holds;
+  }
 };
 
 class CaptureChecker {
@@ -33,7 +40,8 @@ class CaptureChecker {
         }) {}
 
   CaptureVerdict check(const Capture& capture, const std::string& name) {
-    const std::vector<Frame> frames = frames_of(capture, name);
+    std::vector<Frame> frames = frames_of(capture, name);
+    find_wrong_slots(frames);
     for (const Frame& frame : frames) check(frame);
     if (coverage_.cycles() == 0)
       throw InputError({name, 0, "", "",
@@ -65,7 +73,7 @@ class CaptureChecker {
         continue;
       }
       const Frame frame{packet.number, stamped ? packet.time_ns : std::nullopt,
-                        parse_flexray_packet(capture.data(packet))};
+                        parse_flexray_packet(capture.data(packet)), std::nullopt};
       if (!in_window(frame, first.value_or(0)) || !includes(options_.channels, frame.packet.channel)) {
         ++verdict_.other_packets;
       } else if (frame.packet.kind == FlexRayPacket::Kind::kSymbol) {
@@ -85,6 +93,18 @@ class CaptureChecker {
     if (!frame.time_ns) return true;
     const std::int64_t since = *frame.time_ns - first;
     return since >= options_.from_ns && (!options_.to_ns || since < *options_.to_ns);
+  }
+
+  // All have stamps, or none has.
+  void find_wrong_slots(std::vector<Frame>& frames) const {
+    std::vector<StampedFrame> stamped;
+    for (const Frame& frame : frames)
+      if (frame.time_ns && frame.is_sound())
+        stamped.push_back({*frame.time_ns, frame.packet.header.frame_id, frame.packet.channel});
+    const std::vector<std::optional<int>> found = frames_in_wrong_slots(cluster_.flexray, stamped);
+    auto next = found.begin();
+    for (Frame& frame : frames)
+      if (frame.time_ns && frame.is_sound()) frame.elsewhere = *next++;
   }
 
   void check(const Frame& frame) {
@@ -115,11 +135,17 @@ class CaptureChecker {
       say(Contradiction::kHeaderCrc, "the header CRC is flagged as wrong, though it holds");
     if (header.startup && !header.sync)
       say(Contradiction::kStartupWithoutSync, "is a startup frame, but no sync frame");
-    const CycleTracker::Place place = cycles_.place(header.frame_id, header.cycle, frame.time_ns);
+    const int was_in = frame.elsewhere.value_or(header.frame_id);
+    const CycleTracker::Place place = cycles_.place(was_in, header.cycle, frame.time_ns);
+    advance_ += place.advance;
     if (!place.counter_fits || header.cycle > cluster_.flexray.gCycleCountMax)
       say(Contradiction::kCycleCounter, fmt::format("the cycle counter should be {}", place.counter));
     check_owner(header, packet.channel, place.counter, say);
-    if (!coverage_.frame(place.advance, place.counter, header.frame_id, packet.channel, frame.number))
+    if (frame.elsewhere)   // and its own slot is without it
+      say(Contradiction::kWrongSlot, was_in <= cluster_.flexray.gNumberOfStaticSlots
+                                         ? fmt::format("was sent in slot {}", was_in)
+                                         : std::string("was sent outside of the static segment"));
+    else if (!coverage_.frame(std::exchange(advance_, 0), place.counter, header.frame_id, packet.channel, frame.number))
       say(Contradiction::kTwice, "is the second frame of its slot and cycle");
     check_length(packet, say);
   }
@@ -164,15 +190,16 @@ class CaptureChecker {
   const CaptureCheckOptions& options_;
   CycleTracker cycles_;
   CaptureCoverage coverage_;
+  std::int64_t advance_ = 0;   // cycles since the last frame that the coverage was told of
   CaptureVerdict verdict_;
 };
 
 }  // namespace
 
 const std::array<std::string_view, kContradictions> kContradictionNames{
-    "malformed packet",     "header CRC error", "frame CRC error", "coding error", "startup frame without sync",
-    "cycle counter error",  "slot nobody owns", "wrong channel",   "wrong cycle",  "second frame in a slot",
-    "wrong payload length", "missing frame"};
+    "malformed packet",       "header CRC error",     "frame CRC error", "coding error", "startup frame without sync",
+    "cycle counter error",    "slot nobody owns",     "wrong channel",   "wrong cycle",  "wrong slot",
+    "second frame in a slot", "wrong payload length", "missing frame"};
 
 std::uint64_t CaptureVerdict::contradictions() const {
   return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});

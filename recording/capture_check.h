@@ -27,11 +27,12 @@ enum class Contradiction : std::uint8_t {
   kUnownedSlot,         // a frame in a slot nobody owns
   kWrongChannel,        // the slot has an owner, on the other channel only
   kWrongCycle,          // ... on this channel, but not in this cycle
+  kWrongSlot,           // sent in another slot than the one it bears the id of, as its stamp says (capture_slots.h)
   kTwice,               // a second frame of the same slot, channel and cycle
   kPayloadLength,       // not gPayloadLengthStatic, or not what the header says
   kMissing,             // an owned slot without a frame, between the first and the last frame of the capture
 };
-inline constexpr std::size_t kContradictions = 12;
+inline constexpr std::size_t kContradictions = 13;
 // "header CRC error", by value.
 extern const std::array<std::string_view, kContradictions> kContradictionNames;
 

@@ -6,8 +6,8 @@
 namespace ttf::recording {
 namespace {
 
-constexpr double kClockDeviation = 0.003;  // two clocks 1500 ppm off to either side (cClockDeviationMax)
-// In cycles. A frame in a wrong slot may be off by the whole static segment and yet be in the right cycle.
+// In cycles. Where stamps are not good enough to tell (capture_slots.h), a frame in a wrong slot may be off by the
+// whole static segment and yet be in the right cycle.
 constexpr double kSameCycle = 0.75;
 constexpr double kWellStamped = 0.1;
 constexpr int kMostAstray = 4;
@@ -18,12 +18,10 @@ CycleTracker::CycleTracker(const schedules::GlobalParameters& flexray)
     : flexray_(flexray), cycle_ns_(flexray.cycle_ps() / 1000), counters_(flexray.gCycleCountMax + 1) {}
 
 std::int64_t CycleTracker::offset_ns(int slot) const {
-  std::int64_t macroticks = std::int64_t{slot - 1} * flexray_.gdStaticSlot;
+  if (slot <= flexray_.gNumberOfStaticSlots) return static_slot_offset_ns(flexray_, slot);
   // A dynamic frame is somewhere in its segment.
-  if (slot > flexray_.gNumberOfStaticSlots)
-    macroticks = std::int64_t{flexray_.gNumberOfStaticSlots} * flexray_.gdStaticSlot +
-                 std::int64_t{flexray_.gNumberOfMinislots} * flexray_.gdMinislot / 2;
-  return macroticks * flexray_.gdMacrotick_ps / 1000;
+  return static_slot_offset_ns(flexray_, flexray_.gNumberOfStaticSlots + 1) +
+         std::int64_t{flexray_.gNumberOfMinislots} * flexray_.gdMinislot / 2 * flexray_.gdMacrotick_ps / 1000;
 }
 
 CycleTracker::Place CycleTracker::place_by_counter(int counter) {

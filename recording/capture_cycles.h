@@ -13,6 +13,17 @@
 
 namespace ttf::recording {
 
+// What two clocks' rates may differ by: 1500 ppm to either side (cClockDeviationMax).
+inline constexpr double kClockDeviation = 0.003;
+
+// When a static slot begins in its cycle, and how long it lasts [ns].
+inline std::int64_t static_slot_offset_ns(const schedules::GlobalParameters& flexray, int slot) {
+  return std::int64_t{slot - 1} * flexray.gdStaticSlot * flexray.gdMacrotick_ps / 1000;
+}
+inline std::int64_t slot_length_ns(const schedules::GlobalParameters& flexray) {
+  return static_slot_offset_ns(flexray, 2);
+}
+
 class CycleTracker {
  public:
   explicit CycleTracker(const schedules::GlobalParameters& flexray);
@@ -22,9 +33,10 @@ class CycleTracker {
     int counter = 0;           // what the cycle counter must be
     bool counter_fits = true;
   };
-  // Frames in the order of time. The first one's counter is believed. A counter that disagrees throughout a cycle is
-  // the cluster's new one (it was started anew) and believed from the next frame on. Without stamps, a counter that
-  // moves on by more than one is in error, and believed from the next frame on.
+  // Frames in the order of time; `slot` is where the frame was, whatever its header says. The first one's counter is
+  // believed. A counter that disagrees throughout a cycle is the cluster's new one (it was started anew) and believed
+  // from the next frame on. Without stamps, a counter that moves on by more than one is in error, and believed from
+  // the next frame on.
   Place place(int slot, int counter, std::optional<std::int64_t> time_ns);
 
  private:
