@@ -33,16 +33,17 @@ int run_export(const ExportOptions& options) {
   const recording::LogNames names(info.manifest);
   const std::vector<recording::LoggedFrame> frames = collector.in_order();
   write_file(options.out, converted(options.format, collector, frames, names));
-  std::size_t flexray = 0;
-  for (const recording::LoggedFrame& frame : frames) flexray += frame.flexray ? 1 : 0;
-  const std::size_t can = frames.size() - flexray;
+  std::size_t flexray = 0, can = 0, symbols = 0;
+  for (const recording::LoggedFrame& frame : frames) ++(frame.symbol != 0 ? symbols : frame.flexray ? flexray : can);
+  const bool can_only = options.format == "candump";
   if (options.json)
-    fmt::print("{{\n  \"format\": \"{}\",\n  \"flexray_frames\": {},\n  \"can_frames\": {}\n}}\n", options.format,
-               options.format == "candump" ? 0 : flexray, can);
-  if (options.format == "candump")
+    fmt::print("{{\n  \"format\": \"{}\",\n  \"flexray_frames\": {},\n  \"symbols\": {},\n  \"can_frames\": {}\n}}\n",
+               options.format, can_only ? 0 : flexray, can_only ? 0 : symbols, can);
+  if (can_only)
     fmt::print(stderr, "{} CAN frames written to {}\n", can, options.out);
   else
-    fmt::print(stderr, "{} FlexRay and {} CAN frames written to {}\n", flexray, can, options.out);
+    fmt::print(stderr, "{} FlexRay and {} CAN frames and {} symbols written to {}\n", flexray, can, symbols,
+               options.out);
   return 0;
 }
 
@@ -57,7 +58,8 @@ void add_export(CLI::App& app, Action& action) {
   command->add_option("log", options->log, "Log of a run")->required();
   command
       ->add_option("--format", options->format,
-                   "pcapng (FlexRay and CAN, for Wireshark), candump (CAN only, for canplayer), csv (all frames)")
+                   "pcapng (FlexRay and CAN, for Wireshark), candump (CAN only, for canplayer), "
+                   "csv (all frames and symbols)")
       ->required()
       ->check(CLI::IsMember({"pcapng", "candump", "csv"}));
   command->add_option("-o,--out", options->out, "File to write")->required();

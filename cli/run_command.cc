@@ -72,6 +72,7 @@ recording::LogManifest manifest_of(const nodes::Scenario& scenario, const schedu
   manifest.cluster_name = cluster.name;
   manifest.strategy = nodes::name_of(strategy);
   manifest.cycle_ns = cluster.cycle().ns;
+  manifest.bit_ps = cluster.flexray.gdBit_ps;
   manifest.hashes = {{"scenario", hex_hash(scenario.text)}, {"cluster", hex_hash(cluster.text)}};
   if (recording.rows) {
     manifest.recording_name = recording.name;

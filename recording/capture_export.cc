@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "recording/capture_packet.h"
 #include "recording/capture_writer.h"
@@ -14,6 +15,8 @@ constexpr char kFlexRayName[] = "FlexRay";
 constexpr std::size_t kLongestDevice = 15;  // IFNAMSIZ less the closing zero
 constexpr std::int64_t kMicrosecond = 1'000, kSecond = 1'000'000'000;
 constexpr std::int64_t kCandumpStart_s = 1'000'000'000;
+
+constexpr std::int64_t kUsualBit_ps = 100'000;   // 10 Mbit/s
 
 schedules::Channel channel_of(const LoggedFrame& frame) { return static_cast<schedules::Channel>(frame.channel); }
 
@@ -50,7 +53,29 @@ std::string list_of(const LoggedFrame& frame, const LogNames& names) {
   return fmt::format("measurement {}: {}, fragment {}", measurement, names.pdu(frame.pdu), frame.fragment);
 }
 
+struct SymbolName {
+  const char* flag;
+  const char* words;
+};
+SymbolName name_of(std::uint8_t symbol) {
+  switch (symbol) {
+    case records::kSymbolCas: return {"cas", "collision avoidance symbol"};
+    case records::kSymbolWakeup: return {"wakeup", "wake-up pattern"};
+    case records::kSymbolMediaTest: return {"media_test", "media access test symbol"};
+    default: return {"", "symbol"};   // of a damaged log
+  }
+}
+
+std::int64_t bits_of(const LoggedFrame& symbol, const LogNames& names) {
+  const std::int64_t bit = names.manifest().bit_ps > 0 ? names.manifest().bit_ps : kUsualBit_ps;
+  const double bits = static_cast<double>(symbol.duration_ns) * 1e3 / static_cast<double>(bit);
+  return std::llround(std::clamp(bits, 0.0, static_cast<double>(kLongestSymbolBits)));
+}
+
 std::string comment_of(const LoggedFrame& frame, const LogNames& names) {
+  if (frame.symbol != 0)
+    return fmt::format("{} of {}, {:.1f} us", name_of(frame.symbol).words, names.node(frame.sender),
+                       static_cast<double>(frame.duration_ns) * 1e-3);
   const std::string origin = origin_of(frame, names), list = list_of(frame, names);
   return origin + (origin.empty() || list.empty() ? "" : "; ") + list;
 }
@@ -115,7 +140,9 @@ std::string export_pcapng(const FrameCollector& collector, const std::vector<Log
   std::string packet;
   for (const LoggedFrame& frame : frames) {
     packet.clear();
-    if (frame.flexray)
+    if (frame.symbol != 0)
+      put_symbol_packet(packet, channel_of(frame), bits_of(frame, names));
+    else if (frame.flexray)
       put_flexray_packet(packet, channel_of(frame), checked(frame, collector.data(frame)));
     else
       put_can_packet(packet, frame.id, frame.flexible_data_rate, collector.data(frame));
@@ -144,6 +171,11 @@ std::string export_candump(const FrameCollector& collector, const std::vector<Lo
 std::string export_csv(const FrameCollector& collector, const std::vector<LoggedFrame>& frames, const LogNames& names) {
   std::string out(kCsvHeader);
   for (const LoggedFrame& frame : frames) {
+    if (frame.symbol != 0) {
+      out += fmt::format("{},{},{},,,{},symbol,{},,,,,\n", frame.time_ns, kFlexRayName, letter(channel_of(frame)),
+                         quoted(names.node(frame.sender)), name_of(frame.symbol).flag);
+      continue;
+    }
     const bool list = frame.pdu != kNoPdu;
     std::string flags;
     std::span<const std::byte> payload = collector.data(frame);

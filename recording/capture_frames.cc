@@ -77,6 +77,17 @@ void FrameCollector::on(const records::ChannelFrame& record) {
     frames_.push_back(frame);
 }
 
+void FrameCollector::on(const records::SymbolSent& record) {
+  LoggedFrame symbol;
+  symbol.time_ns = record.stamp.true_time.ns;
+  symbol.flexray = true;
+  symbol.channel = record.channel == 0 ? 0 : 1;
+  symbol.sender = record.stamp.node;
+  symbol.symbol = record.kind;
+  symbol.duration_ns = record.end.true_time.ns - record.stamp.true_time.ns;
+  if (record.kind != 0) frames_.push_back(symbol);
+}
+
 LoggedFrame FrameCollector::with_data(LoggedFrame frame, std::span<const std::byte> data) {
   frame.data_begin = bytes_.size();
   frame.data_size = data.size();
@@ -92,7 +103,7 @@ std::vector<LoggedFrame> FrameCollector::in_order() const {
   std::vector<LoggedFrame> frames;
   frames.reserve(frames_.size());
   for (const LoggedFrame& frame : frames_) {
-    const bool sent = frame.flexray && frame.of_controller;
+    const bool sent = frame.flexray && frame.symbol == 0 && frame.of_controller;
     const auto found = sent ? became.find({frame.time_ns, frame.channel, frame.sender}) : became.end();
     if (found == became.end()) {
       frames.push_back(frame);

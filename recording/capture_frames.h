@@ -1,4 +1,5 @@
-// The frames of a log, of all buses, in one form and in the order of time: what the exports write.
+// The frames of a log, of all buses, and the symbols on FlexRay, in one form and in the order of time: what the exports
+// write.
 #pragma once
 
 #include <cstddef>
@@ -29,6 +30,8 @@ struct LoggedFrame {
   bool as_sent = true;          // FlexRay: by a controller, and so it was on the channel
   bool of_controller = true;    // FlexRay: else nobody's; then `cycle` is not known, and `id` is what the frame says
   std::uint8_t state = 0;       // FlexRay: of records::ChannelFrame; never kChannelNothing
+  std::uint8_t symbol = 0;      // FlexRay: records::kSymbolCas, ...: no frame, and has but time, channel and sender
+  std::int64_t duration_ns = 0; // of a symbol
   std::size_t data_begin = 0, data_size = 0;  // FlexRay: header, payload and trailer, as far as they were there
 };
 
@@ -50,13 +53,14 @@ class LogNames {
 };
 
 // Collects frames while a log is read. FlexRay frames are as they were on the channel: what reached nobody is none, and
-// what nobody sent is one.
+// what nobody sent is one. Symbols are as they were sent: no log knows more of them.
 class FrameCollector final : public records::Sink {
  public:
   using records::Sink::on;
   void on(const records::SlotFrameSent& record) override;
   void on(const records::CanFrameSent& record) override;
   void on(const records::ChannelFrame& record) override;
+  void on(const records::SymbolSent& record) override;
 
   // All so far, by time; frames of the same instant as they were recorded.
   std::vector<LoggedFrame> in_order() const;

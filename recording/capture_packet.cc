@@ -11,6 +11,10 @@ constexpr std::size_t kFlexRayPrefix = 2;
 
 void put_byte(std::string& out, std::uint32_t value) { out.push_back(static_cast<char>(value & 0xff)); }
 
+void put_prefix(std::string& out, schedules::Channel channel, FlexRayPacket::Kind kind) {
+  put_byte(out, (channel == schedules::Channel::kB ? kChannelB : 0u) | static_cast<unsigned>(kind));
+}
+
 void put_bytes(std::string& out, std::span<const std::byte> bytes) {
   out.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
 }
@@ -46,10 +50,14 @@ CheckedFlexRayFrame check_broken_frame(schedules::Channel channel, std::span<con
 }
 
 void put_flexray_packet(std::string& out, schedules::Channel channel, const CheckedFlexRayFrame& frame) {
-  put_byte(out,
-           (channel == schedules::Channel::kB ? kChannelB : 0u) | static_cast<unsigned>(FlexRayPacket::Kind::kFrame));
+  put_prefix(out, channel, FlexRayPacket::Kind::kFrame);
   put_byte(out, frame.errors);
   put_bytes(out, frame.header_and_payload);
+}
+
+void put_symbol_packet(std::string& out, schedules::Channel channel, std::int64_t bits) {
+  put_prefix(out, channel, FlexRayPacket::Kind::kSymbol);
+  put_byte(out, static_cast<std::uint32_t>(std::clamp<std::int64_t>(bits, 0, kLongestSymbolBits)));
 }
 
 FlexRayPacket parse_flexray_packet(std::span<const std::byte> data) {

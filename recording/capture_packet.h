@@ -47,6 +47,11 @@ CheckedFlexRayFrame check_broken_frame(schedules::Channel channel, std::span<con
 // Appends a packet of link type 210.
 void put_flexray_packet(std::string& out, schedules::Channel channel, const CheckedFlexRayFrame& frame);
 
+// Appends a symbol's packet of link type 210: how long it was low, in bits. Its 7 bits end at kLongestSymbolBits, which
+// is that and all that is longer, as a wake-up pattern.
+void put_symbol_packet(std::string& out, schedules::Channel channel, std::int64_t bits);
+inline constexpr std::int64_t kLongestSymbolBits = 127;
+
 // A packet of link type 210 as somebody captured it. Nothing in it is believed: the header may be cut short, the
 // payload may have another length than the header says.
 struct FlexRayPacket {

@@ -24,6 +24,7 @@ struct LogManifest {
   std::string strategy;
   std::string recording_name;  // file of the recorded observations the run was fed with; empty: none
   std::int64_t cycle_ns = 0;  // nominal communication cycle, for the grid of diagrams; 0 if unknown
+  std::int64_t bit_ps = 0;    // nominal bit on FlexRay, for symbols' lengths; 0 if unknown
   std::vector<std::pair<std::string, std::string>> hashes;
   std::vector<std::string> node_names;
   std::vector<std::vector<std::string>> task_names;  // per node, in the order of Node::tasks

@@ -58,6 +58,11 @@ bool read_entry(std::string_view key, const std::string& value, LogManifest& man
     manifest.cycle_ns = cycle.value_or(0);
     return cycle.has_value();
   }
+  if (key == "bit_ps") {
+    const auto bit = whole<std::int64_t>(value);
+    manifest.bit_ps = bit.value_or(0);
+    return bit.has_value();
+  }
   if (const auto what = rest_after("hash.")) return manifest.hashes.emplace_back(*what, value), true;
   if (const auto index = rest_after("pdu.")) return append(manifest.pdu_names, *index, value);
   if (const auto index = rest_after("pdu_sensor.")) {
@@ -93,6 +98,7 @@ ManifestEntries manifest_entries(const LogManifest& manifest) {
                           {"cluster", manifest.cluster_name},
                           {"strategy", manifest.strategy},
                           {"cycle_ns", std::to_string(manifest.cycle_ns)},
+                          {"bit_ps", std::to_string(manifest.bit_ps)},
                           {"task_lists", std::to_string(manifest.task_names.size())}};
   if (!manifest.recording_name.empty()) entries.emplace_back("recording", manifest.recording_name);
   for (const auto& [what, hash] : manifest.hashes) entries.emplace_back("hash." + what, hash);

@@ -17,7 +17,7 @@ inline constexpr std::string_view kResultName =
 
 using ManifestEntries = std::vector<std::pair<std::string, std::string>>;
 
-// Keys: version, seed, scenario, cluster, strategy, cycle_ns, hash.<what>, node.<i>, node.<i>.task.<j>,
+// Keys: version, seed, scenario, cluster, strategy, cycle_ns, bit_ps, hash.<what>, node.<i>, node.<i>.task.<j>,
 // pdu.<i>, sensor.<i>, can_bus.<i>, and crc32 over all of it.
 ManifestEntries manifest_entries(const LogManifest& manifest);
 

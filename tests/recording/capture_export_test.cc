@@ -77,6 +77,11 @@ struct Exported {
     frame.bytes = bytes;
     collector.on(frame);
   }
+  void symbol(std::int64_t start_ns, std::int64_t duration_ns, std::uint8_t channel, std::uint8_t kind) {
+    const NodeId node = *nodes.find_node("gateway");
+    const records::Stamp start{{start_ns}, {}, {}, node}, end{{start_ns + duration_ns}, {}, {}, node};
+    collector.on(records::SymbolSent{start, end, channel, kind});
+  }
   std::string csv() const { return export_csv(collector, collector.in_order(), LogNames(manifest)); }
   std::string candump() const { return export_candump(collector, collector.in_order(), LogNames(manifest)); }
   Capture capture() const {
@@ -184,6 +189,52 @@ TEST(CaptureExport, PacketsOfFramesThatWereNotAsTheyWereSentSayWhoseTheyAre) {
                                              "the controller of gateway did not send it", "slot 6 of gateway; " + list));
   EXPECT_THAT(errors, testing::ElementsAre(kFrameCrcError, kCodingError | kFrameEndError, kCodingError, 0, kCodingError, 0));
   EXPECT_THAT(sizes, testing::ElementsAre(9u, 8u, 2u, 9u, 2u, 9u));
+}
+
+Exported with_symbols() {
+  Exported log;
+  log.flexray(9'000, 1, 0, kNoPdu, false);
+  log.symbol(5'000, 3'900, 0, records::kSymbolCas);
+  log.symbol(5'000, 3'904, 1, records::kSymbolCas);
+  log.symbol(1'000, 792'000, 0, records::kSymbolWakeup);
+  log.symbol(10'000, 3'900, 1, records::kSymbolMediaTest);
+  return log;
+}
+
+TEST(CaptureExport, SymbolsHaveRowsAndNoneInCandump) {
+  const Exported log = with_symbols();
+  EXPECT_EQ(log.csv(), std::string(kCsvHeader) +
+                           "1000,FlexRay,A,,,gateway,symbol,wakeup,,,,,\n"
+                           "5000,FlexRay,A,,,gateway,symbol,cas,,,,,\n"
+                           "5000,FlexRay,B,,,gateway,symbol,cas,,,,,\n"
+                           "9000,FlexRay,A,73,1,gateway,frame,sync+startup,,,,,01AB\n"
+                           "10000,FlexRay,B,,,gateway,symbol,media_test,,,,,\n");
+  EXPECT_EQ(log.candump(), "");
+}
+
+TEST(CaptureExport, SymbolsArePacketsOfTheirOwnKind) {
+  for (const std::int64_t bit_ps : {0, 100'000, 200'000}) {
+    Exported log = with_symbols();
+    log.manifest.bit_ps = bit_ps;
+    const Capture capture = log.capture();
+    ASSERT_EQ(capture.packets.size(), 5u);
+    std::vector<int> bits;
+    std::vector<std::string> comments;
+    for (const CapturedPacket& packet : capture.packets) {
+      const FlexRayPacket parsed = parse_flexray_packet(capture.data(packet));
+      if (parsed.kind != FlexRayPacket::Kind::kSymbol) continue;
+      bits.push_back(parsed.symbol_bits);
+      comments.push_back(packet.comment);
+      EXPECT_EQ(packet.data_size, 2u);
+      EXPECT_EQ(packet.interface, 0u);
+    }
+    const int low = bit_ps == 200'000 ? 20 : 39;   // 39 bits at 10 Mbit/s, which is taken for granted
+    EXPECT_THAT(bits, testing::ElementsAre(127, low, low, low));
+    EXPECT_THAT(comments, testing::ElementsAre("wake-up pattern of gateway, 792.0 us",
+                                               "collision avoidance symbol of gateway, 3.9 us",
+                                               "collision avoidance symbol of gateway, 3.9 us",
+                                               "media access test symbol of gateway, 3.9 us"));
+  }
 }
 
 TEST(CaptureExport, NumbersWithoutANameAreWrittenOut) {

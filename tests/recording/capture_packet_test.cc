@@ -99,6 +99,13 @@ TEST(CapturePacket, WhatIsPutIsParsed) {
     }
 }
 
+TEST(CapturePacket, ASymbolsLengthEndsAt127Bits) {
+  std::string packets;
+  for (const std::int64_t bits : {-5, 39, 127, 128, 7920})
+    put_symbol_packet(packets, bits == 39 ? Channel::kB : Channel::kA, bits);
+  EXPECT_EQ(packets, std::string("\x02\x00\x82\x27\x02\x7f\x02\x7f\x02\x7f", 10));
+}
+
 TEST(CapturePacket, SymbolsAndScrapsAreToldFromFrames) {
   const FlexRayPacket symbol = parse_flexray_packet(bytes_of({0x82, 0x1e}));
   EXPECT_EQ(symbol.kind, FlexRayPacket::Kind::kSymbol);

@@ -36,6 +36,7 @@ inline LogManifest sample_manifest() {
   manifest.strategy = "tt";
   manifest.recording_name = "street.txt";
   manifest.cycle_ns = 5'000'000;
+  manifest.bit_ps = 200'000;
   manifest.hashes = {{"cluster", "00ff"}, {"scenario", "dead.beef"}};
   manifest.node_names = {"laser", "camera", "fusion"};
   manifest.task_names = {{"preprocess", "send"}, {}, {"fuse"}};

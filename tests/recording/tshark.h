@@ -27,7 +27,8 @@ inline constexpr char kFields[] =
     "-e flexray.ppi -e flexray.nfi -e flexray.sfi -e flexray.stfi -e flexray.pl -e flexray.hcrc -e flexray.hcrc_err "
     "-e flexray.fcrc_err -e flexray.fes_err -e flexray.cod_err -e flexray.tss_viol "
     "-e flexray.malformed_frame_payload -e flexray.stfi_flag "
-    "-e can.id -e can.flags.xtd -e can.len -e canfd.flags.brs";
+    "-e can.id -e can.flags.xtd -e can.len -e canfd.flags.brs "
+    "-e flexray.sl -e flexray.malformed_symbol_frame";
 
 struct CapturedLine {
   std::int64_t time_ns = 0;
@@ -44,10 +45,12 @@ struct Flags {
 inline std::string flexray_text(const std::string& comment, int channel, std::span<const std::byte> bytes, const Flags& flags) {
   const std::string errors = fmt::format("{:d}\t{:d}\t{:d}\t{:d}\t0", flags.header_crc, flags.frame_crc,
                                          flags.frame_end, flags.coding);
-  if (bytes.empty()) return fmt::format("FlexRay\t{}\t{}\t\t\t\t\t\t\t\t\t{}\t\t\t\t\t\t", comment, channel, errors);
+  if (bytes.empty())
+    return fmt::format("FlexRay\t{}\t{}{}{}{}", comment, channel, std::string(9, '\t'), errors, std::string(8, '\t'));
   const wire::FrameHeader h = wire::header_of(bytes).value();
   const std::size_t payload = bytes.size() - wire::kHeaderBytes - (flags.frame_end ? 0 : wire::kTrailerBytes);
-  return fmt::format("FlexRay\t{}\t{}\t{}\t{}\t{:d}\t{:d}\t{:d}\t{:d}\t{}\t{}\t{}\t{}\t{}\t\t\t\t", comment, channel,
+  return fmt::format("FlexRay\t{}\t{}\t{}\t{}\t{:d}\t{:d}\t{:d}\t{:d}\t{}\t{}\t{}\t{}\t{}\t\t\t\t\t\t", comment,
+                     channel,
                      h.frame_id, h.cycle, h.payload_preamble, !h.null_frame, h.sync, h.startup, h.payload_words,
                      h.header_crc, errors, payload == 2U * h.payload_words ? "" : "1", h.startup && !h.sync ? "1" : "");
 }
@@ -90,11 +93,24 @@ class Expectation : public records::Sink {
     collector_.on(record);
     lines.push_back(
         {record.end.true_time.ns,
-         fmt::format("{}\t{}\t\t\t\t\t\t\t\t\t\t\t\t\t\t\t\t\t{}\t0\t{}\t{}", manifest_.can_bus_names[record.bus],
+         fmt::format("{}\t{}\t\t\t\t\t\t\t\t\t\t\t\t\t\t\t\t\t{}\t0\t{}\t{}\t\t", manifest_.can_bus_names[record.bus],
                      comment(record.pdu, record.sequence, record.fragment, false), record.identifier,
                      record.data.size(), record.flexible_data_rate ? "1" : "")});
   }
+  // A collision avoidance symbol's TSS of 9 bits is low, too, and then 30 more; a wake-up pattern has more than 127.
+  void on(const records::SymbolSent& record) override {
+    collector_.on(record);
+    const bool cas = record.kind == records::kSymbolCas;
+    ++(cas ? cas_ : wakeup_);
+    const double us = (record.end.true_time - record.stamp.true_time).seconds() * 1e6;
+    const std::string text = fmt::format("{} of {}, {:.1f} us", cas ? "collision avoidance symbol" : "wake-up pattern",
+                                         node(record.stamp.node), us);
+    lines.push_back({record.stamp.true_time.ns, fmt::format("FlexRay\t{}\t{}{}{}\t", text, record.channel,
+                                                            std::string(20, '\t'), cas ? 39 : 127)});
+  }
   std::vector<CapturedLine> lines;
+  int cas() const { return cas_; }
+  int wakeup() const { return wakeup_; }
   std::size_t flipped() const { return flipped_; }
 
  protected:
@@ -113,6 +129,7 @@ class Expectation : public records::Sink {
   const LogManifest& manifest_;
   std::vector<SensorId> pdu_sensors_;
   std::size_t flip_every_, frames_ = 0, flipped_ = 0;
+  int cas_ = 0, wakeup_ = 0;
 };
 
 inline std::vector<std::string> tshark(const std::string& file) {
@@ -136,6 +153,7 @@ inline bool has_tshark() { return std::system("tshark --version >/dev/null 2>&1"
 inline std::string drive_log(const testing_support::Drive& drive) {
   LogManifest manifest;
   manifest.scenario_name = drive.scenario.name;
+  manifest.bit_ps = drive.cluster.flexray.gdBit_ps;
   for (const schedules::Node& node : drive.cluster.nodes) manifest.node_names.push_back(node.name);
   for (const schedules::PduLayout& pdu : drive.cluster.pdus) manifest.pdu_names.push_back(pdu.name);
   for (const schedules::Sensor& sensor : drive.cluster.sensors) manifest.sensor_names.push_back(sensor.name);
