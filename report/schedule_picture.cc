@@ -20,6 +20,7 @@ using schedules::Cluster;
 using schedules::FrameSlot;
 
 constexpr double kPlot = 1300, kSlotLane = 110, kTaskLane = 26;
+constexpr std::string_view kSymbolWindowFill = "#f5eeda";
 
 class SchedulePainter {
  public:
@@ -50,9 +51,10 @@ class SchedulePainter {
     svg_ = &svg;
     const auto& g = c_.flexray;
     svg.text({20, 24},
-             fmt::format("Schedule of {}: cycle {} ms, {} static slots of {} MT, {} minislots, NIT {} MT",
+             fmt::format("Schedule of {}: cycle {} ms, {} static slots of {} MT, {} minislots{}, NIT {} MT",
                          c_.name, number(static_cast<double>(g.cycle_ps()) * 1e-9), g.gNumberOfStaticSlots,
-                         g.gdStaticSlot, g.gNumberOfMinislots, g.gdNIT),
+                         g.gdStaticSlot, g.gNumberOfMinislots,
+                         g.gdSymbolWindow > 0 ? fmt::format(", symbol window {} MT", g.gdSymbolWindow) : "", g.gdNIT),
              {.size = 14, .bold = true});
     draw_legend(svg, {left_, legend_y}, kPlot, legend);
     draw_axis(strip - 6, axis);
@@ -102,6 +104,9 @@ class SchedulePainter {
     }
     if (status) legend.push_back({LegendEntry::Kind::kBox, "status frame", colour(kNoPdu), {}, true});
     legend.push_back({LegendEntry::Kind::kBox, "slot without owner", "#bbbbbb", {}, false});
+    // Mostly too narrow for its name.
+    if (c_.flexray.gdSymbolWindow > 0)
+      legend.push_back({LegendEntry::Kind::kBox, "symbol window", std::string(kSymbolWindowFill), {}, true});
     return legend;
   }
 
@@ -181,7 +186,7 @@ class SchedulePainter {
     segment(static_cast<double>(g.gNumberOfMinislots) * g.gdMinislot, "dynamic segment", "#e6f0f7",
             static_cast<double>(taken_minislots(channel)) * g.gdMinislot);
     draw_dynamic(channel, top);
-    segment(g.gdSymbolWindow, "symbol window", "#f5eeda");
+    segment(g.gdSymbolWindow, "symbol window", kSymbolWindowFill);
     segment(g.gMacroPerCycle - at, "network idle time", "#eeeeee");
   }
 

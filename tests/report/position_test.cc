@@ -169,6 +169,10 @@ TEST(SchedulePicture, DrawsEveryShippedClusterLegibly) {
     expect_no_overlaps(svg);
     expect_inside(svg);
     expect_renders(svg);
+    // The demo alone has one, of 13 macroticks in 2000: too narrow for its name.
+    const bool window = name == std::string_view("flexray_demo");
+    EXPECT_EQ(count(svg, ">symbol window</text>"), window ? 1u : 0u) << "in the legend";
+    EXPECT_EQ(count(svg, "80 minislots, symbol window 13 MT, NIT 427 MT</text>"), window ? 1u : 0u);
   }
 }
 
