@@ -21,10 +21,6 @@ std::string_view text(bus::Signal signal) {
 
 }  // namespace
 
-void ReplayStory::say(TrueTime at, const std::string& text) const {
-  fmt::print("  {:>10.3f} ms  cycle {:>6.2f}  {}\n", in_ms(at), in_units_of(cluster_.cycle(), at - TrueTime{}), text);
-}
-
 void ReplayStory::state_changed(NodeId node, bus::PocKind from, const bus::PocStep& step, TrueTime at) {
   const std::string_view consequence = bus::to_text(step.consequence);
   say(at, fmt::format("{}: {} -> {}: {}{}{}", cluster_.node(node).name, bus::to_text(from), bus::to_text(step.next.kind),
@@ -32,18 +28,18 @@ void ReplayStory::state_changed(NodeId node, bus::PocKind from, const bus::PocSt
 }
 
 void ReplayStory::fault_acts(const records::FaultActivity& activity) {
-  if (activity.what == records::kFaultActs && ++acts_ > kShown) return;
-  say(activity.at, fmt::format("fault {}: {}", activity.kind, activity.text));
+  say(activity.at, fmt::format("fault {}: {}", activity.kind, activity.text),
+      activity.what == records::kFaultActs ? Of::kFault : Of::kOthers);
 }
 
 void ReplayStory::guardian_intervened(const sim::StarCoupler::Intervention& intervention) {
-  if (++interventions_ > kShown) return;
   const bool cut = intervention.reason == bus::GuardianReason::kForwarded;
   say(intervention.at, fmt::format("guardian of {} {} {} of {}{}{}",
                                    letter(intervention.channel), cut ? "cuts off" : "blocks",
                                    text(intervention.signal),
                                    intervention.branch == kNoNode ? "nobody" : cluster_.node(intervention.branch).name,
-                                   cut ? "" : ": ", cut ? "" : bus::to_text(intervention.reason)));
+                                   cut ? "" : ": ", cut ? "" : bus::to_text(intervention.reason)),
+      Of::kGuardians);
 }
 
 void ReplayStory::judged(const experiments::Judgement& judgement) {
@@ -55,8 +51,15 @@ void ReplayStory::judged(const experiments::Judgement& judgement) {
 }
 
 void ReplayStory::finish() {
-  if (acts_ > kShown) fmt::print("  the fault acts {} times more\n", acts_ - kShown);
-  if (interventions_ > kShown) fmt::print("  the guardians intervene {} times more\n", interventions_ - kShown);
+  std::stable_sort(lines_.begin(), lines_.end(), [](const Line& a, const Line& b) { return a.at < b.at; });
+  std::uint64_t acts = 0, interventions = 0;
+  for (const Line& line : lines_) {
+    if ((line.of == Of::kFault && ++acts > kShown) || (line.of == Of::kGuardians && ++interventions > kShown)) continue;
+    fmt::print("  {:>10.3f} ms  cycle {:>6.2f}  {}\n", in_ms(line.at),
+               in_units_of(cluster_.cycle(), line.at - TrueTime{}), line.text);
+  }
+  if (acts > kShown) fmt::print("  the fault acts {} times more\n", acts - kShown);
+  if (interventions > kShown) fmt::print("  the guardians intervene {} times more\n", interventions - kShown);
 }
 
 }  // namespace ttf::cli

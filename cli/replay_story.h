@@ -4,6 +4,8 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "experiments/fault_trial.h"
 
@@ -17,15 +19,21 @@ class ReplayStory final : public experiments::TrialStory {
   void fault_acts(const records::FaultActivity& activity) override;
   void guardian_intervened(const sim::StarCoupler::Intervention& intervention) override;
   void judged(const experiments::Judgement& judgement) override;
-  // Says how much was left out.
+  // Prints it: what happened at one instant in the order in which it was told.
   void finish();
 
  private:
   static constexpr std::uint64_t kShown = 12;   // acts of the fault, and as many of the guardians
-  void say(TrueTime at, const std::string& text) const;
+  enum class Of : std::uint8_t { kOthers, kFault, kGuardians };
+  struct Line {
+    TrueTime at;
+    Of of;
+    std::string text;
+  };
+  void say(TrueTime at, std::string text, Of of = Of::kOthers) { lines_.push_back({at, of, std::move(text)}); }
 
   const schedules::Cluster& cluster_;
-  std::uint64_t acts_ = 0, interventions_ = 0;
+  std::vector<Line> lines_;   // in the order they were told: a guardian's doing, and who noticed what, long afterwards
 };
 
 }  // namespace ttf::cli
