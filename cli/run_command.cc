@@ -175,7 +175,8 @@ int run_scenario(const RunOptions& options) {
   if (options.json) {
     fmt::print("{}\n", json.dump(2));
   } else {
-    fmt::print("{}\n{}{}", scenario.description, startup_text(results), comparison_table(results));
+    fmt::print("{}\n{}{}", scenario.description, startup_text(results, scenario.startup.cold),
+               comparison_table(results));
     if (!scenario.faults.empty())
       for (const StrategyResult& result : results)
         fmt::print("\n{}", faults_text(nodes::name_of(result.strategy), result.faults, result.cluster));

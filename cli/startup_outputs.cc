@@ -9,16 +9,13 @@
 #include "report/tables.h"
 
 namespace ttf::cli {
-namespace {
 
-
-}  // namespace
-
-std::string startup_text(const std::vector<StrategyResult>& results) {
+std::string startup_text(const std::vector<StrategyResult>& results, bool cold) {
   std::vector<std::pair<std::string, std::string>> tables;   // with the strategies they are of
   for (const StrategyResult& result : results) {
     if (result.startup.empty()) continue;
-    report::Table table({"node", "powered on [ms]", "active in cycle", "at [ms]", "in state now, and why"});
+    report::Table table({"node", cold ? "powered on [ms]" : "powered on again [ms]",
+                         cold ? "active in cycle" : "active again in cycle", "at [ms]", "in state now, and why"});
     for (const experiments::NodeStartup& node : result.startup) {
       const bool on_flexray = !node.state.empty();
       table.add({result.cluster.node(node.node).name, node.powered ? report::cell(in_ms(*node.powered), 1) : "-",
@@ -34,7 +31,8 @@ std::string startup_text(const std::vector<StrategyResult>& results) {
       tables.emplace_back(name, body);
   }
   std::string text;
-  for (const auto& [names, body] : tables) text += fmt::format("start-up with {}\n{}\n", names, body);
+  for (const auto& [names, body] : tables)
+    text += fmt::format("{} with {}\n{}\n", cold ? "start-up" : "changes of state", names, body);
   return text;
 }
 

@@ -9,8 +9,9 @@
 namespace ttf::cli {
 
 // Which nodes became active in which cycle, when (true time), and why, a table a strategy, one for
-// those that do not differ in it; empty where no drive has any to tell.
-std::string startup_text(const std::vector<StrategyResult>& results);
+// those that do not differ in it; empty where no drive has any to tell. `cold`: the drives began with a start-up;
+// else it is of nodes that left the running cluster, and maybe came back.
+std::string startup_text(const std::vector<StrategyResult>& results, bool cold);
 // The same of one drive: a list with an entry per node.
 nlohmann::ordered_json startup_json(const StrategyResult& result);
 

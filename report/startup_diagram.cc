@@ -38,31 +38,35 @@ void StartupDiagram::on(const records::FaultActivity& r) {
 }
 
 std::string StartupDiagram::svg() const {
-  if (data_.changes.empty())
-    return empty_picture("Start-up", "No node changed its state: the run began with all nodes integrated.");
+  if (data_.changes.empty() && data_.power.empty())
+    return empty_picture("Start-up",
+                         "No node changed its state: the run began with all nodes integrated, and so they stayed.");
   if (from_ >= to_) return empty_picture("Start-up", "The window is empty.");
   return paint_startup(names_, data_, cycle_, from_, to_);
 }
 
-void StartupExtent::see(TrueTime at) {
+void StartupExtent::see(TrueTime at, bool starts) {
   if (!possible(at)) return;
+  if (starts) first_start_ = first_start_ ? std::min(*first_start_, at) : at;
   first_ = first_ ? std::min(*first_, at) : at;
   last_ = last_ ? std::max(*last_, at) : at;
 }
 void StartupExtent::on(const records::StateChanged& r) {
-  see(r.stamp.true_time);
+  see(r.stamp.true_time, r.from == kStateDefaultConfig);
   const std::size_t node = index_of(r.stamp.node);
   if (r.to != kStateNormalActive || active_[node] || !possible(r.stamp.true_time)) return;
   active_[node] = true;
   last_active_ = last_active_ ? std::max(*last_active_, r.stamp.true_time) : r.stamp.true_time;
 }
-void StartupExtent::on(const records::PowerChanged& r) { see(r.stamp.true_time); }
+void StartupExtent::on(const records::PowerChanged& r) { see(r.stamp.true_time, r.on); }
 
 std::optional<std::pair<TrueTime, TrueTime>> StartupExtent::window(Duration cycle) const {
   if (!first_) return std::nullopt;
   const Duration a_little = Duration::milliseconds(1);
   const Duration after = std::clamp(cycle, Duration{}, kLongestCycle) * 2;
-  return std::pair(std::max(TrueTime{}, *first_ - a_little), last_active_.value_or(*last_) + a_little + after);
+  const TrueTime first = first_start_.value_or(*first_);
+  const TrueTime last = std::max(first, last_active_.value_or(*last_));
+  return std::pair(std::max(TrueTime{}, first - a_little), last + a_little + after);
 }
 
 }  // namespace ttf::report

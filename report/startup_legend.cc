@@ -30,9 +30,10 @@ std::vector<LegendEntry> startup_legend(const StartupData& data, const std::vect
   };
   if (power(true)) legend.push_back({K::kMarker, "power on", std::string(kGreen), Marker::kTriangle, true});
   if (power(false)) legend.push_back({K::kMarker, "power off", std::string(kVermilion), Marker::kDownTriangle, true});
-  if (!data.faults.empty()) {
+  if (const auto faults = faults_within(data.faults, from, to); !faults.empty()) {
     legend.push_back({K::kBox, "fault, from its begin to its end", std::string(kFaultFill), {}, true});
-    if (std::ranges::any_of(data.faults, [&](const auto& f) { return f.what == records::kFaultActs && visible(f.at, f.at); }))
+    const auto acts = [&](const auto& f) { return f.what == records::kFaultActs && visible(f.at, f.at); };
+    if (std::ranges::any_of(faults, acts))
       legend.push_back({K::kLine, "the fault acts", std::string(kVermilion)});
   }
   return legend;

@@ -33,6 +33,7 @@ class StartupPainter {
         from_(from),
         to_(to),
         spans_(state_spans(data, from, to)),
+        faults_(faults_within(data.faults, from, to)),
         leader_(leading_node(data)),
         legend_(startup_legend(data, spans_, from, to)) {
     if (leader_) cycles_ = cycles_of(data, *leader_, cycle, to);
@@ -44,7 +45,7 @@ class StartupPainter {
     plot_.x = 40;
     plot_.y = kTop;
     double y = kTop;
-    for (const auto& f : data.faults) {
+    for (const auto& f : faults_) {
       if (!fault_top_.try_emplace(f.fault, y).second) continue;
       y += kFaultLane;
       plot_.x = std::max(plot_.x, text_width(fault_label(f), 11) + 24);
@@ -63,8 +64,11 @@ class StartupPainter {
   std::string picture() {
     const double legend_width = plot_.width + plot_.x - 24;
     const double legend_top = plot_.y + plot_.height + 46;
-    const std::string title = fmt::format("{}: start-up, {} ms to {} ms", names_.run.empty() ? "Run" : names_.run,
-                                          number(in_ms(from_)), number(in_ms(to_)));
+    // Nobody starts a cluster up that began integrated.
+    const bool integrated = !leader_ && !active_from_the_start(data_).empty();
+    const std::string title = fmt::format("{}: {}, {} ms to {} ms", names_.run.empty() ? "Run" : names_.run,
+                                          integrated ? "changes of state" : "start-up", number(in_ms(from_)),
+                                          number(in_ms(to_)));
     Svg svg(plot_.x + plot_.width + 24, legend_top + legend_height(legend_, legend_width) + 12, title);
     svg_ = &svg;
     svg.text({24, 22}, title, {.size = 14, .bold = true});
@@ -132,7 +136,7 @@ class StartupPainter {
       svg_->line({12, y}, {plot_.x + plot_.width, y}, {.stroke = "#999999", .width = 0.8});
     };
     std::set<std::uint32_t> labelled;
-    for (const auto& f : data_.faults)
+    for (const auto& f : faults_)
       if (labelled.insert(f.fault).second)
         svg_->text({plot_.x - 10, fault_top_.at(f.fault) + 15}, fault_label(f), {.size = 11, .anchor = Anchor::kEnd});
     for (const auto& [node, y] : node_top_) {
@@ -158,7 +162,7 @@ class StartupPainter {
                    {.fill = kFaultFill, .stroke = kVermilion, .width = 0.7}, f.text, "fault");
     };
     std::map<std::uint32_t, const StartupData::Fault*> open;
-    for (const auto& f : data_.faults) {
+    for (const auto& f : faults_) {
       if (f.what == records::kFaultBegins) open[f.fault] = &f;
       if (f.what != records::kFaultEnds) continue;
       if (const auto o = open.find(f.fault); o != open.end()) {
@@ -167,7 +171,7 @@ class StartupPainter {
       }
     }
     for (const auto& [fault, begin] : open) bar(*begin, begin->at, to_);
-    for (const auto& f : data_.faults)
+    for (const auto& f : faults_)
       if (f.what == records::kFaultActs && visible(f.at, f.at))
         svg_->rect({x(f.at) - 0.7, fault_top_.at(f.fault) + 4, 1.4, 14}, {.fill = kVermilion}, f.text, "acts");
   }
@@ -255,6 +259,7 @@ class StartupPainter {
   const StartupData& data_;
   TrueTime from_, to_;
   std::vector<StateSpan> spans_;
+  std::vector<StartupData::Fault> faults_;
   std::optional<LeadingNode> leader_;
   std::vector<LegendEntry> legend_;
   std::map<std::int64_t, TrueTime> cycles_;

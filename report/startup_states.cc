@@ -1,8 +1,11 @@
 #include "report/startup_states.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
+#include <utility>
 
+#include "recording/records/records.h"
 #include "report/axes.h"
 
 namespace ttf::report {
@@ -14,9 +17,28 @@ std::string sentence(const StartupData::Change& c) {
 
 }  // namespace
 
+std::set<NodeId> active_from_the_start(const StartupData& data) {
+  struct Sign {
+    TrueTime at{};
+    bool active = false;
+  };
+  std::map<NodeId, Sign> first;   // of the node's states
+  for (const StartupData::Power& p : data.power) first.try_emplace(p.node, Sign{p.at, !p.on});
+  for (const StartupData::Change& c : data.changes)
+    if (const auto [sign, is_first] = first.try_emplace(c.node, Sign{c.at, false}); !is_first && c.at < sign->second.at)
+      sign->second = {c.at, false};
+  for (const StartupData::Frame& f : data.frames) first.try_emplace(f.node, Sign{f.start, true});
+  std::set<NodeId> nodes;
+  for (const auto& [node, sign] : first)
+    if (sign.active) nodes.insert(node);
+  return nodes;
+}
+
 std::vector<StateSpan> state_spans(const StartupData& data, TrueTime begin, TrueTime end) {
   std::vector<StateSpan> spans;
   std::map<NodeId, StateSpan> now;
+  for (const NodeId node : active_from_the_start(data))
+    now[node] = {node, kStateNormalActive, begin, end, "normal active", "the run began with the node integrated"};
   const auto leave = [&](NodeId node, TrueTime at) {
     const auto found = now.find(node);
     if (found == now.end()) return;
@@ -84,6 +106,22 @@ std::string_view short_name(std::uint8_t state) {
     case kStateNormalPassive: return "passive";
     default: return "";
   }
+}
+
+std::vector<StartupData::Fault> faults_within(const std::vector<StartupData::Fault>& faults, TrueTime from,
+                                              TrueTime to) {
+  std::map<std::uint32_t, std::pair<TrueTime, TrueTime>> spans;   // from its first record to its end
+  for (const StartupData::Fault& f : faults) {
+    auto& [begin, end] = spans.try_emplace(f.fault, f.at, to).first->second;
+    begin = std::min(begin, f.at);
+    if (f.what == records::kFaultEnds) end = f.at;
+  }
+  std::vector<StartupData::Fault> there;
+  std::copy_if(faults.begin(), faults.end(), std::back_inserter(there), [&](const StartupData::Fault& f) {
+    const auto& [begin, end] = spans.at(f.fault);
+    return begin < to && end >= from;
+  });
+  return there;
 }
 
 }  // namespace ttf::report

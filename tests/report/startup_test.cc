@@ -98,8 +98,8 @@ TEST(StartupDiagram, HasALaneForEveryNodeThatTookPart) {
 
 TEST(StartupDiagram, ShowsEveryStateThatLastsAndSaysWhy) {
   const std::string svg = startup_diagram(2, 68);
-  // Nodes 0..2: listening, then two or three states, and active; node 3 says nothing of its state.
-  EXPECT_EQ(count_class(svg, "state"), 4u + 5u + 4u);
+  // Nodes 0..2: listening, then two or three states, and active; node 3 was active from the start.
+  EXPECT_EQ(count_class(svg, "state"), 4u + 5u + 4u + 1u);
   for (const auto& [name, times] :
        {std::pair{"coldstart listen", 2u}, std::pair{"integration listen", 1u}, std::pair{"coldstart collision resolution", 1u},
         std::pair{"coldstart consistency check", 1u}, std::pair{"initialise schedule", 2u},
@@ -167,7 +167,71 @@ TEST(StartupDiagram, IsWellFormedAndDeterministic) {
 TEST(StartupDiagram, ALogWithoutAStartupSaysSo) {
   StartupDiagram d(four(), Duration::milliseconds(5), {}, {70'000'000});
   SyntheticStartup::frame(d, 0, 1, 0, true, false);
-  EXPECT_NE(d.svg().find("No node changed its state: the run began with all nodes integrated."), std::string::npos);
+  EXPECT_NE(d.svg().find("No node changed its state: the run began with all nodes integrated, and so they stayed."),
+            std::string::npos);
+}
+
+//   node 0    normal active ---------------------------------------------------------------->
+//   node 1    normal active ---| 120 off      300 on | ready, listen --| 330 active --------->
+void integrated_drive(records::Sink& sink, bool comes_back) {
+  using S = SyntheticStartup;
+  for (int c = 0; c < 80; ++c) {
+    S::frame(sink, c, 1, 0, true, false);
+    if (S::cycle(c) < 120'000 || (comes_back && S::cycle(c) >= 330'000)) S::frame(sink, c, 2, 1, true, false);
+  }
+  sink.on(records::PowerChanged{S::stamp(120'000, 1), false});
+  if (!comes_back) return;
+  sink.on(records::PowerChanged{S::stamp(300'000, 1), true});
+  S::powered(sink, 300'000, 1);
+  S::change(sink, 300'000, 1, 0x01, "ready", 0x27, "integration listen", "RUN");
+  S::change(sink, 330'000, 1, 0x27, "integration listen", 0x02, "normal active", "integrated");
+}
+
+std::string integrated_diagram(bool comes_back, std::int64_t from_ms, std::int64_t to_ms) {
+  StartupDiagram d(four(), Duration::milliseconds(5), {from_ms * 1'000'000}, {to_ms * 1'000'000});
+  integrated_drive(d, comes_back);
+  d.on(records::FaultActivity{{120'000'000}, 0, records::kFaultBegins, NodeId{1}, "crash", "camera_pc goes off"});
+  d.on(records::FaultActivity{{300'000'000}, 0, records::kFaultEnds, NodeId{1}, "crash", "camera_pc comes on"});
+  d.on(records::FaultActivity{{20'000'000}, 1, records::kFaultBegins, kNoNode, "noise", "noise"});
+  d.on(records::FaultActivity{{40'000'000}, 1, records::kFaultEnds, kNoNode, "noise", "no noise"});
+  d.on(records::FaultActivity{{390'000'000}, 2, records::kFaultBegins, kNoNode, "transient", "a transient"});
+  return d.svg();
+}
+
+TEST(StartupDiagram, ARunThatBeganIntegratedShowsWhoWasActiveFromTheStart) {
+  const std::string svg = integrated_diagram(true, 100, 350);
+  EXPECT_EQ(count_class(svg, "state"), 4u) << "one of node 0; of node 1 active, listening, active";
+  EXPECT_EQ(count(svg, ">normal active</text>"), 4u) << "in three bars and in the legend";
+  EXPECT_NE(svg.find("the run began with the node integrated"), std::string::npos);
+  EXPECT_NE(svg.find("cold_start, tt: changes of state, 100 ms to 350 ms"), std::string::npos);
+  EXPECT_EQ(count(svg, ">crash, camera_pc</text>"), 1u);
+  expect_no_overlaps(svg);
+  for (const char* elsewhere : {">noise</text>", ">transient</text>"})
+    EXPECT_EQ(count(svg, elsewhere), 0u) << "no lane for what is not there in the window";
+  const std::string later = integrated_diagram(true, 310, 350);
+  EXPECT_EQ(count(later, "crash"), 0u);
+  EXPECT_EQ(count(later, "fault, from its begin"), 0u);
+}
+
+TEST(StartupDiagram, ANodeThatIsLostForGoodIsDrawn) {
+  const std::string svg = integrated_diagram(false, 100, 350);
+  EXPECT_EQ(count_class(svg, "state"), 2u);
+  EXPECT_EQ(count_class(svg, "power"), 1u);
+}
+
+TEST(StartupExtent, IsTheStartUpOrTheReturnOfANodeOrItsLoss) {
+  const Duration cycle = Duration::milliseconds(5);
+  const auto window = [&](const auto& drive) {
+    StartupExtent extent;
+    drive(extent);
+    return extent.window(cycle);
+  };
+  using Window = std::pair<TrueTime, TrueTime>;
+  const auto ms = [](std::int64_t from, std::int64_t to) { return Window{{from * 1'000'000}, {to * 1'000'000}}; };
+  EXPECT_EQ(window([](records::Sink& sink) { SyntheticStartup::drive(sink); }), ms(2, 60 + 11));
+  EXPECT_EQ(window([](records::Sink& sink) { integrated_drive(sink, true); }), ms(299, 330 + 11));
+  EXPECT_EQ(window([](records::Sink& sink) { integrated_drive(sink, false); }), ms(119, 120 + 11));
+  EXPECT_FALSE(window([](records::Sink& sink) { SyntheticStartup::frame(sink, 0, 1, 0, true, false); }));
 }
 
 // ---- what it is made of
@@ -190,6 +254,31 @@ TEST(StartupStates, AStateLastsUntilItIsLeftOrItsNodeLosesItsSupply) {
   EXPECT_EQ(spans[1].end.ns, 40);
   EXPECT_EQ(spans[2].start.ns, 60);
   EXPECT_EQ(spans[2].end.ns, 100);
+}
+
+TEST(StartupStates, WhoLosesASupplyThatNobodyGaveItOrOnlySendsWasActiveFromTheStart) {
+  StartupData data;
+  data.power = {{{10}, NodeId{0}, false}, {{10}, NodeId{1}, true}, {{20}, NodeId{1}, false}, {{30}, NodeId{2}, false},
+                {{50}, NodeId{0}, true}};
+  data.changes = {change(10, 1, kStateDefaultConfig, kStateReady), change(25, 2, kStateNormalActive, kStateHalt),
+                  change(50, 0, kStateDefaultConfig, kStateReady)};
+  data.frames = {{{5}, {6}, NodeId{3}, 0, 4, 0, false, false}, {{5}, {6}, NodeId{2}, 0, 4, 0, false, false}};
+  EXPECT_EQ(active_from_the_start(data), (std::set<NodeId>{NodeId{0}, NodeId{3}}));
+  const auto spans = state_spans(data, {0}, {100});
+  EXPECT_EQ(std::count_if(spans.begin(), spans.end(), [](const StateSpan& s) { return s.node == NodeId{0}; }), 2);
+  EXPECT_EQ(spans.at(0).start.ns, 0);
+}
+
+TEST(StartupStates, FaultsAreThereFromBeginToEnd) {
+  const auto record = [](std::int64_t at, std::uint32_t fault, std::uint8_t what) {
+    return StartupData::Fault{{at}, fault, what, kNoNode, "noise", ""};
+  };
+  const std::vector<StartupData::Fault> faults = {
+      record(10, 0, records::kFaultBegins), record(20, 0, records::kFaultEnds),  record(10, 1, records::kFaultBegins),
+      record(60, 1, records::kFaultEnds),   record(30, 2, records::kFaultBegins), record(90, 3, records::kFaultBegins)};
+  EXPECT_EQ(faults_within(faults, {40}, {80}).size(), 3u);
+  EXPECT_EQ(faults_within(faults, {0}, {100}).size(), faults.size());
+  EXPECT_EQ(faults_within(faults, {0}, {10}).size(), 0u);
 }
 
 TEST(StartupStates, ANodeThatBeganIntegratedWasInItsFirstStateFromTheBeginningOn) {
