@@ -172,7 +172,7 @@ expect 0 'Example: ttfusion export' export --help
 expect 2 'pcapng' export "$work/a/tt.mcap" --format asc -o "$work/drive.asc"
 expect 2 'README.md' export "$source/README.md" --format csv -o "$work/drive.csv"
 expect 1 'absent/drive.csv: cannot be written' export "$work/a/tt.mcap" --format csv -o "$work/absent/drive.csv"
-expect 0 '[1-9][0-9]* FlexRay and [1-9][0-9]* CAN frames' export "$work/a/tt.mcap" --format pcapng -o "$work/drive.pcapng"
+expect 0 '[1-9][0-9]* FlexRay and [1-9][0-9]* CAN frames and 0 symbols' export "$work/a/tt.mcap" --format pcapng -o "$work/drive.pcapng"
 expect 0 '"can_frames": [1-9]' export "$work/a/tt.mcap" --format candump --json -o "$work/drive.log"
 expect 0 'warning: .*cut.mcap' export "$work/cut.mcap" --format csv -o "$work/drive.csv"
 head -1 "$work/drive.csv" | grep -q '^time_ns,bus,channel,' || fail "export --format csv leaves no header"
@@ -241,6 +241,11 @@ expect 1 'does not hold' experiment "$campaign" --merge "$work/campaign"
 expect 1 'ttfusion experiment .*campaign.yaml --replay [0-9]+' experiment "$campaign" --merge "$work/campaign"
 expect 2 'is a fault that is missing' experiment "$campaign" --merge "$work/shard1"
 expect 0 'fault 3: [a-z_]+ ' experiment "$campaign" --replay 3
+for fault in 2 3 8; do
+  "$program" experiment "$campaign" --replay $fault >"$work/replay.txt"
+  awk '/^variant/ { last = -1 } / ms  cycle / { told++; if ($1 < last) bad = 1; last = $1 } END { exit bad || told < 20 }' \
+    "$work/replay.txt" || fail "the replay of fault $fault is not in the order of time"
+done
 expect 2 '--replay = 24: must be 0..23' experiment "$campaign" --replay 24
 expect 2 '--shard = 3/2: must be i/n' experiment "$campaign" --shard 3/2
 sed -e 's/guardian: true/guardian: true, why: not/' "$campaign" >"$work/schedules/broken.yaml"
