@@ -16,7 +16,6 @@ namespace ttf::recording {
 namespace {
 
 using schedules::Channel;
-using schedules::Channels;
 
 struct Frame {
   std::uint64_t number = 0;
@@ -176,7 +175,7 @@ class CaptureChecker {
         words != cluster_.flexray.gPayloadLengthStatic)
       say(Contradiction::kPayloadLength, fmt::format("the payload has {} words, not {} (gPayloadLengthStatic)", words,
                                                      cluster_.flexray.gPayloadLengthStatic));
-    else if (packet.payload.size() != static_cast<std::size_t>(2 * words))
+    else if (packet.payload.size() != 2 * static_cast<std::size_t>(words))
       say(Contradiction::kPayloadLength,
           fmt::format("{} bytes of payload were captured where the header says {}", packet.payload.size(), 2 * words));
   }
