@@ -98,7 +98,7 @@ NodeParameters assume_local(const FibexEcu& ecu, const GlobalParameters& global,
   assume("pMicroPerCycle", global.cycle_ps() / p.pdMicrotick_ps);
   // Two clocks off by cClockDeviationMax = 0.0015 to either side: 0.003 / (1 - 0.0015) of a cycle apart after
   // one.
-  const std::int64_t drift = ceil_div(std::int64_t{p.pMicroPerCycle} * 6, 1997);
+  const std::int64_t drift = ecu.max_drift.value_or(ceil_div(std::int64_t{p.pMicroPerCycle} * 6, 1997));
   assume("pRateCorrectionOut", drift);
   assume("pdListenTimeout", 2 * (p.pMicroPerCycle + drift));
   const std::int64_t precision = ceil_div(assumed_precision_ps(global), p.pdMicrotick_ps);

@@ -144,7 +144,8 @@ class Exporter {
       put_parameter(one, parameter, p);
       if (parameter.name != "pdListenTimeout") continue;
       // pdListenTimeout = 2 (pMicroPerCycle + pdMaxDrift)
-      put(one, "flexray:MAX-DRIFT", std::to_string(p.pdListenTimeout / 2 - p.pMicroPerCycle));
+      const int drift = p.pdListenTimeout / 2 - p.pMicroPerCycle;
+      if (drift >= kLeastMaxDrift && drift <= kMostMaxDrift) put(one, "flexray:MAX-DRIFT", std::to_string(drift));
     }
   }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -87,6 +88,7 @@ void FibexReader::leave_out(const XmlElement& element, std::string value, std::s
 namespace {
 
 constexpr int kLastSlotId = 2047;  // cSlotIDMax
+constexpr std::int64_t kPsPerUs = 1'000'000;
 
 // Sets the parameters whose elements are there.
 template <class Parameters, std::size_t kCount>
@@ -110,6 +112,42 @@ bool is_flexray(XmlElement& element, std::string_view type, std::string_view wit
   return given.empty() ? element.has(witness) : given == fmt::format("flexray:{}", type);
 }
 
+// An eighth of gdBit (cSamplesPerBit), which is read, or else derived from the bit rate.
+void read_sample_clock(XmlElement& cluster, const FibexFile& file, FibexReader& reader) {
+  constexpr std::int64_t kShortest = 12'500, kLongest = 50'000;  // ps, gdSampleClockPeriod
+  auto period = cluster.child("flexray:SAMPLE-CLOCK-PERIOD");
+  if (!period) return;
+  const std::string text = period->text();
+  period->finish();
+  const auto value = parse_scaled(text, kPsPerUs);
+  if (!value || *value < kShortest || *value > kLongest)
+    return reader.fail(*period, text, "must be 0.0125..0.05 us (gdSampleClockPeriod)");
+  const bool has_bit = file.given.contains("gdBit"), has_rate = file.given.contains("baudrate");
+  if (!has_bit && !has_rate) return;
+  const std::int64_t bit = has_bit ? file.global.gdBit_ps : kPsPerUs * 1'000'000 / file.global.baudrate;
+  if (*value != bit / 8)
+    reader.leave_out(*period, text, fmt::format("is left out: it is an eighth of the bit time, {}",
+                                                scaled_text(bit / 8, kPsPerUs)));
+}
+
+void read_protocol(XmlElement& cluster, FibexReader& reader) {
+  if (auto protocol = cluster.child("fx:PROTOCOL")) {
+    const std::string text = protocol->text();
+    protocol->finish();
+    std::string capitals;
+    for (const char c : text) capitals += c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+    if (capitals != "FLEXRAY") reader.fail(*protocol, text, "must be FlexRay");
+  }
+  if (auto version = cluster.child("fx:PROTOCOL-VERSION")) {
+    const std::string text = version->text();
+    version->finish();
+    if (text.empty() || text[0] < '0' || text[0] > '9')
+      reader.fail(*version, text, "must be a version of the protocol, such as 2.1");
+    else if (text[0] != '2')
+      reader.leave_out(*version, text, "is left out: the parameters are read as those of FlexRay 2.1");
+  }
+}
+
 void read_cluster(XmlElement& cluster, FibexFile& out, FibexReader& reader) {
   static constexpr FibexParameter kSpeed[] = {{"baudrate", "fx:SPEED"}};
   out.cluster_name = reader.name_of(cluster);
@@ -129,10 +167,13 @@ void read_cluster(XmlElement& cluster, FibexFile& out, FibexReader& reader) {
     out.guardian = reader.boolean(*extension, "ttf:GUARDIAN", false);
     extension->finish();
   }
-  // An eighth of gdBit, which is read, or else derived from the bit rate.
-  cluster.ignore("flexray:SAMPLE-CLOCK-PERIOD");
-  for (const char* known : {"fx:PROTOCOL", "fx:PROTOCOL-VERSION", "fx:CHANNEL-REFS", "fx:MEDIUM"})
-    cluster.ignore(known);
+  read_sample_clock(cluster, out, reader);
+  read_protocol(cluster, reader);
+  for (XmlElement& one : cluster.children_of("fx:CHANNEL-REFS", "fx:CHANNEL-REF")) {
+    out.channels.insert(one.attribute("ID-REF"));
+    one.finish();
+  }
+  cluster.ignore("fx:MEDIUM");  // electrical or optical: its delays are parameters of their own
   if (const auto policy = cluster.text_of("fx:BIT-COUNTING-POLICY"); policy && *policy != "SAWTOOTH")
     reader.fail(cluster, *policy, "must have the BIT-COUNTING-POLICY SAWTOOTH: no other is understood");
   if (!reader.boolean(cluster, "fx:IS-HIGH-LOW-BIT-ORDER", true))
@@ -156,8 +197,8 @@ void read_timing(XmlElement& timing, FibexTriggering& out, FibexReader& reader) 
   timing.finish();
 }
 
-// Which of the two it is.
-Channel read_channel(XmlElement& channel, FibexFile& out, FibexReader& reader) {
+// Which of the two it is; nothing where it does not say.
+std::optional<Channel> read_channel(XmlElement& channel, FibexFile& out, FibexReader& reader) {
   const std::string name = channel.text_of("flexray:FLEXRAY-CHANNEL-NAME").value_or("");
   channel.ignore("ho:SHORT-NAME");
   if (name != "A" && name != "B") reader.fail(channel, name, "must have a FLEXRAY-CHANNEL-NAME, A or B");
@@ -177,6 +218,7 @@ Channel read_channel(XmlElement& channel, FibexFile& out, FibexReader& reader) {
     }
   }
   channel.finish();
+  if (name != "A" && name != "B") return std::nullopt;
   return name == "B" ? Channel::kB : Channel::kA;
 }
 
@@ -205,8 +247,11 @@ void read_controller(XmlElement& controller, FibexEcu& out, FibexReader& reader)
   controller.ignore("ho:SHORT-NAME");
   read_key_slot(controller, out, reader);
   read_parameters(controller, kFibexController, out.parameters, out.given, reader);
-  // These follow from others: pMicroPerCycle, and how far apart any two clocks drift.
-  for (const char* known : {"flexray:MAX-DRIFT", "flexray:MICRO-PER-MACRO-NOM"}) controller.ignore(known);
+  // Both follow from others, if these are there.
+  if (controller.has("flexray:MAX-DRIFT"))
+    out.max_drift = reader.integer(controller, "flexray:MAX-DRIFT", kLeastMaxDrift, kMostMaxDrift);
+  if (controller.has("flexray:MICRO-PER-MACRO-NOM"))
+    out.micro_per_macro = reader.integer(controller, "flexray:MICRO-PER-MACRO-NOM", 20, 240);
   if (controller.has("flexray:MAX-DYNAMIC-PAYLOAD-LENGTH"))
     out.max_dynamic_words = reader.integer(controller, "flexray:MAX-DYNAMIC-PAYLOAD-LENGTH", 0, 127);
   controller.finish();
@@ -215,7 +260,25 @@ void read_controller(XmlElement& controller, FibexEcu& out, FibexReader& reader)
 // Channels by the ids of their elements.
 using ChannelIds = std::map<std::string, Channel>;
 
-// A connector is a node's plug on one channel. One of a channel that is none of this cluster's says nothing of pChannels.
+// Whether a connector is a plug of the ECU's FlexRay controller on the cluster. Where it does not say of which controller or
+// channel it is, it is.
+bool is_of_the_cluster(XmlElement& connector, const std::set<std::string>& controllers, const std::string& controller,
+                       const ChannelIds& channels, FibexReader& reader) {
+  const std::string of = connector.reference("fx:CONTROLLER-REF"), on = connector.reference("fx:CHANNEL-REF");
+  if (!of.empty() && !controllers.contains(of)) {
+    reader.fail(connector, of, "must have a CONTROLLER-REF to a controller of its ECU");
+    return false;
+  }
+  if (!of.empty() && of != controller)
+    reader.leave_out(connector, of, "is of another controller than the ECU's first on FlexRay, and left out");
+  else if (!on.empty() && !channels.contains(on))
+    reader.leave_out(connector, on, "is on no channel of the first FlexRay cluster, and left out");
+  else
+    return true;
+  return false;
+}
+
+// A connector is a node's plug on one channel. One that names none says nothing of pChannels.
 void read_attachment(XmlElement& connector, const ChannelIds& channels, unsigned& attached, FibexEcu& out,
                      FibexReader& reader) {
   const bool wakes = connector.has("flexray:WAKE-UP-CHANNEL");
@@ -236,15 +299,24 @@ void read_ecu(XmlElement& ecu, const ChannelIds& channels, FibexFile& out, Fibex
   FibexEcu one;
   one.name = reader.name_of(ecu);
   one.line = ecu.line();
+  std::set<std::string> controllers;  // by ID
+  std::string used;
   for (XmlElement& controller : ecu.children_of("fx:CONTROLLERS", "fx:CONTROLLER")) {
+    const std::string id = controller.attribute("ID");
+    controllers.insert(id);
     if (one.has_controller || !is_flexray(controller, "CONTROLLER-TYPE", "flexray:MICRO-PER-CYCLE"))
       reader.leave_out(controller, controller.attribute("ID"),
                        "is not the ECU's first FlexRay controller, and left out");
     else
       read_controller(controller, one, reader);
+    if (one.has_controller && used.empty()) used = id;
   }
   unsigned attached = 0;
-  for (XmlElement& connector : ecu.children_of("fx:CONNECTORS", "fx:CONNECTOR")) {
+  auto connectors = ecu.children_of("fx:CONNECTORS", "fx:CONNECTOR");
+  bool elsewhere = !connectors.empty();
+  for (XmlElement& connector : connectors) {
+    if (!is_of_the_cluster(connector, controllers, used, channels, reader)) continue;
+    elsewhere = false;
     read_attachment(connector, channels, attached, one, reader);
     const auto ports = [&](const char* list, const char* port, std::vector<std::string>& to) {
       for (XmlElement& item : connector.children_of(list, port)) {
@@ -255,9 +327,9 @@ void read_ecu(XmlElement& ecu, const ChannelIds& channels, FibexFile& out, Fibex
     };
     ports("fx:INPUTS", "fx:INPUT-PORT", one.receives);
     ports("fx:OUTPUTS", "fx:OUTPUT-PORT", one.sends);
-    connector.ignore("fx:CONTROLLER-REF");
     connector.finish();
   }
+  if (elsewhere) one.has_controller = false;  // on another cluster, as far as this one knows
   if (attached != 0) {
     one.parameters.pChannels = static_cast<Channels>(attached);
     one.given.insert("pChannels");
@@ -265,6 +337,32 @@ void read_ecu(XmlElement& ecu, const ChannelIds& channels, FibexFile& out, Fibex
   if (!one.given.contains("pWakeupChannel")) one.parameters.pWakeupChannel = default_wakeup(one.parameters.pChannels);
   ecu.finish();
   out.ecus.push_back(std::move(one));
+}
+
+bool is_understood(const std::string& version) {
+  const bool digits = std::all_of(version.begin(), version.end(), [](char c) { return c == '.' || (c >= '0' && c <= '9'); });
+  return digits && version.size() > 1 && version[0] >= '2' && version[0] <= '4' && version[1] == '.';
+}
+
+// The channels of the cluster; those of another are none of its own.
+ChannelIds read_channels(XmlElement& elements, FibexFile& out, FibexReader& reader) {
+  ChannelIds channels;
+  for (XmlElement& channel : elements.children_of("fx:CHANNELS", "fx:CHANNEL")) {
+    const std::string id = channel.attribute("ID");
+    if (!is_flexray(channel, "CHANNEL-TYPE", "flexray:FLEXRAY-CHANNEL-NAME")) {
+      reader.leave_out(channel, id, "is no FlexRay channel, and left out");
+    } else if (!out.channels.empty() && !out.channels.contains(id)) {
+      reader.leave_out(channel, id, "is no channel of the first FlexRay cluster, and left out");
+    } else {
+      const auto which = read_channel(channel, out, reader);
+      if (!which) continue;
+      for (const auto& [other, same] : channels)
+        if (same == *which)
+          reader.fail(channel, id, fmt::format("must be the cluster's only channel {}; {} is one, too", letter(same), other));
+      channels[id] = *which;
+    }
+  }
+  return channels;
 }
 
 }  // namespace
@@ -277,7 +375,9 @@ FibexFile read_fibex(const XmlFile& file, Findings& wrong, Findings& left_out) {
     reader.fail(root, "", "must be fx:FIBEX, the root of a FIBEX file");
     return out;
   }
-  for (const char* known : {"@VERSION", "fx:PROJECT"}) root.ignore(known);
+  if (const std::string version = root.attribute("VERSION"); !version.empty() && !is_understood(version))
+    reader.fail(root, version, "must have a VERSION 2.x, 3.x or 4.x: no other is understood");
+  root.ignore("fx:PROJECT");
   auto elements = root.child("fx:ELEMENTS");
   if (!elements) {
     reader.fail(root, "", "must have fx:ELEMENTS");
@@ -293,13 +393,7 @@ FibexFile read_fibex(const XmlFile& file, Findings& wrong, Findings& left_out) {
     read_cluster(cluster, out, reader);
   }
   if (!found) reader.fail(*elements, "", "must have a cluster of xsi:type flexray:CLUSTER-TYPE");
-  ChannelIds channels;
-  for (XmlElement& channel : elements->children_of("fx:CHANNELS", "fx:CHANNEL")) {
-    if (is_flexray(channel, "CHANNEL-TYPE", "flexray:FLEXRAY-CHANNEL-NAME"))
-      channels[channel.attribute("ID")] = read_channel(channel, out, reader);
-    else
-      reader.leave_out(channel, channel.attribute("ID"), "is no FlexRay channel, and left out");
-  }
+  const ChannelIds channels = read_channels(*elements, out, reader);
   for (XmlElement& ecu : elements->children_of("fx:ECUS", "fx:ECU")) read_ecu(ecu, channels, out, reader);
   const auto codings = read_codings(root, *elements, reader);
   out.pdus = read_pdus(*elements, codings, reader);

@@ -85,6 +85,8 @@ struct FibexEcu {
   bool has_controller = false;
   std::vector<std::string> sends, receives;  // ids of frame triggerings
   std::optional<int> max_dynamic_words;      // MAX-DYNAMIC-PAYLOAD-LENGTH
+  std::optional<int> max_drift;              // MAX-DRIFT, microticks
+  std::optional<int> micro_per_macro;        // MICRO-PER-MACRO-NOM
   int line = 0, controller_line = 0;
 };
 
@@ -95,6 +97,7 @@ struct FibexFile {
   GlobalParameters global;
   std::set<std::string, std::less<>> given;  // names of parameters that the file states
   int cluster_line = 0;
+  std::set<std::string> channels;            // ids of CHANNEL-REFS; none: all FlexRay channels of the file are its own
   std::vector<FibexEcu> ecus;
   std::vector<FibexTriggering> triggerings;  // in the order of the file
   std::vector<FibexFrame> frames;

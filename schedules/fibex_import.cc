@@ -8,6 +8,7 @@
 
 #include "schedules/fibex_assumptions.h"
 #include "schedules/fibex_lists.h"
+#include "schedules/fibex_references.h"
 #include "schedules/limits.h"
 #include "schedules/minislots.h"
 
@@ -285,7 +286,23 @@ class Importer {
         leave_out(ecus_[i]->controller_line, "flexray:MAX-DYNAMIC-PAYLOAD-LENGTH", std::to_string(*most),
                   fmt::format("is left out: it is that of the longest frame {} sends in the dynamic segment, {}", node.name,
                               words));
+      check_derived(*ecus_[i], *node.flexray);
     }
+  }
+
+  // What the file says of a controller besides, and follows from what is kept.
+  void check_derived(const FibexEcu& ecu, const NodeParameters& p) {
+    const auto other = [&](const char* key, int value, std::string what) {
+      leave_out(ecu.controller_line, key, std::to_string(value), "is left out: " + std::move(what));
+    };
+    if (const int drift = p.pdListenTimeout / 2 - p.pMicroPerCycle; ecu.max_drift && *ecu.max_drift != drift)
+      other("flexray:MAX-DRIFT", *ecu.max_drift,
+            fmt::format("it is what pdListenTimeout waits longer than pMicroPerCycle, {}", drift));
+    const int macroticks = out_.cluster.flexray.gMacroPerCycle, least = p.pMicroPerCycle / macroticks;
+    const int most = (p.pMicroPerCycle + macroticks - 1) / macroticks;
+    if (ecu.micro_per_macro && (*ecu.micro_per_macro < least || *ecu.micro_per_macro > most))
+      other("flexray:MICRO-PER-MACRO-NOM", *ecu.micro_per_macro,
+            fmt::format("it is pMicroPerCycle by gMacroPerCycle, {}", least));
   }
 
   // An element that is not understood usually is so a hundred times.
@@ -321,6 +338,8 @@ class Importer {
 
 FibexImport import_from(const XmlFile& xml) {
   Findings wrong, left_out;
+  check_references(xml, wrong);
+  wrong.throw_if_any();  // who follows a reference further down finds what it leads to
   FibexFile file = read_fibex(xml, wrong, left_out);
   return Importer(std::move(file), xml.name(), std::move(wrong), std::move(left_out)).import();
 }

@@ -85,6 +85,9 @@ inline constexpr FibexParameter kFibexController[] = {
     {"pdMicrotick", "flexray:MICROTICK"},
 };
 
+// In fx:CONTROLLER, too: pdMaxDrift [microticks], which follows as pdListenTimeout = 2 (pMicroPerCycle + pdMaxDrift).
+inline constexpr int kLeastMaxDrift = 2, kMostMaxDrift = 1923;
+
 // The value of the parameter of that name, as FIBEX writes it. A name that is not in the tables is a bug of
 // ours.
 std::string fibex_value(const GlobalParameters& parameters, std::string_view name);

@@ -164,6 +164,13 @@ std::vector<XmlElement> XmlElement::children(std::string_view wanted) {
   return found;
 }
 
+std::vector<XmlElement> XmlElement::elements() const {
+  std::vector<XmlElement> found;
+  for (const pugi::xml_node& node : node_.children())
+    if (node.type() == pugi::node_element) found.push_back(XmlElement(content_, node, left_out_));
+  return found;
+}
+
 std::optional<XmlElement> XmlElement::child(std::string_view wanted) {
   std::vector<XmlElement> found = children(wanted);
   if (found.empty()) return std::nullopt;

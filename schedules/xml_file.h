@@ -56,6 +56,9 @@ class XmlElement {
   // Known, and deliberately without effect here.
   void ignore(std::string_view name) { asked_.emplace_back(name); }
 
+  // All child elements, in the order of the file; none of them counts as asked for.
+  std::vector<XmlElement> elements() const;
+
   std::string name() const;
   std::string path() const;
   int line() const;

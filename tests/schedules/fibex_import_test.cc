@@ -301,21 +301,51 @@ TEST(FibexImport, MistakesAreRefusedWithLineAndValue) {
       {"<fx:BASE-CYCLE>1<", "<fx:BASE-CYCLE>2<",
        "<fx:ABSOLUTELY-SCHEDULED-TIMING>\n                <fx:SLOT-ID>13</fx:SLOT-ID><fx:BASE",
        "BASE-CYCLE below CYCLE-REPETITION, 0..1"},
-      {"FRAME-REF ID-REF=\"frame2\"", "FRAME-REF ID-REF=\"frame9\"", "<fx:FRAME-TRIGGERING ID=\"ft2\">",
-       "frame9: must have a FRAME-REF"},
-      {"FRAME-TRIGGERING-REF ID-REF=\"ft2\"", "FRAME-TRIGGERING-REF ID-REF=\"ft9\"", "<fx:ECU ID=\"E1\">",
-       "ft9: must have"},
-      {"PDU-REF ID-REF=\"pdu1\"", "PDU-REF ID-REF=\"pdu9\"", "<fx:FRAME ID=\"frame1\">",
-       "pdu9: must have PDU-REFs"},
-      {"SIGNAL-REF ID-REF=\"signal1\"", "SIGNAL-REF ID-REF=\"signal9\"", "<fx:SIGNAL-INSTANCE ID=\"si1\">",
-       "signal9: must have a SIGNAL-REF"},
+      {"FRAME-REF ID-REF=\"frame2\"", "FRAME-REF ID-REF=\"frame9\"", "<fx:FRAME-REF ID-REF=\"frame9\"",
+       "FRAME-REF = frame9: must be the ID of an element of this file"},
+      {"FRAME-TRIGGERING-REF ID-REF=\"ft2\"", "FRAME-TRIGGERING-REF ID-REF=\"ft9\"", 
+       "<fx:FRAME-TRIGGERING-REF ID-REF=\"ft9\"", "FRAME-TRIGGERING-REF = ft9: must be the ID of an element"},
+      {"PDU-REF ID-REF=\"pdu1\"", "PDU-REF ID-REF=\"pdu9\"", "<fx:PDU-REF ID-REF=\"pdu9\"",
+       "PDU-REF = pdu9: must be the ID of an element"},
+      {"SIGNAL-REF ID-REF=\"signal1\"", "SIGNAL-REF ID-REF=\"signal9\"", 
+       "<fx:SIGNAL-REF ID-REF=\"signal9\"", "SIGNAL-REF = signal9: must be the ID of an element"},
       {"UNIT-REF ID-REF=\"Unit_1\"", "UNIT-REF ID-REF=\"Unit_9\"",
-       "<ho:COMPU-METHOD>\n            <ho:SHORT-NAME>Torque", "Unit_9: has a UNIT-REF"},
+       "<ho:UNIT-REF ID-REF=\"Unit_9\"", "UNIT-REF = Unit_9: must be the ID of an element"},
       {"ID-REF=\"ft3\"", "ID-REF=\"ft2\"", "<fx:ECU ID=\"E2\">", "ft2: must have one sender, not ESP too"},
       {"<ho:SHORT-NAME>ESP<", "<ho:SHORT-NAME>Engine<", "<fx:ECU ID=\"E2\">",
        "Engine: must have a name of its own"},
       {"<fx:PDU ID=\"pdu2\">", "<fx:PDU ID=\"pdu1\">", "<fx:PDU ID=\"pdu1\"><ho:SHORT-NAME>Res",
-       "pdu1: must have an ID of its own"},
+       "pdu1: must have an ID of its own; the fx:PDU in line"},
+      {"<fx:GATEWAY ID=\"G\"/>", "<fx:GATEWAY ID=\"E2A\"/>", "<fx:CONNECTOR ID=\"E2A\">",
+       "E2A: must have an ID of its own; the fx:GATEWAY in line"},
+      {"CHANNEL-REF ID-REF=\"A\"", "CHANNEL-REF ID-REF=\"nowhere\"", "<fx:CHANNEL-REF ID-REF=\"nowhere\"",
+       "CHANNEL-REF = nowhere: must be the ID of an element of this file"},
+      {"CHANNEL-REF ID-REF=\"A\"", "CHANNEL-REF ID-REF=\"E1C\"", "<fx:CHANNEL-REF ID-REF=\"E1C\"",
+       "E1C: must be the ID of a fx:CHANNEL, not of the fx:CONTROLLER in line"},
+      {"<fx:CHANNEL-REF ID-REF=\"A\"/>", "<fx:CHANNEL-REF/>", "<fx:CHANNEL-REF/>", "must have the ID-REF of a fx:CHANNEL"},
+      {"CONTROLLER-REF ID-REF=\"E1C\"", "CONTROLLER-REF ID-REF=\"E3C\"", "<fx:CONTROLLER-REF ID-REF=\"E3C\"",
+       "CONTROLLER-REF = E3C: must be the ID of an element"},
+      {"<fx:CONNECTOR ID=\"E2A\">", "<fx:CONNECTOR ID=\"E2A\"><fx:CONTROLLER-REF ID-REF=\"E1C\"/>",
+       "<fx:CONNECTOR ID=\"E2A\">", "E1C: must have a CONTROLLER-REF to a controller of its ECU"},
+      {"CODING-REF ID-REF=\"coding1\"", "CODING-REF ID-REF=\"coding9\"", "<fx:CODING-REF ID-REF=\"coding9\"",
+       "CODING-REF = coding9: must be the ID of an element"},
+      {"<fx:GATEWAY ID=\"G\"/>", "<fx:GATEWAY ID=\"G\"><fx:ECU-REF ID-REF=\"E9\"/></fx:GATEWAY>",
+       "<fx:GATEWAY ID=\"G\">", "ECU-REF = E9: must be the ID of an element"},
+      {"FLEXRAY-CHANNEL-NAME>B<", "FLEXRAY-CHANNEL-NAME>A<", "<fx:CHANNEL ID=\"B\"",
+       "B: must be the cluster's only channel A; A is one, too"},
+      {"SAMPLE-CLOCK-PERIOD>0.012500<", "SAMPLE-CLOCK-PERIOD>abc<", "<flexray:SAMPLE-CLOCK-PERIOD>",
+       "abc: must be 0.0125..0.05 us (gdSampleClockPeriod)"},
+      {"<fx:SPEED>10000000</fx:SPEED>", "<fx:SPEED>10000000</fx:SPEED><fx:PROTOCOL>CAN</fx:PROTOCOL>", "<fx:SPEED>",
+       "PROTOCOL = CAN: must be FlexRay"},
+      {"<fx:SPEED>10000000</fx:SPEED>",
+       "<fx:SPEED>10000000</fx:SPEED><fx:PROTOCOL-VERSION>abc</fx:PROTOCOL-VERSION>", "<fx:SPEED>",
+       "abc: must be a version of the protocol, such as 2.1"},
+      {"VERSION=\"3.1.0\"", "VERSION=\"5.0.0\"", "<fx:FIBEX", "5.0.0: must have a VERSION 2.x, 3.x or 4.x"},
+      {"VERSION=\"3.1.0\"", "VERSION=\"3.x\"", "<fx:FIBEX", "3.x: must have a VERSION"},
+      {"<flexray:MICROTICK>", "<flexray:MAX-DRIFT>abc</flexray:MAX-DRIFT><flexray:MICROTICK>", "<flexray:MICROTICK>",
+       "MAX-DRIFT = abc: must be a whole number, 2..1923"},
+      {"<flexray:MICROTICK>", "<flexray:MICRO-PER-MACRO-NOM>0</flexray:MICRO-PER-MACRO-NOM><flexray:MICROTICK>",
+       "<flexray:MICROTICK>", "0: must be a whole number, 20..240"},
       {"<fx:BYTE-LENGTH>42<", "<fx:BYTE-LENGTH>44<", "<fx:FRAME ID=\"frame2\">",
        "44: must have a BYTE-LENGTH of at most 42"},
       {"FLEXRAY-CHANNEL-NAME>B<", "FLEXRAY-CHANNEL-NAME>C<", "<fx:CHANNEL ID=\"B\"", "A or B"},
@@ -335,6 +365,52 @@ TEST(FibexImport, MistakesAreRefusedWithLineAndValue) {
     EXPECT_THAT(refusal, HasSubstr(fmt::format("demo.xml:{}: ", line_of(text, mistake.near))))
         << mistake.from;
   }
+}
+
+// What the file says twice, and not the same each time.
+TEST(FibexImport, WhatContradictsAValueThatIsKeptIsNamed) {
+  struct Contradiction {
+    std::string from, to, note;
+  };
+  const Contradiction contradictions[] = {
+      {"SAMPLE-CLOCK-PERIOD>0.012500<", "SAMPLE-CLOCK-PERIOD>0.025<",
+       "SAMPLE-CLOCK-PERIOD = 0.025: is left out: it is an eighth of the bit time, 0.0125"},
+      {"<fx:SPEED>10000000</fx:SPEED>", "<fx:SPEED>10000000</fx:SPEED><fx:PROTOCOL-VERSION>3.0</fx:PROTOCOL-VERSION>",
+       "PROTOCOL-VERSION = 3.0: is left out: the parameters are read as those of FlexRay 2.1"},
+      {"<flexray:MICROTICK>",
+       "<flexray:LISTEN-TIMEOUT>401202</flexray:LISTEN-TIMEOUT><flexray:MAX-DRIFT>600</flexray:MAX-DRIFT><flexray:MICROTICK>",
+       "MAX-DRIFT = 600: is left out: it is what pdListenTimeout waits longer than pMicroPerCycle, 601"},
+      {"<flexray:MICROTICK>", "<flexray:MICRO-PER-MACRO-NOM>40</flexray:MICRO-PER-MACRO-NOM><flexray:MICROTICK>",
+       "MICRO-PER-MACRO-NOM = 40: is left out: it is pMicroPerCycle by gMacroPerCycle, 50"},
+  };
+  const std::size_t before = parse_fibex(kPowertrain, "demo.xml").left_out.size();
+  for (const Contradiction& one : contradictions) {
+    const FibexImport import = parse_fibex(replaced(kPowertrain, one.from, one.to), "demo.xml");
+    EXPECT_THAT(sentences(import.left_out), HasSubstr(one.note));
+    EXPECT_EQ(import.left_out.size(), before + 1) << sentences(import.left_out);
+  }
+  // What does not contradict is no note, and is used where the file does not say what follows from it.
+  const FibexImport drift = parse_fibex(
+      replaced(kPowertrain, "<flexray:MICROTICK>", "<flexray:MAX-DRIFT>300</flexray:MAX-DRIFT><flexray:MICROTICK>"), "demo.xml");
+  EXPECT_EQ(drift.left_out.size(), before) << sentences(drift.left_out);
+  EXPECT_EQ(drift.cluster.nodes[0].flexray->pdListenTimeout, 2 * (200'000 + 300));
+  EXPECT_EQ(drift.cluster.nodes[0].flexray->pRateCorrectionOut, 300);
+}
+
+// Two FlexRay clusters in one file: channels, connectors and ECUs of the second stay away from the first.
+TEST(FibexImport, TheChannelsAreThoseTheClusterRefersTo) {
+  const std::string one = replaced(replaced(kPowertrain, "<fx:SPEED>10000000</fx:SPEED>",
+                                            "<fx:SPEED>10000000</fx:SPEED><fx:CHANNEL-REFS><fx:CHANNEL-REF ID-REF=\"A\"/>"
+                                            "<fx:CHANNEL-REF ID-REF=\"B\"/></fx:CHANNEL-REFS>"),
+                                   "</fx:CHANNELS>",
+                                   "<fx:CHANNEL ID=\"X\" xsi:type=\"flexray:CHANNEL-TYPE\">"
+                                   "<flexray:FLEXRAY-CHANNEL-NAME>A</flexray:FLEXRAY-CHANNEL-NAME></fx:CHANNEL></fx:CHANNELS>");
+  const std::string two = replaced(one, "<fx:CONNECTORS>", "<fx:CONNECTORS><fx:CONNECTOR ID=\"E1X\">"
+                                   "<fx:CHANNEL-REF ID-REF=\"X\"/><fx:CONTROLLER-REF ID-REF=\"E1C\"/></fx:CONNECTOR>");
+  const FibexImport import = parse_fibex(two, "demo.xml");
+  EXPECT_EQ(FibexDifference::of(import.cluster, parse_fibex(kPowertrain, "demo.xml").cluster), "");
+  EXPECT_THAT(sentences(import.left_out), HasSubstr("X: is no channel of the first FlexRay cluster"));
+  EXPECT_THAT(sentences(import.left_out), HasSubstr("X: is on no channel of the first FlexRay cluster"));
 }
 
 TEST(FibexImport, DamagedXmlIsRefusedInOneSentenceWithItsLine) {
