@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "recording/records/records.h"
@@ -71,6 +72,21 @@ struct TimingData {
     bool fresh;
     bool stale = false;   // it came too late to be of use
   };
+  struct Fault {
+    TrueTime at;
+    std::uint32_t fault;
+    std::uint8_t what;
+    NodeId node;
+    std::string kind, text;
+  };
+  struct OnChannel {      // records::ChannelFrame
+    TrueTime start, end;
+    NodeId sender;
+    std::uint8_t channel, state;
+    std::uint16_t slot;
+    TrueTime sent;
+    std::uint8_t sent_channel;
+  };
 
   std::vector<Measurement> measurements;
   std::vector<CanFrame> can_frames;
@@ -81,6 +97,8 @@ struct TimingData {
   std::vector<Step> steps;
   std::vector<Image> images;
   std::vector<Use> uses;
+  std::vector<Fault> faults;         // begins and ends of the whole log up to the window, acts in it
+  std::vector<OnChannel> on_channel;
 };
 
 }  // namespace ttf::report

@@ -62,6 +62,16 @@ void TimingDiagram::on(const records::FeatureUsed& r) {
     data_.uses.push_back({r.stamp.true_time, r.stamp.node, r.image_sequence, r.fresh, r.stale});
 }
 
+void TimingDiagram::on(const records::FaultActivity& r) {
+  // What began long ago may still last.
+  if (possible(r.at) && r.at <= to_ && (r.what != records::kFaultActs || r.at >= from_))
+    data_.faults.push_back({r.at, r.fault, r.what, r.node, std::string(r.kind), std::string(r.text)});
+}
+void TimingDiagram::on(const records::ChannelFrame& r) {
+  if (near(r.start, r.end) && possible(r.sent))
+    data_.on_channel.push_back({r.start, r.end, r.sender, r.channel, r.state, r.slot, r.sent, r.sent_channel});
+}
+
 std::string TimingDiagram::svg() const {
   // These make the lanes; what was fused or used is drawn between them.
   const bool nothing = data_.measurements.empty() && data_.can_frames.empty() && data_.slot_frames.empty() &&

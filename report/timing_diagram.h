@@ -5,7 +5,8 @@
 // fusion node and of the feature services. The grid shows the communication cycles. Arrows follow each
 // measurement from its instant over CAN, preprocessing, gateway and slots to the fusion step that used it,
 // coloured per sensor and dashed where it arrived out of sequence (after a newer one); black arrows follow
-// the image to the feature service. Time is TrueTime.
+// the image to the feature service. Faults have a lane each on top, with marks where they act; frames that were on a channel
+// otherwise than they were sent are outlined, and crossed out if nothing of them arrived. Time is TrueTime.
 #pragma once
 
 #include <string>
@@ -32,6 +33,8 @@ class TimingDiagram : public records::Sink {
   void on(const records::FusionStep& r) override;
   void on(const records::ImageWritten& r) override;
   void on(const records::FeatureUsed& r) override;
+  void on(const records::FaultActivity& r) override;
+  void on(const records::ChannelFrame& r) override;
 
   // The picture; one that says so if the window holds no records.
   std::string svg() const;

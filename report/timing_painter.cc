@@ -9,7 +9,8 @@
 #include <optional>
 
 #include "report/axes.h"
-#include "report/log_limits.h"
+#include "report/timing_cycles.h"
+#include "report/timing_faults.h"
 #include "report/timing_ways.h"
 
 namespace ttf::report {
@@ -42,16 +43,17 @@ class TimingPainter {
         to_(to),
         transfers_(transfers_of(data)),
         ways_(measurement_ways(data, names, transfers_)),
-        images_(image_ways(data, names, transfers_)) {
+        images_(image_ways(data, names, transfers_)),
+        faults_(data, names, from, to) {
     std::vector<Way> all = ways_;
     all.insert(all.end(), images_.begin(), images_.end());
     lanes_ = lanes_of(data, names, all);
     const double ms = (to - from).seconds() * 1e3;
-    plot_.x = 24;
+    plot_.x = faults_.label_width() > 0 ? faults_.label_width() + 24 : 24;
     for (const Lane& lane : lanes_) plot_.x = std::max(plot_.x, text_width(lane.label, 11) + 24);
     plot_.width = std::clamp(ms * kPixelsPerMs, kLeastPlot, kMostPlot);
     plot_.y = kTop;
-    double y = kTop;
+    double y = kTop + faults_.height();
     for (std::size_t i = 0; i < lanes_.size(); ++i) {
       if (i > 0 && lanes_[i].section != lanes_[i - 1].section) y += 10;
       centre_[lanes_[i].key] = y + lane_height(lanes_[i]) / 2;
@@ -59,6 +61,11 @@ class TimingPainter {
     }
     plot_.height = y - kTop;
     legend_ = timing_legend(data_, names_, ways_, !images_.empty(), from_, to_);
+    for (const auto& r : data_.on_channel)
+      if (const ChannelMark mark = channel_mark(r, names_);
+          visible(mark.start, mark.end) && centre_.contains({LaneKey::Kind::kChannel, mark.channel, 0}))
+        marks_.push_back(mark);
+    mark_legend();
   }
 
   std::string picture() {
@@ -71,8 +78,11 @@ class TimingPainter {
     svg_ = &svg;
     svg.text({24, 22}, title, {.size = 14, .bold = true});
     grid();
+    faults_.draw_labels(svg, plot_);
     svg.open_group("events", plot_);
+    faults_.draw(svg, plot_, [&](TrueTime t) { return x(t); });
     slots();
+    channel_marks();
     can();
     tasks();
     svg.close_group();
@@ -98,31 +108,9 @@ class TimingPainter {
   bool visible(TrueTime start, TrueTime end) const { return start < to_ && end >= from_; }
   double stay_inside(double px) const { return std::clamp(px, plot_.x, plot_.x + plot_.width); }
 
-  // Start of each cycle in true time, from the frames: global time runs at the cluster's own rate.
-  std::map<std::int64_t, TrueTime> cycle_starts() const {
-    std::map<std::int64_t, TrueTime> known;
-    if (cycle_.ns <= 0 || (to_ - from_).ns / cycle_.ns > kMostCycleLines) return known;
-    for (const auto& f : data_.slot_frames)
-      if (f.by_the_cluster) known.try_emplace(f.cycle, f.start - Duration{f.global.ns - f.cycle * cycle_.ns});
-    std::map<std::int64_t, TrueTime> all;
-    const std::pair<std::int64_t, TrueTime> anchor = known.empty()
-                                                         ? std::pair<std::int64_t, TrueTime>{}
-                                                         : std::pair<std::int64_t, TrueTime>(*known.begin());
-    const Duration half{cycle_.ns / 2};
-    const std::int64_t before = (anchor.second - from_).ns / cycle_.ns + 1;
-    TrueTime at = anchor.second - cycle_ * before;
-    for (std::int64_t c = anchor.first - before; at <= to_ + cycle_; ++c, at += cycle_) {
-      // A frame that is half a cycle off its place says nothing of where the cycle began.
-      if (const auto k = known.find(c); k != known.end() && (k->second - at < half && at - k->second < half))
-        at = k->second;
-      all[c] = at;
-    }
-    return all;
-  }
-
   void grid() {
     svg_->open_group("grid");
-    const auto starts = cycle_starts();
+    const auto starts = cycle_starts(data_, cycle_, from_, to_);
     LabelSpace above;
     for (auto it = starts.begin(); it != starts.end(); ++it) {
       const auto next = std::next(it);
@@ -182,6 +170,30 @@ class TimingPainter {
                    f.pdu == kNoPdu ? "status" : "frame");
       }
     }
+  }
+
+  // Over the frames: what came of them.
+  void channel_marks() {
+    for (const ChannelMark& mark : marks_) {
+      const double centre = y({LaneKey::Kind::kChannel, mark.channel, 0}) + 4;
+      const double width = std::max(2.0, x(mark.end) - x(mark.start));
+      if (mark.missing)
+        svg_->marker(Marker::kCross, {x(mark.start) + width / 2, centre}, 9, {.stroke = kVermilion, .width = 1.6}, mark.words,
+                     "missing");
+      else
+        svg_->rect({x(mark.start), centre - kBox / 2 - 1.5, width, kBox + 3},
+                   {.fill = "none", .stroke = kVermilion, .width = 1.4}, mark.words, "changed");
+    }
+  }
+
+  void mark_legend() {
+    using K = LegendEntry::Kind;
+    faults_.add_to(legend_);
+    const auto any = [&](bool missing) {
+      return std::ranges::any_of(marks_, [&](const ChannelMark& mark) { return mark.missing == missing; });
+    };
+    if (any(false)) legend_.push_back({K::kBox, std::string(kChangedFrameWords), std::string(kVermilion), {}, false});
+    if (any(true)) legend_.push_back({K::kMarker, std::string(kMissingFrameWords), std::string(kVermilion), Marker::kCross});
   }
 
   void can() {
@@ -334,6 +346,8 @@ class TimingPainter {
   TrueTime from_, to_;
   std::vector<Transfer> transfers_;
   std::vector<Way> ways_, images_;
+  FaultLanes faults_;
+  std::vector<ChannelMark> marks_;
   std::vector<Lane> lanes_;
   std::vector<LegendEntry> legend_;
   std::map<LaneKey, double> centre_;

@@ -65,6 +65,97 @@ TEST(TimingDiagram, FramesSentWithoutGlobalTimeSayNothingOfTheCycles) {
   EXPECT_EQ(count(svg, "fill=\"#444444\">3</text>"), 0u);
 }
 
+// Lets nodes start anew: from then on they count `rounds` of 64 cycles less.
+class Restarted final : public records::Sink {
+ public:
+  Restarted(records::Sink& out, std::vector<NodeId> nodes, TrueTime at, std::int64_t rounds)
+      : out_(out), nodes_(std::move(nodes)), at_(at), rounds_(rounds) {}
+  using records::Sink::on;
+  void on(const records::SlotFrameSent& r) override {
+    records::SlotFrameSent frame = r;
+    if (r.stamp.true_time >= at_ && std::find(nodes_.begin(), nodes_.end(), r.stamp.node) != nodes_.end()) {
+      frame.cycle -= rounds_ * 64;
+      frame.stamp.global.ns -= rounds_ * 64 * 5'000'000;
+    }
+    out_.on(frame);
+  }
+
+ private:
+  records::Sink& out_;
+  std::vector<NodeId> nodes_;
+  TrueTime at_;
+  std::int64_t rounds_;
+};
+
+// Node 4 sends the first slot of every cycle: the numbers are those of the others all the same.
+TEST(TimingDiagram, ARestartedNodeDoesNotNumberTheCycles) {
+  for (const auto& nodes : {std::vector{NodeId{4}}, std::vector{NodeId{4}, NodeId{6}}})
+    for (const int restarted_ms : {0, 100, 640, 720}) {
+      SCOPED_TRACE(restarted_ms);
+      TimingDiagram d(synthetic_names(), Duration::milliseconds(5), at_us(600'000), at_us(750'000));
+      Restarted some(d, nodes, at_us(restarted_ms * 1000), 2);
+      SyntheticRun{}.drive(some, 1'500'000);
+      const std::string svg = d.svg();
+      for (int cycle = 120; cycle < 150; ++cycle)
+        EXPECT_EQ(count(svg, fmt::format("fill=\"#444444\">{}</text>", cycle)), 1u) << cycle;
+      EXPECT_EQ(count(svg, "fill=\"#444444\">0</text>"), 0u);
+    }
+}
+
+// All of them: nobody has the old count any more, and there are no cycles before the new cycle 0 to be numbered.
+TEST(TimingDiagram, WhereAllStartAnewTheNumbersAreTheirs) {
+  TimingDiagram d(synthetic_names(), Duration::milliseconds(5), at_us(600'000), at_us(750'000));
+  Restarted all(d, {NodeId{4}, NodeId{5}, NodeId{6}}, at_us(0), 2);
+  SyntheticRun{}.drive(all, 1'500'000);
+  const std::string svg = d.svg();
+  for (int cycle = 0; cycle < 22; ++cycle)   // 600 ms is 8 cycles before it
+    EXPECT_EQ(count(svg, fmt::format("fill=\"#444444\">{}</text>", cycle)), 1u) << cycle;
+  EXPECT_EQ(count(svg, ">-1</text>"), 0u);
+}
+
+TEST(TimingDiagram, FaultsHaveLanesAndWhatBecameOfFramesIsMarked) {
+  TimingDiagram d(synthetic_names(), Duration::milliseconds(5), at_us(200'000), at_us(350'000));
+  SyntheticRun{}.drive(d, 1'500'000);
+  const auto fault = [&](std::int64_t ms, std::uint32_t index, std::uint8_t what, const char* kind, const char* text) {
+    d.on(records::FaultActivity{at_us(ms * 1000), index, what, index == 1 ? kNoNode : NodeId{4}, kind, text});
+  };
+  fault(10, 0, records::kFaultBegins, "bit_flips", "bits flip");
+  fault(20, 0, records::kFaultActs, "bit_flips", "long before");
+  fault(210, 0, records::kFaultActs, "bit_flips", "bit 7 is inverted");
+  fault(220, 1, records::kFaultBegins, "noise", "noise on channel A");
+  fault(240, 1, records::kFaultEnds, "noise", "quiet again");
+  fault(260, 2, records::kFaultBegins, "omission", "frames are lost");
+  fault(30, 3, records::kFaultBegins, "crash", "off");
+  fault(40, 3, records::kFaultEnds, "crash", "on again: before the window");
+  fault(400, 4, records::kFaultBegins, "drift", "after the window");
+  const auto channel = [&](std::int64_t us, std::uint8_t state, NodeId sender, std::uint16_t slot) {
+    d.on(records::ChannelFrame{at_us(us), at_us(us + 74), sender, 0, state, slot, 1, at_us(us), 0, {}});
+  };
+  channel(210'004, records::kChannelFrameCrc, NodeId{4}, 1);
+  channel(225'000, records::kChannelCoding, kNoNode, 0);
+  channel(230'000, 0, NodeId{6}, 0);
+  channel(265'004, records::kChannelNothing, NodeId{4}, 1);
+  channel(500'000, records::kChannelNothing, NodeId{4}, 1);
+  const std::string svg = d.svg();
+  for (const char* lane : {"bit_flips, gateway", "noise", "omission, gateway"})
+    EXPECT_EQ(count(svg, std::string(">") + lane + "</text>"), 1u) << lane;
+  EXPECT_EQ(count(svg, ">crash, gateway</text>") + count(svg, ">drift, gateway</text>"), 0u);
+  EXPECT_EQ(count_class(svg, "fault"), 3u);
+  EXPECT_EQ(count_class(svg, "acts"), 1u);
+  EXPECT_EQ(count_class(svg, "changed"), 3u);
+  EXPECT_EQ(count_class(svg, "missing"), 1u);
+  for (const char* words : {"bit 7 is inverted", "slot 1 of gateway: frame CRC wrong", "nobody sent it: nobody can make it out",
+                            "feature, but its controller did not send it: sound", "slot 1 of gateway: nothing of it reached anybody"})
+    EXPECT_EQ(count(svg, words), 1u) << words;
+  for (const char* entry : {"fault, from its begin to its end", "the fault acts", "frame damaged, displaced or sent by no controller",
+                            "frame that reached nobody"})
+    EXPECT_EQ(count(svg, std::string(">") + entry + "</text>"), 1u) << entry;
+  expect_no_overlaps(svg);
+  expect_renders(svg);
+  const std::string clean = timing_diagram(200, 350);
+  for (const char* shown : {"fault", "acts", "changed", "missing"}) EXPECT_EQ(count_class(clean, shown), 0u);
+}
+
 TEST(TimingDiagram, NoLabelsOverlapInAnyWindow) {
   for (const auto& [from, to] : {std::pair{200, 350}, std::pair{0, 150}, std::pair{100, 110},
                                  std::pair{0, 1500}, std::pair{640, 1000}}) {
