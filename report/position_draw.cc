@@ -16,7 +16,8 @@ using Sample = PositionPlots::Sample;
 using Selection = PositionPlots::Selection;
 
 constexpr double kLeft = 70, kMarker = 7;
-constexpr std::string_view kReference = kPurple, kFusion = kBlack, kTruth = "#777777";
+constexpr std::string_view kReference = kPurple, kFusion = kBlack, kTruth = "#777777",
+                           kUnused = "#a0a0a0";
 constexpr std::string_view kCaption =
     "Axes follow ISO 8855 (x forward, y to the left of the sensor vehicle); the paper draws y forward and x "
     "sideways.";
@@ -51,7 +52,7 @@ Marker marker_of(SensorLook look) {
 
 template <class Visit>
 void every_sample(const Selection& s, const Visit& visit) {
-  for (const auto* list : {&s.truth, &s.reference, &s.fusion})
+  for (const auto* list : {&s.truth, &s.reference, &s.fusion, &s.unused})
     for (const Sample& sample : *list) visit(sample);
   for (const auto& list : s.observations)
     for (const Sample& sample : list) visit(sample);
@@ -97,6 +98,8 @@ std::vector<LegendEntry> legend_of(std::span<const Selection> selections, const 
   if (any(&Selection::fusion))
     legend.push_back(
         {K::kMarker, "fusion (image at its instant of use)", std::string(kFusion), Marker::kSquare});
+  if (any(&Selection::unused))
+    legend.push_back({K::kMarker, "image that nobody used", std::string(kUnused), Marker::kSquare});
   if (any(&Selection::truth)) legend.push_back({K::kLine, "truth", std::string(kTruth)});
   if (any(&Selection::instants)) legend.push_back({K::kNumber, "fusion instant", std::string(kBlack)});
   const auto late = [](const auto& a) { return a.late; };
@@ -211,6 +214,8 @@ void draw_data(Svg& svg, const PlotFrame& frame, const Selection& s, const Names
       svg.marker(marker_of(look_of(name)), at(v), kMarker, {.stroke = colour, .width = 1.3},
                  hover(fmt::format("{} #{}", name, v.id.sequence), v), "observation");
   }
+  for (const Sample& v : s.unused)
+    svg.marker(Marker::kSquare, at(v), kMarker, {.stroke = kUnused, .width = 1.0}, hover("image that nobody used", v), "unused");
   for (const Sample& v : s.fusion)
     svg.marker(Marker::kSquare, at(v), kMarker, {.stroke = kFusion, .width = 1.3}, hover("fusion", v),
                "fusion");

@@ -18,6 +18,8 @@ double seconds(GlobalTime t, const records::Stamp& stamp) {
   return (ns(t.ns) + offset) * 1e-9;
 }
 
+constexpr double kLongestUse = 1.0;   // s from an image to its last use; older ones are refused
+
 bool earlier(const PositionPlots::Sample& a, const PositionPlots::Sample& b) { return a.t < b.t; }
 
 // Linear interpolation in samples ordered by time; nothing outside them (by more than `slack`).
@@ -54,9 +56,17 @@ void PositionPlots::on(const records::TrackState& r) {
     tracks_.push_back({{seconds(r.valid_at, r.stamp), r.state[0], r.state[1], {}}, r.step});
 }
 void PositionPlots::on(const records::ImageWritten& r) {
-  images_.emplace_back();
-  for (const records::ImageObject& o : r.objects)
-    images_.back().push_back({seconds(r.valid_at, r.stamp), o.x, o.y, {}});
+  Image& image = images_.emplace_back(Image{r.sequence, seconds(r.stamp.global, r.stamp), {}});
+  for (const records::ImageObject& o : r.objects) image.objects.push_back({seconds(r.valid_at, r.stamp), o.x, o.y, {}});
+}
+void PositionPlots::on(const records::FeatureUsed& r) {
+  if (!r.stale) uses_.push_back({r.image_sequence, seconds(r.stamp.global, r.stamp)});
+}
+// A fusion node that restarts counts its images anew: a use belongs to an image of just before.
+bool PositionPlots::is_used(const Image& image) const {
+  return std::ranges::any_of(uses_, [&](const Use& use) {
+    return use.image == image.sequence && use.t >= image.written && use.t < image.written + kLongestUse;
+  });
 }
 void PositionPlots::on(const records::ReferenceFix& r) {
   if (r.object == options_.object)
@@ -71,7 +81,7 @@ void PositionPlots::on(const records::TruthState& r) {
 }
 
 bool PositionPlots::Selection::empty() const {
-  return truth.empty() && reference.empty() && fusion.empty() &&
+  return truth.empty() && reference.empty() && fusion.empty() && unused.empty() &&
          std::ranges::all_of(observations, [](const auto& list) { return list.empty(); });
 }
 
@@ -131,8 +141,14 @@ PositionPlots::Selection PositionPlots::select() const {
     }
     if (nearest != nullptr) to.push_back(*nearest);
   };
-  for (const auto& image : images_) add_nearest(image, out.fusion);
-  std::ranges::stable_sort(out.fusion, earlier);
+  std::vector<Sample> images;
+  for (const Image& image : images_) {
+    std::vector<Sample>& of_kind = is_used(image) ? out.fusion : out.unused;
+    const auto before = static_cast<std::ptrdiff_t>(of_kind.size());
+    add_nearest(image.objects, of_kind);
+    images.insert(images.end(), of_kind.begin() + before, of_kind.end());
+  }
+  for (auto* list : {&out.fusion, &out.unused, &images}) std::ranges::stable_sort(*list, earlier);
 
   // Where the fused result was at each step: the nearest track, else the image, else the observation itself.
   std::map<std::uint32_t, std::vector<Sample>> tracks;
@@ -150,7 +166,7 @@ PositionPlots::Selection PositionPlots::select() const {
     std::vector<Sample> at_step;
     if (const auto it = tracks.find(f.step); it != tracks.end()) add_nearest(it->second, at_step);
     std::optional<Sample> at =
-        at_step.empty() ? interpolate(out.fusion, t->second, 0.05) : std::optional(at_step.front());
+        at_step.empty() ? interpolate(images, t->second, 0.05) : std::optional(at_step.front());
     if (!at && measured != nullptr) at = *measured;
     if (!at) continue;
     at->t = t->second;

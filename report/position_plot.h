@@ -1,6 +1,6 @@
 // The paper's figures 5 to 8 from the records of a drive: the reference object's x and y over time and y over
 // x, with DGPS fixes (circles), laser (crosses), camera (triangles) and radar (diamonds) observations, the
-// fused real-time image (squares), the truth (thin line), numbered fusion instants (boxed), and arrows from
+// fused real-time image (squares; grey where nobody used it), the truth (thin line), numbered fusion instants (boxed), and arrows from
 // each laser measurement to the fusion instant that integrated it.
 //
 // Axes follow ISO 8855 (x forward, y left, metres) and the pictures say so. Times are true times in seconds;
@@ -41,6 +41,7 @@ class PositionPlots : public records::Sink {
   void on(const records::FusionStep& r) override;
   void on(const records::TrackState& r) override;
   void on(const records::ImageWritten& r) override;
+  void on(const records::FeatureUsed& r) override;
   void on(const records::ReferenceFix& r) override;
   void on(const records::TruthState& r) override;
 
@@ -62,7 +63,9 @@ class PositionPlots : public records::Sink {
     bool laser = false;  // among the fused: a laser measurement
   };
   struct Selection {
-    std::vector<Sample> truth, reference, fusion;
+    std::vector<Sample> truth, reference;
+    std::vector<Sample> fusion;   // of images that were used, at the instant they were predicted to
+    std::vector<Sample> unused;   // of those that nobody used, or that were refused as too old
     std::vector<std::vector<Sample>> observations;  // per sensor
     std::vector<Integration> laser_arrows;
     std::vector<Instant> instants;
@@ -83,6 +86,16 @@ class PositionPlots : public records::Sink {
     bool late;
     double measured;
   };
+  struct Image {
+    std::uint32_t sequence;
+    double written;   // s
+    std::vector<Sample> objects;
+  };
+  struct Use {
+    std::uint32_t image;
+    double t;         // s
+  };
+  bool is_used(const Image& image) const;
   struct Positioned {
     Sample sample;
     std::uint32_t step;
@@ -91,7 +104,8 @@ class PositionPlots : public records::Sink {
   Names names_;
   PositionOptions options_;
   std::vector<Sample> truth_, fixes_, observations_;  // truth and fixes of the chosen object
-  std::vector<std::vector<Sample>> images_;           // objects per image
+  std::vector<Image> images_;
+  std::vector<Use> uses_;
   std::vector<Positioned> tracks_;
   std::vector<Step> steps_;
   std::vector<FusedList> fused_;

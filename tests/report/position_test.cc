@@ -91,6 +91,70 @@ TEST(PositionPlots, ShowEverythingTheyPromise) {
   EXPECT_EQ(plots.over_time_svg(), drive({.title = "A & B"}).over_time_svg());
 }
 
+// Passes on what happened but some of what the feature service did.
+class FewerUses final : public records::Sink {
+ public:
+  FewerUses(PositionPlots& out, std::uint32_t stale_from, std::uint32_t none_from)
+      : out_(out), stale_from_(stale_from), none_from_(none_from) {}
+  using records::Sink::on;
+  void on(const records::FusionStep& r) override { out_.on(r); }
+  void on(const records::ImageWritten& r) override { out_.on(r); }
+  void on(const records::TruthState& r) override { out_.on(r); }
+  void on(const records::FeatureUsed& r) override {
+    records::FeatureUsed used = r;
+    used.stale = r.image_sequence >= stale_from_;
+    if (r.image_sequence < none_from_) out_.on(used);
+  }
+
+ private:
+  PositionPlots& out_;
+  std::uint32_t stale_from_, none_from_;
+};
+
+TEST(PositionPlots, ImagesThatNobodyUsedAreNotShownAsUsed) {
+  const std::size_t all = drive().select().fusion.size();
+  EXPECT_TRUE(drive().select().unused.empty());
+  for (const auto& [stale_from, none_from] : {std::pair{100u, 7u}, std::pair{7u, 100u}, std::pair{7u, 10u}}) {
+    PositionPlots plots(synthetic_names(), {});
+    FewerUses fewer(plots, stale_from, none_from);
+    SyntheticRun{}.drive(fewer, kEnd);
+    const PositionPlots::Selection s = plots.select();
+    EXPECT_EQ(s.fusion.size(), 7u);
+    EXPECT_EQ(s.unused.size(), all - 7);
+    const std::string svg = plots.plane_svg();
+    EXPECT_EQ(count_class(svg, "fusion"), 7u);
+    EXPECT_EQ(count_class(svg, "unused"), all - 7);
+    EXPECT_NE(svg.find(">image that nobody used<"), std::string::npos);
+  }
+  PositionPlots none(synthetic_names(), {});
+  FewerUses fewer(none, 0, 0);
+  SyntheticRun{}.drive(fewer, kEnd);
+  EXPECT_EQ(none.plane_svg().find("image at its instant of use"), std::string::npos);
+}
+
+// The number counts on from 0 where the fusion node starts anew: the image of long ago was not used again.
+TEST(PositionPlots, AUseBelongsToTheImageJustBefore) {
+  PositionPlots plots(synthetic_names(), {});
+  const SyntheticRun run;
+  records::ImageObject object;
+  records::ImageWritten image;
+  image.objects = {&object, 1};
+  image.sequence = 3;
+  for (const std::int64_t us : {100'000, 5'000'000}) {
+    image.stamp = run.stamp(us, 5);
+    image.valid_at = {(us + 37'000) * 1000};
+    plots.on(image);
+  }
+  records::FeatureUsed used;
+  used.stamp = run.stamp(5'037'000, 6);
+  used.image_sequence = 3;
+  plots.on(used);
+  const PositionPlots::Selection s = plots.select();
+  ASSERT_EQ(s.fusion.size(), 1u);
+  EXPECT_NEAR(s.fusion[0].t, 5.037, 0.001);
+  EXPECT_EQ(s.unused.size(), 1u);
+}
+
 TEST(PositionPlots, KeepToTheWindow) {
   PositionOptions options;
   options.from = at_us(500'000);
