@@ -51,12 +51,15 @@ void RecordedScene::states_at(TrueTime at, std::vector<world::ObjectState>& out)
   const auto after = std::upper_bound(rows_.begin(), rows_.end(), t, [](double time, const auto& row) {
     return time < static_cast<double>(row.time_us_from_start);
   });
-  // Before the first and after the last row the vehicle is taken where that row has it.
-  const auto& a = after == rows_.begin() ? rows_.front() : *(after - 1);
+  out.clear();
+  // The last row's own instant is the recording's, too; what is before the first and behind it nobody knows.
+  const bool at_the_end = after == rows_.end() && (at - start_).ns == 1000 * rows_.back().time_us_from_start;
+  if (after == rows_.begin() || (after == rows_.end() && !at_the_end)) return;
+  const auto& a = *(after - 1);
   const auto& b = after == rows_.end() ? rows_.back() : *after;
   const double h = static_cast<double>(b.time_us_from_start - a.time_us_from_start) * 1e-6;
   double x = a.x, y = a.y, vx = a.vx, vy = a.vy;
-  if (h > 0.0 && after != rows_.begin()) {
+  if (h > 0.0) {
     const double s = (t - static_cast<double>(a.time_us_from_start)) * 1e-6 / h;
     const double h00 = (1 + 2 * s) * (1 - s) * (1 - s), h10 = s * (1 - s) * (1 - s);
     const double h01 = s * s * (3 - 2 * s), h11 = s * s * (s - 1);
@@ -65,7 +68,6 @@ void RecordedScene::states_at(TrueTime at, std::vector<world::ObjectState>& out)
     vx = a.vx + s * (b.vx - a.vx);
     vy = a.vy + s * (b.vy - a.vy);
   }
-  out.clear();
   world::ObjectState state{};
   state.id = ObjectId{0};
   state.x = x;

@@ -47,5 +47,28 @@ TEST(RecordedSource, TakesRowsOfItsSensorAndKindOnly) {
               HasSubstr("must have the signals of the recording's rows"));
 }
 
+// Rows at 0 and 100 ms of a vehicle at 10 m/s; the recording begins 5 ms into the run.
+TEST(RecordedScene, HasNoTruthBeyondTheRecording) {
+  RecordedInput input;
+  input.truth.push_back({.time_us_from_start = 0, .x = 20.0, .vx = 10.0});
+  input.truth.push_back({.time_us_from_start = 100'001, .x = 21.0, .vx = 10.0});
+  const TrueTime start{5'000'000};
+  const RecordedScene scene(input, start);
+  std::vector<world::ObjectState> states(3);
+  const auto at = [&](std::int64_t ns) {
+    scene.states_at(start + Duration{ns}, states);
+    return states.size();
+  };
+  EXPECT_EQ(at(-1), 0u);
+  ASSERT_EQ(at(0), 1u);
+  EXPECT_EQ(states[0].x, 20.0);
+  ASSERT_EQ(at(50'000'000), 1u);
+  EXPECT_NEAR(states[0].x, 20.5, 0.001);
+  ASSERT_EQ(at(100'001'000), 1u);
+  EXPECT_EQ(states[0].x, 21.0);
+  EXPECT_EQ(at(100'001'001), 0u);
+  EXPECT_EQ(at(3'600'000'000'000), 0u);
+}
+
 }  // namespace
 }  // namespace ttf::nodes
