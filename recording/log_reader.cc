@@ -1,5 +1,7 @@
 #include "recording/log_reader.h"
 
+#include <fmt/format.h>
+
 #include <charconv>
 
 #include "core/errors.h"
@@ -56,8 +58,7 @@ class Collector final : public McapHandler {
 };
 
 void check_is_log(std::string_view bytes, const std::string& name) {
-  const std::string_view start = bytes.substr(0, kMcapMagic.size());
-  if (start != kMcapMagic.substr(0, start.size()))
+  if (!bytes.starts_with(kMcapMagic))
     throw InputError({name, 0, "", "", "is not a log: it does not begin as an MCAP file does"});
   // A damaged header is no reason to give up a log whose manifest is there; a sound one of another program
   // is.
@@ -78,6 +79,9 @@ LogInfo read_log_bytes(std::string_view bytes, const std::string& name, records:
   info.chunks_read = report.chunks_read;
   info.chunks_lost = report.chunks_lost;
   info.content_hash = collector.hash();
+  if (!collector.has_manifest() && report.chunks_read + report.chunks_lost == 0)
+    throw InputError({name, 0, "", "", fmt::format("holds nothing of a log but its beginning: {} bytes, no manifest, no record",
+                                                   bytes.size())});
   if (!collector.has_manifest())
     report.warnings.push_back("the manifest is missing: names and seed are unknown");
   else if (!collector.manifest_sound())

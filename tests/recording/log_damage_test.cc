@@ -38,12 +38,39 @@ bool is_prefix(const std::vector<std::string>& part, const std::vector<std::stri
   return part.size() <= whole.size() && std::equal(part.begin(), part.end(), whole.begin());
 }
 
-// How many records the log has when it is cut, per length: read once, for it takes a while.
+// What is said of so much of the log; empty if it is read.
+std::string refusal(std::size_t size) {
+  try {
+    (void)read(std::string_view(small_log()).substr(0, size));
+    return "";
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+// The least of it that is a log: its manifest is there.
+std::size_t least_log() {
+  std::size_t size = 0;
+  while (!refusal(size).empty()) ++size;
+  return size;
+}
+
+TEST(LogDamage, WhatEndsBeforeItsManifestIsNoLog) {
+  const std::size_t least = least_log();
+  EXPECT_GT(least, 100u);
+  EXPECT_LT(least, small_log().size() / 4) << "before the first chunk";
+  EXPECT_EQ(refusal(0), "log.mcap: is not a log: it does not begin as an MCAP file does");
+  EXPECT_EQ(refusal(7), "log.mcap: is not a log: it does not begin as an MCAP file does");
+  EXPECT_EQ(refusal(100), "log.mcap: holds nothing of a log but its beginning: 100 bytes, no manifest, no record");
+  for (std::size_t size = least; size < small_log().size(); size += 501) EXPECT_EQ(refusal(size), "") << size;
+}
+
+// How many records the log has when it is cut, per length from the least on: read once, for it takes a while.
 const std::vector<std::size_t>& records_by_length() {
   static const std::vector<std::size_t> counts = [] {
     const Result whole = read(small_log());
     std::vector<std::size_t> out;
-    for (std::size_t size = 0; size < small_log().size(); ++size) {
+    for (std::size_t size = least_log(); size < small_log().size(); ++size) {
       const Result cut = read(std::string_view(small_log()).substr(0, size));
       EXPECT_TRUE(cut.info.truncated) << size;
       EXPECT_NE(cut.info.warning.find("log.mcap: the log was cut off at byte " + std::to_string(size)),
