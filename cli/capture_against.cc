@@ -5,7 +5,9 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "cli/output.h"
 #include "cli/time_window.h"
+#include "core/counted.h"
 #include "recording/capture_check.h"
 
 namespace ttf::cli {
@@ -45,13 +47,13 @@ void print_text(const schedules::Cluster& cluster, const CaptureArguments& argum
                name_of(finding.kind), finding.text);
   if (verdict.findings.size() == recording::kMostFindings)
     fmt::print("...: the first {} are listed\n", recording::kMostFindings);
-  fmt::print("{} against {}: {} frames on {} in {} cycles: ", arguments.file, cluster.name, verdict.frames,
-             arguments.channels, verdict.cycles);
+  fmt::print("{} against {}: {} on {} in {}: ", arguments.file, cluster.name, counted(verdict.frames, "frame"),
+             arguments.channels, counted(static_cast<std::uint64_t>(verdict.cycles), "cycle"));
   if (verdict.contradictions() == 0) {
     fmt::print("as scheduled\n");
     return;
   }
-  fmt::print("{} contradictions\n", verdict.contradictions());
+  fmt::print("{}\n", counted(verdict.contradictions(), "contradiction"));
   for (std::size_t kind = 0; kind < recording::kContradictions; ++kind)
     if (verdict.counts[kind] > 0)
       fmt::print("  {:24} {}\n", recording::kContradictionNames[kind], verdict.counts[kind]);
@@ -82,7 +84,7 @@ int check_against_capture(const schedules::Cluster& cluster, const CaptureArgume
   options.from_ns = window.from.ns;
   if (window.to) options.to_ns = window.to->ns;
   const recording::Capture capture = recording::read_capture(arguments.file);
-  if (!capture.warning.empty()) fmt::print(stderr, "warning: {}\n", capture.warning);
+  print_warnings(capture.warning);
   const CaptureVerdict verdict = recording::check_capture(capture, arguments.file, cluster, options);
   if (json)
     print_json(cluster, arguments, verdict);

@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "cli/commands.h"
+#include "cli/output.h"
 #include "cli/time_window.h"
+#include "core/counted.h"
 #include "core/errors.h"
 #include "nodes/laser/laser_preprocessor.h"
 #include "recording/log_reader.h"
@@ -50,7 +52,7 @@ struct Extent final : records::Sink {
 
 recording::LogInfo read(const std::string& path, records::Sink& sink) {
   recording::LogInfo info = recording::read_log(path, sink);
-  if (!info.warning.empty()) fmt::print(stderr, "warning: {}\n", info.warning);
+  print_warnings(info.warning);
   return info;
 }
 
@@ -61,7 +63,7 @@ std::string boxes(const DiagramOptions& options) {
   const int frame = options.frame.value_or(0);
   if (frame >= static_cast<int>(scans.size()))
     throw InputError({"command line", 0, "--frame", fmt::format("{}", frame),
-                      fmt::format("must be 0..{}: the recording has {} scans", scans.size() - 1, scans.size())});
+                      fmt::format("must be 0..{}: the recording has {}", scans.size() - 1, counted(scans.size(), "scan"))});
   const recording::RecordedScan& scan = scans[static_cast<std::size_t>(frame)];
   std::vector<nodes::ScanPoint> points;
   std::vector<report::Point> drawn;
@@ -75,7 +77,8 @@ std::string boxes(const DiagramOptions& options) {
   for (const nodes::LaserObject& object : objects)
     rectangles.push_back({object.x, object.y, object.heading, object.length, object.width, ""});
   return report::boxes_svg(drawn, rectangles,
-                           fmt::format("Scan {}: {} returns, {} boxes", scan.frame, points.size(), objects.size()));
+                           fmt::format("Scan {}: {}, {} box{}", scan.frame, counted(points.size(), "return"), objects.size(),
+                                       objects.size() == 1 ? "" : "es"));
 }
 
 // The whole start-up and two cycles after it, unless told.

@@ -4,13 +4,13 @@
 #include <charconv>
 #include <chrono>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
 #include "cli/output.h"
 #include "cli/replay_story.h"
+#include "core/counted.h"
 #include "core/errors.h"
 #include "core/file_bytes.h"
 #include "experiments/campaign_csv.h"
@@ -151,7 +151,8 @@ std::vector<FaultResult> results_of(const ExperimentOptions& options, const Camp
   const experiments::Shard shard = shard_of(options.shard);
   const unsigned jobs = options.jobs > 0 ? options.jobs : experiments::workers_here();
   const auto all = (static_cast<std::uint64_t>(campaign.faults) + shard.count - 1 - shard.part) / shard.count;
-  fmt::print(stderr, "{}: {} faults in {} variants, {} workers ...\n", campaign.name, all, campaign.variants.size(), jobs);
+  fmt::print(stderr, "{}: {} in {}, {} ...\n", campaign.name, counted(all, "fault"),
+             counted(campaign.variants.size(), "variant"), counted(jobs, "worker"));
   const Progress progress(all);
   return experiments::run_campaign(campaign, clusters, shard, jobs, [&](std::uint64_t done) { progress(done); });
 }
@@ -160,11 +161,7 @@ int run_experiment(const ExperimentOptions& options) {
   const CampaignFile campaign = experiments::load_campaign(options.file);
   const CampaignClusters clusters(campaign);
   if (options.replay) return replay(options, campaign, clusters);
-  if (!options.out.empty()) {
-    std::error_code failure;
-    std::filesystem::create_directories(options.out, failure);
-    if (failure) throw InputError({options.out, 0, "--out", "", "cannot be created: " + failure.message()});
-  }
+  if (!options.out.empty()) create_folder(options.out);
   const std::vector<FaultResult> results = results_of(options, campaign, clusters);
 
   const Duration cycle = clusters.base.cycle();
@@ -180,8 +177,9 @@ int run_experiment(const ExperimentOptions& options) {
   text += "* outside of the fault hypothesis\n";
   const bool holds = !campaign.expected_harmed || harmed <= static_cast<std::uint64_t>(*campaign.expected_harmed);
   if (campaign.expected_harmed) {
-    text += fmt::format("expected: at most {} faults of the hypothesis harm in spite of guardian and two channels; {}: {}\n",
-                        *campaign.expected_harmed, harmed, holds ? "holds" : "does not hold");
+    text += fmt::format("expected: at most {} of the hypothesis {} in spite of guardian and two channels; {}: {}\n",
+                        counted(static_cast<std::uint64_t>(*campaign.expected_harmed), "fault"),
+                        *campaign.expected_harmed == 1 ? "harms" : "harm", harmed, holds ? "holds" : "does not hold");
     json["expectation"] = {{"harmed_with_guardian", *campaign.expected_harmed}, {"harmed", harmed}, {"holds", holds}};
   }
   text += harms_text(options, campaign, clusters, results);

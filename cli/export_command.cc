@@ -5,6 +5,7 @@
 
 #include "cli/commands.h"
 #include "cli/output.h"
+#include "core/counted.h"
 #include "recording/capture_export.h"
 #include "recording/log_reader.h"
 
@@ -29,7 +30,7 @@ int run_export(const ExportOptions& options) {
   refuse_overwriting(options.log, options.out, "--out");
   recording::FrameCollector collector;
   const recording::LogInfo info = recording::read_log(options.log, collector);
-  if (!info.warning.empty()) fmt::print(stderr, "warning: {}\n", info.warning);
+  print_warnings(info.warning);
   const recording::LogNames names(info.manifest);
   const std::vector<recording::LoggedFrame> frames = collector.in_order();
   write_file(options.out, converted(options.format, collector, frames, names));
@@ -40,10 +41,10 @@ int run_export(const ExportOptions& options) {
     fmt::print("{{\n  \"format\": \"{}\",\n  \"flexray_frames\": {},\n  \"symbols\": {},\n  \"can_frames\": {}\n}}\n",
                options.format, can_only ? 0 : flexray, can_only ? 0 : symbols, can);
   if (can_only)
-    fmt::print(stderr, "{} CAN frames written to {}\n", can, options.out);
+    fmt::print(stderr, "{} written to {}\n", counted(can, "CAN frame"), options.out);
   else
-    fmt::print(stderr, "{} FlexRay and {} CAN frames and {} symbols written to {}\n", flexray, can, symbols,
-               options.out);
+    fmt::print(stderr, "{} FlexRay and {} and {} written to {}\n", flexray, counted(can, "CAN frame"),
+               counted(symbols, "symbol"), options.out);
   return 0;
 }
 

@@ -1,12 +1,52 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <string>
+#include <vector>
 
 #include "cli/commands.h"
 #include "cli/output.h"
 #include "core/errors.h"
+
+namespace {
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += fmt::format("{}{}", i == 0 ? "" : i + 1 == names.size() ? " or " : ", ", names[i]);
+  return text;
+}
+
+// Where the command line names a command that there is not: what to say of it; empty otherwise.
+std::string unknown_command(CLI::App& app, int argc, char** argv) {
+  CLI::App* in = &app;
+  for (int i = 1; i < argc && in->get_require_subcommand_min() > 0; ++i) {
+    const std::string name = argv[i];
+    if (name.empty() || name.front() == '-') return "";
+    const std::vector<CLI::App*> commands = in->get_subcommands([](CLI::App*) { return true; });
+    const auto command = std::find_if(commands.begin(), commands.end(), [&](CLI::App* one) { return one->get_name() == name; });
+    if (command == commands.end()) {
+      std::vector<std::string> names;
+      for (const CLI::App* one : commands) names.push_back(one->get_name());
+      return fmt::format("{} is no command{}: must be {}", name, in == &app ? "" : " of " + in->get_name(), joined(names));
+    }
+    in = *command;
+  }
+  return "";
+}
+
+// A mistake in the command line, in one line.
+int refuse(const std::string& words) {
+  std::string line = words;
+  std::replace(line.begin(), line.end(), '\n', ' ');
+  fmt::print(stderr, "error: {}\n", line);
+  return 2;
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app{"ttfusion: time-triggered distributed fusion in virtual time", "ttfusion"};
@@ -18,12 +58,13 @@ int main(int argc, char** argv) {
   ttf::cli::add_export(app, action);
   ttf::cli::add_schedule(app, action);
   ttf::cli::add_experiment(app, action);
+  if (const std::string words = unknown_command(app, argc, argv); !words.empty()) return refuse(words);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     // --help and --version come this way too, with exit code 0.
-    const int code = app.exit(error);
-    return code == 0 ? 0 : 2;
+    if (error.get_exit_code() == 0) return app.exit(error);
+    return refuse(fmt::format("command line: {} (--help says more)", error.what()));
   }
   try {
     const int code = action();

@@ -1,5 +1,8 @@
 #include "cli/output.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -23,6 +26,20 @@ void write_file(const std::string& path, std::string_view text) {
   if (file == nullptr || std::fwrite(text.data(), 1, text.size(), file.get()) != text.size()) fail(path);
   // What is still buffered may fail as well.
   if (std::fclose(file.release()) != 0) fail(path);
+}
+
+void create_folder(const std::string& path) {
+  std::error_code failure;
+  std::filesystem::create_directories(path, failure);
+  if (failure) throw std::runtime_error(path + ": cannot be created: " + failure.message());
+}
+
+void print_warnings(std::string_view text) {
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    fmt::print(stderr, "warning: {}\n", text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
 }
 
 void refuse_overwriting(const std::string& input, const std::string& path, const std::string& flag) {

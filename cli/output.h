@@ -12,6 +12,12 @@ void write_file(const std::string& path, std::string_view text);
 // Throws InputError where `path`, given as `flag`, is the very file that is being read.
 void refuse_overwriting(const std::string& input, const std::string& path, const std::string& flag);
 
+// Creates the folder and those it is in, as far as they are not there. Throws std::runtime_error with path and reason.
+void create_folder(const std::string& path);
+
+// Prints each line of `text` on standard error as a warning of its own.
+void print_warnings(std::string_view text);
+
 // Hands what was printed to the system. Throws std::runtime_error with the reason where it is not taken (disk full, closed).
 void finish_standard_output();
 

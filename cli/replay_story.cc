@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "bus/poc_reason.h"
+#include "core/counted.h"
 
 namespace ttf::cli {
 namespace {
@@ -58,8 +59,8 @@ void ReplayStory::finish() {
     fmt::print("  {:>10.3f} ms  cycle {:>6.2f}  {}\n", in_ms(line.at),
                in_units_of(cluster_.cycle(), line.at - TrueTime{}), line.text);
   }
-  if (acts > kShown) fmt::print("  the fault acts {} times more\n", acts - kShown);
-  if (interventions > kShown) fmt::print("  the guardians intervene {} times more\n", interventions - kShown);
+  if (acts > kShown) fmt::print("  the fault acts {} more\n", counted(acts - kShown, "time"));
+  if (interventions > kShown) fmt::print("  the guardians intervene {} more\n", counted(interventions - kShown, "time"));
 }
 
 }  // namespace ttf::cli

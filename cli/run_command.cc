@@ -160,9 +160,7 @@ int run_scenario(const RunOptions& options) {
   for (const fusion::StrategyKind strategy : chosen(options.strategy))
     sim::check_fits(scenario, checked_cluster(scenario.cluster_files[static_cast<std::size_t>(strategy)]),
                     recording.rows != nullptr);
-  std::error_code failure;
-  std::filesystem::create_directories(folder, failure);
-  if (failure) throw InputError({folder, 0, "--out", "", "cannot be created: " + failure.message()});
+  create_folder(folder);
 
   std::vector<StrategyResult> results;
   for (const fusion::StrategyKind strategy : chosen(options.strategy)) {

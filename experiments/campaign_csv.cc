@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <set>
 #include <string_view>
 
 #include "core/errors.h"
@@ -151,7 +152,33 @@ std::vector<FaultResult> read_campaign_csv(const CampaignFile& campaign, const C
   return results;
 }
 
+namespace {
+
+// Which shards are not there: "2/3, 3/3". Empty where those that are there are not shards of one number of parts.
+std::string missing_shards(const CampaignFile& campaign, const std::vector<std::vector<FaultResult>>& shards) {
+  std::uint32_t count = 0;
+  std::set<std::uint32_t> parts;
+  for (const auto& shard : shards) {
+    if (shard.size() < 2) return "";
+    const std::uint32_t first = shard[0].index, step = shard[1].index - first;
+    const auto faults = static_cast<std::uint32_t>(campaign.faults);
+    const bool whole = first < step && step <= faults && (count == 0 || step == count) && shard.back().index >= faults - step;
+    for (std::size_t i = 0; i < shard.size(); ++i)
+      if (!whole || shard[i].index != first + i * step) return "";
+    count = step;
+    parts.insert(first);
+  }
+  std::string missing;
+  for (std::uint32_t part = 0; part < count; ++part)
+    if (!parts.contains(part)) missing += fmt::format("{}{}/{}", missing.empty() ? "" : ", ", part + 1, count);
+  return missing;
+}
+
+}  // namespace
+
 std::vector<FaultResult> merged(const CampaignFile& campaign, std::vector<std::vector<FaultResult>> shards) {
+  if (const std::string missing = missing_shards(campaign, shards); !missing.empty())
+    throw InputError({campaign.file, 0, "--merge", "", fmt::format("lacks shard {}: give the folders of all shards", missing)});
   std::vector<FaultResult> all;
   for (auto& shard : shards) std::move(shard.begin(), shard.end(), std::back_inserter(all));
   std::sort(all.begin(), all.end(), [](const FaultResult& a, const FaultResult& b) { return a.index < b.index; });
