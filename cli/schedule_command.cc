@@ -50,9 +50,28 @@ nlohmann::ordered_json dynamic_json(const schedules::Cluster& cluster) {
   return json;
 }
 
+// What is wrong with a cluster goes to standard output, too, where a script reads it.
+void print_findings(const InputError& error) {
+  nlohmann::ordered_json json{{"consistent", false}, {"findings", nlohmann::ordered_json::array()}};
+  for (const Finding& finding : error.findings())
+    json["findings"].push_back({{"file", finding.file}, {"line", finding.line}, {"key", finding.key},
+                                {"value", finding.value}, {"expected", finding.expected}, {"text", finding.sentence()}});
+  fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+}
+
+schedules::Cluster checked_schedule(const ScheduleOptions& options) {
+  try {
+    schedules::Cluster cluster = schedules::load_checked_cluster(options.file);
+    schedules::bind_ports(cluster, nodes::step_ports());
+    return cluster;
+  } catch (const InputError& error) {
+    if (options.json) print_findings(error);
+    throw;
+  }
+}
+
 int check(const ScheduleOptions& options) {
-  const schedules::Cluster cluster = schedules::load_checked_cluster(options.file);
-  schedules::bind_ports(cluster, nodes::step_ports());
+  const schedules::Cluster cluster = checked_schedule(options);
   if (!options.capture.file.empty()) return check_against_capture(cluster, options.capture, options.json);
   if (!options.json) {
     fmt::print("{}: consistent\n{}{}", cluster.name, schedules::dynamic_text(cluster), schedules::ages_text(cluster));
