@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "cli/fault_tables.h"
 #include "cli/startup_outputs.h"
@@ -26,6 +27,7 @@ using Value = std::string (*)(const StrategyResult&);
 struct Row {
   const char* name;
   Value value;
+  bool rare = false;   // what a sound drive has none of: shown where some strategy has some
 };
 
 std::string number(std::uint64_t n) { return fmt::format("{}", n); }
@@ -35,6 +37,14 @@ std::string mean_cell(const experiments::AgeStatistics& ages) {
 }
 std::string worst_cell(const experiments::AgeStatistics& ages) {
   return ages.count == 0 ? "-" : report::cell(in_ms(ages.worst), 1);
+}
+
+// Times the feature service had an image and took it.
+std::uint64_t uses(const StrategyResult& result) { return result.summary.uses - result.summary.stale_uses; }
+
+// Of one clock alone, or of clocks that never ran together, there is no precision, rather than a perfect one.
+std::optional<double> precision_us(const StrategyResult& result) {
+  return result.outcome.precision.ns == 0 ? std::nullopt : std::optional(us(result.outcome.precision));
 }
 
 // Lists that were made and never fused: too late for the strategy, or lost between a task's end and its reader's start.
@@ -68,22 +78,30 @@ const Row kRows[] = {
     {"  fused late (retrodicted)", [](const StrategyResult& r) { return number(r.summary.fused_late); }},
     {"  times held back", [](const StrategyResult& r) { return number(r.summary.held); }},
     {"  dropped", [](const StrategyResult& r) { return number(lost_lists(r)); }},
+    {"    too old to be fused", [](const StrategyResult& r) { return number(r.summary.dropped); }, true},
+    {"    torn on the way", [](const StrategyResult& r) { return number(r.outcome.counts.torn_lists); }, true},
+    {"    overwritten before they were read", [](const StrategyResult& r) { return number(r.outcome.counts.overwritten_lists); },
+     true},
+    {"    discarded: no time of measuring", [](const StrategyResult& r) { return number(r.outcome.counts.discarded_lists); },
+     true},
+    {"fragments refused", [](const StrategyResult& r) { return number(r.outcome.counts.refused_fragments); }, true},
+    {"uses of an image", [](const StrategyResult& r) { return number(uses(r)); }},
+    {"  refused for its age", [](const StrategyResult& r) { return number(r.summary.stale_uses); }, true},
+    {"  with a warning", [](const StrategyResult& r) { return number(r.summary.warnings); }},
     {"objects compared / missed / spurious", [](const StrategyResult& r) {
+       if (r.summary.matched + r.summary.missed + r.summary.spurious == 0) return std::string("-");
        return fmt::format("{} / {} / {}", r.summary.matched, r.summary.missed, r.summary.spurious);
      }},
-    {"uses with a warning", [](const StrategyResult& r) { return number(r.summary.warnings); }},
-    {"precision of the time base [us]", [](const StrategyResult& r) { return report::cell(us(r.outcome.precision), 3); }},
+    {"precision of the time base [us]", [](const StrategyResult& r) {
+       const auto precision = precision_us(r);
+       return precision ? report::cell(*precision, 3) : std::string("-");
+     }},
     {"slot problems", [](const StrategyResult& r) { return number(r.outcome.counts.slot_problems); }},
     {"deadlines missed", [](const StrategyResult& r) { return number(r.outcome.counts.deadlines_missed); }},
     {"FlexRay load per channel [%]", [](const StrategyResult& r) { return report::cell(100 * r.outcome.flexray_load, 1); }},
     {"content hash of the log", [](const StrategyResult& r) { return r.content_hash.empty() ? std::string("-") : r.content_hash; }},
-};
-
-// What a drive without faults has none of; a row is shown where some strategy has some.
-const Row kRareRows[] = {
-    {"images refused for their age", [](const StrategyResult& r) { return number(r.summary.stale_uses); }},
-    {"CAN frames refused", [](const StrategyResult& r) { return number(r.outcome.counts.refused_can_frames); }},
-    {"fates of lists that no record tells", [](const StrategyResult& r) { return number(r.outcome.counts.unlisted_fates); }},
+    {"CAN frames refused", [](const StrategyResult& r) { return number(r.outcome.counts.refused_can_frames); }, true},
+    {"fates of lists that no record tells", [](const StrategyResult& r) { return number(r.outcome.counts.unlisted_fates); }, true},
 };
 
 nlohmann::ordered_json ages(const experiments::AgeStatistics& statistics) {
@@ -107,17 +125,16 @@ std::string comparison_table(const std::vector<StrategyResult>& results) {
   std::vector<std::string> header{"measure"};
   for (const StrategyResult& result : results) header.emplace_back(nodes::name_of(result.strategy));
   report::Table table(header);
-  const auto add = [&](const Row& row, bool only_if_any) {
+  const auto add = [&](const Row& row) {
     std::vector<std::string> cells{row.name};
     bool any = false;
     for (const StrategyResult& result : results) {
       cells.push_back(row.value(result));
       any = any || cells.back() != "0";
     }
-    if (any || !only_if_any) table.add(std::move(cells));
+    if (any || !row.rare) table.add(std::move(cells));
   };
-  for (const Row& row : kRows) add(row, false);
-  for (const Row& row : kRareRows) add(row, true);
+  for (const Row& row : kRows) add(row);
   for (std::size_t b = 0; !results.empty() && b < results.front().cluster.can_buses.size(); ++b) {
     std::vector<std::string> cells{fmt::format("{} load [%]", results.front().cluster.can_buses[b].name)};
     for (const StrategyResult& result : results)
@@ -160,7 +177,8 @@ nlohmann::ordered_json to_json(const nodes::Scenario& scenario, std::uint64_t se
     one["uses_with_warning"] = s.warnings;
     if (!result.startup.empty()) one["startup"] = startup_json(result);
     one["uses_refused_as_stale"] = s.stale_uses;
-    one["precision_us"] = us(result.outcome.precision);
+    one["precision_us"] = nullptr;
+    if (const auto precision = precision_us(result)) one["precision_us"] = *precision;
     one["slot_problems"] = result.outcome.counts.slot_problems;
     one["deadlines_missed"] = result.outcome.counts.deadlines_missed;
     one["overruns"] = result.outcome.counts.overruns;

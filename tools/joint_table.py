@@ -27,6 +27,7 @@ ROWS = [
     ("  fused late (retrodicted)", lambda s: str(s["observations"]["late"])),
     ("  times held back", lambda s: str(s["observations"]["held"])),
     ("  dropped", lambda s: str(s["observations"]["lost"])),
+    ("uses of an image", lambda s: str(s["uses"] - s["uses_refused_as_stale"])),
     ("objects compared", lambda s: str(s["objects"]["compared"])),
     ("  missed", lambda s: str(s["objects"]["missed"])),
     ("  spurious", lambda s: str(s["objects"]["spurious"])),

@@ -18,6 +18,7 @@ STRATEGY = {
     "age_when_fused": AGES,
     "age_when_used": AGES,
     "observations": {"received": 107, "out_of_sequence": 2, "late": 1, "held": 9, "dropped": 1, "torn": 2, "overwritten": 3, "discarded": 4, "lost": 10},
+    "uses": 42, "uses_refused_as_stale": 2,
     "objects": {"compared": 37, "missed": 0, "spurious": 1},
     "precision_us": 0.8066,
     "flexray_load": 0.2951,
@@ -45,6 +46,7 @@ class JointTable(unittest.TestCase):
         self.assertEqual(rows["  95 % band"], ["3.10..4.90"] * 3)
         self.assertEqual(rows["age when used, mean [ms]"], ["12.3"] * 3)
         self.assertEqual(rows["  dropped"], ["10"] * 3)
+        self.assertEqual(rows["uses of an image"], ["40"] * 3)
         self.assertEqual(rows["objects compared"], ["37", "37", "41"])
         self.assertEqual(rows["FlexRay load per channel [%]"], ["29.5"] * 3)
 
