@@ -4,6 +4,8 @@
 
 #include <optional>
 
+#include "core/counted.h"
+#include "experiments/fault_judge.h"
 #include "report/tables.h"
 
 namespace ttf::cli {
@@ -30,17 +32,6 @@ std::string node_names(const std::vector<NodeId>& nodes, const schedules::Cluste
   std::string names;
   for (const NodeId node : nodes) names += (names.empty() ? "" : ", ") + node_name(node, cluster);
   return names;
-}
-
-std::string_view words(Harm harm) {
-  switch (harm) {
-    case Harm::kLeftActive: return "left normal active";
-    case Harm::kNotStarted: return "never became normal active";
-    case Harm::kPrecision: return "clocks further apart than the assumed precision";
-    case Harm::kFrameLost: return "did not receive a frame on any channel";
-    case Harm::kFrameForged: return "took another's frame for valid";
-  }
-  return "";
 }
 
 constexpr std::string_view kUnattributed = "unattributed";
@@ -103,27 +94,39 @@ std::string states_text(const FaultFindings& findings, const schedules::Cluster&
   return table.rows() == 0 ? "No node changed its state.\n" : table.text();
 }
 
-std::string harms_text(const FaultFindings& findings, const schedules::Cluster& cluster) {
+// What befell a node: how often, and where first.
+std::string harm_words(Harm harm, const HarmSeen& harmed, const schedules::Cluster& cluster) {
+  const std::string node = harmed.node == kNoNode ? "" : node_name(harmed.node, cluster);
+  const std::string where =
+      harmed.sender == kNoNode ? "" : fmt::format("slot {} of {}", harmed.slot, node_name(harmed.sender, cluster));
+  const bool often = harmed.times > 1;
+  switch (harm) {
+    case Harm::kFrameLost:   // of whatever slots and senders
+      return often ? fmt::format("{}: {} lost, the first: {} on any channel", node, counted(harmed.times, "frame"), where)
+                   : fmt::format("{}: a frame lost: {} on any channel", node, where);
+    case Harm::kFrameForged:
+      return often ? fmt::format("{}: {} of another taken for valid, the first: {}", node, counted(harmed.times, "frame"), where)
+                   : fmt::format("{}: a frame of another taken for valid: {}", node, where);
+    case Harm::kLeftActive: return node + " left normal active" + (often ? fmt::format(" {} times", harmed.times) : "");
+    case Harm::kNotStarted: return node + " never became normal active";
+    case Harm::kPrecision:
+      return "clocks further apart than the assumed precision" + (often ? fmt::format(", {} times", harmed.times) : "");
+  }
+  return "";
+}
+
+std::string harms_text(const FaultFindings& findings, const std::vector<NodeId>& sound, const schedules::Cluster& cluster) {
   std::string text;
   for_each(findings, [&](const std::string& name, const FaultEffects& effects, std::optional<TrueTime>) {
     for (const Harm harm : experiments::kAllHarms)
-      for (const HarmSeen& harmed : effects.harms[static_cast<std::size_t>(harm)]) {
-        text += fmt::format("HARMED{}{}, {:.6f} s: {}{}", name == kUnattributed ? ", " : " by fault ", name,
-                            seconds(harmed.first), harmed.node == kNoNode ? "" : node_name(harmed.node, cluster) + " ",
-                            words(harm));
-        if (harmed.sender != kNoNode)
-          text += fmt::format(": slot {} of {}", harmed.slot, node_name(harmed.sender, cluster));
-        if (harmed.times > 1) text += fmt::format(", first of {} times", harmed.times);
-        text += "\n";
-      }
+      for (const HarmSeen& harmed : effects.harms[static_cast<std::size_t>(harm)])
+        text += fmt::format("HARMED{}{}, {:.6f} s: {}\n", name == kUnattributed ? ", " : " by fault ", name,
+                            seconds(harmed.first), harm_words(harm, harmed, cluster));
   });
-  return text.empty() ? "No fault-free node was harmed.\n" : text;
-}
-
-nlohmann::ordered_json names_json(const std::vector<NodeId>& nodes, const schedules::Cluster& cluster) {
-  auto names = nlohmann::ordered_json::array();
-  for (const NodeId node : nodes) names.push_back(node_name(node, cluster));
-  return names;
+  if (text.empty()) text = "No fault-free node was harmed.\n";
+  return text + (sound.empty() ? "No node was fault-free to the end.\n"
+                               : fmt::format("{} to the end: {}\n", counted(sound.size(), "fault-free node"),
+                                             node_names(sound, cluster)));
 }
 
 nlohmann::ordered_json seconds_or_null(const std::optional<TrueTime>& at) {
@@ -173,11 +176,31 @@ void add_effects(nlohmann::ordered_json& one, const FaultEffects& effects, const
 
 }  // namespace
 
-std::string faults_text(std::string_view run, const FaultFindings& findings, const schedules::Cluster& cluster) {
+nlohmann::ordered_json names_json(const std::vector<NodeId>& nodes, const schedules::Cluster& cluster) {
+  auto names = nlohmann::ordered_json::array();
+  for (const NodeId node : nodes) names.push_back(node_name(node, cluster));
+  return names;
+}
+
+std::vector<NodeId> fault_free_nodes(const FaultFindings& findings, const nodes::FaultPlan& plan,
+                                     const schedules::Cluster& cluster) {
+  std::vector<bool> faulty(cluster.nodes.size(), false);
+  for (const FaultSeen& fault : findings.faults) {
+    const std::vector<bool> named = experiments::named_by(plan.faults.at(fault.fault), cluster);
+    for (std::size_t n = 0; n < named.size(); ++n) faulty[n] = faulty[n] || named[n];
+  }
+  std::vector<NodeId> sound;
+  for (std::size_t n = 0; n < faulty.size(); ++n)
+    if (!faulty[n] && cluster.nodes[n].flexray) sound.push_back(static_cast<NodeId>(n));
+  return sound;
+}
+
+std::string faults_text(std::string_view run, const FaultFindings& findings, const std::vector<NodeId>& fault_free,
+                        const schedules::Cluster& cluster) {
   std::string text = fmt::format("Faults, {}\n", run);
   if (findings.faults.empty()) return text + "None of the plan's faults began.\n";
   return text + injected_text(findings, cluster) + "\n" + checks_text(findings, cluster) + "\n" +
-         guardians_text(findings) + states_text(findings, cluster) + "\n" + harms_text(findings, cluster);
+         guardians_text(findings) + states_text(findings, cluster) + "\n" + harms_text(findings, fault_free, cluster);
 }
 
 nlohmann::ordered_json faults_json(const std::vector<FaultSeen>& faults, const schedules::Cluster& cluster) {

@@ -106,7 +106,8 @@ StrategyResult run_strategy(const RunOptions& options, const nodes::Scenario& sc
   result.cluster = checked_cluster(scenario.cluster_files[static_cast<std::size_t>(strategy)]);
   experiments::DriveMeasures measures(sim::evaluation_start(scenario));
   experiments::StartupAccount startup(result.cluster.cycle());
-  experiments::FaultReport faults(result.cluster, nodes::resolve(scenario.faults, result.cluster), !scenario.startup.cold);
+  const nodes::FaultPlan plan = nodes::resolve(scenario.faults, result.cluster);
+  experiments::FaultReport faults(result.cluster, plan, !scenario.startup.cold);
   std::vector<records::Sink*> sinks{&measures, &startup};
   if (!scenario.faults.empty()) sinks.push_back(&faults);
   std::unique_ptr<recording::LogWriter> log;
@@ -127,6 +128,7 @@ StrategyResult run_strategy(const RunOptions& options, const nodes::Scenario& sc
   result.startup = startup.nodes();
   faults.finish(sim::kFirstCycle + scenario.duration);
   result.faults = faults.findings();
+  result.fault_free = fault_free_nodes(result.faults, plan, result.cluster);
   if (log) {
     log->close();
     result.content_hash = log->content_hash_text();
@@ -177,7 +179,8 @@ int run_scenario(const RunOptions& options) {
                comparison_table(results));
     if (!scenario.faults.empty())
       for (const StrategyResult& result : results)
-        fmt::print("\n{}", faults_text(nodes::name_of(result.strategy), result.faults, result.cluster));
+        fmt::print("\n{}", faults_text(nodes::name_of(result.strategy), result.faults, result.fault_free,
+                                     result.cluster));
   }
   std::fflush(stdout);   // both may go to one file
   fmt::print(stderr, "written to {}\n", folder);

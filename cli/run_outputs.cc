@@ -194,6 +194,7 @@ nlohmann::ordered_json to_json(const nodes::Scenario& scenario, std::uint64_t se
     one["log"] = result.log_path;
     if (!scenario.faults.empty()) {
       one["faults"] = faults_json(result.faults.faults, result.cluster);
+      one["fault_free_nodes"] = names_json(result.fault_free, result.cluster);
       one["unattributed"] = unattributed_json(result.faults.unattributed, result.cluster);
     }
     json["strategies"].push_back(std::move(one));

@@ -22,6 +22,7 @@ struct StrategyResult {
   experiments::DriveSummary summary;
   std::vector<experiments::NodeStartup> startup;   // nodes that started up or changed their state
   experiments::FaultFindings faults;
+  std::vector<NodeId> fault_free;                  // to the end, of those on FlexRay
   std::string log_path;
   std::string content_hash;
 };

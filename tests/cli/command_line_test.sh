@@ -34,8 +34,12 @@ cp "$source"/schedules/*.yaml "$work/schedules"
 cp "$source"/scenarios/*.yaml "$work/scenarios"
 
 expect 0 "Example: ttfusion run" run --help
-expect 2 "required" run
-expect 2 "--strategy" run "$source/scenarios/paper_scenario1.yaml" --strategy best
+expect 2 "^error: command line: .*required" run
+expect 2 "^error: command line: A subcommand is required"
+expect 2 '^error: foo is no command: must be run, diagram, export, schedule or experiment$' foo --help
+expect 2 '^error: draw is no command of schedule: must be check, show or export$' schedule draw x.yaml
+expect 2 '^error: command line: .*--fast' run "$source/scenarios/paper_scenario1.yaml" --fast
+expect 2 "^error: command line: --strategy" run "$source/scenarios/paper_scenario1.yaml" --strategy best
 expect 2 "nothing.yaml: cannot be read" run "$work/nothing.yaml"
 
 for seed in 12x 010x 4611686018427387905 99999999999999999999999; do
@@ -57,6 +61,16 @@ mutate scenarios/paper_scenario1.yaml 's/paper_synchronised.yaml/absent.yaml/' "
 expect 2 'absent.yaml: cannot be read' run "$drive" --strategy tt --out "$work/none"
 
 cluster=$work/schedules/broken.yaml
+mutate schedules/paper_synchronised.yaml 's/gdNIT: [0-9]*/gdNIT: 100/' "$cluster"
+"$program" schedule check "$cluster" --json 2>"$work/words" >"$work/check.json"
+[[ $? -eq 2 ]] || fail "an inconsistent cluster as JSON does not exit with 2"
+grep -q '^error: .*broken.yaml:[0-9]*: .*gdNIT' "$work/words" || fail "an inconsistent cluster as JSON has no words"
+python3 - "$work/check.json" <<'PY' || fail "an inconsistent cluster is no JSON"
+import json, sys
+check = json.load(open(sys.argv[1]))
+assert check["consistent"] is False and check["findings"], check
+assert all(f["line"] > 0 and f["file"].endswith("broken.yaml") and f["text"].endswith(f["expected"]) for f in check["findings"]), check
+PY
 expect 0 'consistent' schedule check "$source/schedules/paper_synchronised.yaml"
 mutate schedules/paper_synchronised.yaml 's/gdNIT: 386/gdNIT: 900/' "$cluster"
 expect 2 'broken.yaml:[0-9]+: flexray.gdNIT = 900: .*2..805' schedule check "$cluster"
@@ -106,6 +120,8 @@ done
 
 # A drive with faults says what they did, in words and as JSON; one without says nothing of faults.
 expect 0 'byzantine_clock +laser_pre' run "$source/scenarios/faulty_bus.yaml" --strategy tt --no-log --out "$work/f"
+expect 0 '^1 fault-free node to the end: fusion$' run "$source/scenarios/faulty_bus.yaml" --strategy tt --no-log --out "$work/f"
+expect 0 '^    discarded: no time of measuring +1$' run "$source/scenarios/faulty_bus.yaml" --strategy tt --no-log --out "$work/f"
 expect 0 'No fault-free node was harmed' run "$source/scenarios/faulty_bus.yaml" --strategy tt --no-log --out "$work/f"
 python3 - "$work/f/summary.json" "$work/a/summary.json" <<'PY' || fail "the JSON does not say what the faults did"
 import json, sys
@@ -113,6 +129,7 @@ faults = json.load(open(sys.argv[1]))["strategies"][0]["faults"]
 assert [f["kind"] for f in faults][3] == "crash" and faults[3]["node"] == "camera_pre" and faults[3]["ends_s"] > 1.7, faults
 assert all(f["acts"] > 0 and not f["harmed"] and f["harms"] == [] for f in faults), faults
 assert any(c["check"] == "boundary" and c["cycles"] > 0 for c in faults[4]["checks"]), faults[4]
+assert json.load(open(sys.argv[1]))["strategies"][0]["fault_free_nodes"] == ["fusion"]
 assert "faults" not in json.load(open(sys.argv[2]))["strategies"][0]
 PY
 
@@ -131,6 +148,14 @@ assert s["age_when_used"] == {"count": 0, "mean_ms": None, "worst_ms": None}, s
 PY
 
 # What cannot be written is said, and the run has failed.
+: >"$work/file"
+expect 1 'error: .*/file/x: cannot be created: Not a directory' run "$source/scenarios/paper_scenario2.yaml" --out "$work/file/x"
+expect 1 'error: .*/file/x: cannot be created: Not a directory' \
+  experiment "$source/experiments/fault_campaign.yaml" --out "$work/file/x"
+expect 1 'error: .*/file/x.csv: cannot be written: Not a directory' export "$work/a/tt.mcap" --format csv -o "$work/file/x.csv"
+expect 1 'error: .*/file/x.svg: cannot be written' diagram "$work/a/tt.mcap" -o "$work/file/x.svg"
+expect 1 'error: .*/file/x.svg: cannot be written' \
+  schedule show "$source/schedules/paper_synchronised.yaml" -o "$work/file/x.svg"
 mkdir -p "$work/w1/summary.json" "$work/w2/tt.mcap" "$work/w3/index.html" "$work/w4/tt_timing.png" "$work/picture.svg"
 tt=(run "$source/scenarios/paper_scenario2.yaml" --strategy tt)
 expect 1 'error: .*/w1/summary.json: cannot be written: Is a directory' "${tt[@]}" --no-log --out "$work/w1"
@@ -156,7 +181,14 @@ expect 0 '' diagram "$work/a/tt.mcap" "$work/a/adva.mcap" --kind plane -o "$work
 expect 2 '--from = 50 s: must be before the end of the log' diagram "$work/a/tt.mcap" --from 50 -o "$work/none.svg"
 expect 2 '--frame = 3: goes with --kind boxes' diagram "$work/a/tt.mcap" --frame 3 -o "$work/none.svg"
 head -c 100 "$work/a/tt.mcap" >"$work/empty.mcap"
-expect 2 "holds no task's run" diagram "$work/empty.mcap" -o "$work/none.svg"
+expect 2 'empty.mcap: holds nothing of a log but its beginning: 100 bytes, no manifest, no record' \
+  diagram "$work/empty.mcap" -o "$work/none.svg"
+: >"$work/nothing.mcap"
+for file in empty nothing; do
+  expect 2 "error: .*$file.mcap: (is not a log|holds nothing of a log)" export "$work/$file.mcap" --format csv -o "$work/none.csv"
+  [[ -e $work/none.csv ]] && fail "an export of nothing leaves a file"
+done
+expect 2 "holds nothing of a log" diagram "$work/empty.mcap" -o "$work/none.svg"
 cp "$work/a/tt.mcap" "$work/itself.mcap"
 expect 2 '--out = .*itself.mcap: must be another file than the input' \
   export "$work/itself.mcap" --format csv -o "$work/./itself.mcap"
@@ -164,6 +196,8 @@ cmp -s "$work/a/tt.mcap" "$work/itself.mcap" || fail "a refused export changed i
 expect 2 'must be another file than the input' \
   schedule export "$work/schedules/paper_synchronised.yaml" --format fibex -o "$work/schedules/paper_synchronised.yaml"
 head -c 200000 "$work/a/tt.mcap" >"$work/cut.mcap"
+[[ $("$program" export "$work/cut.mcap" --format csv -o "$work/cut.csv" 2>&1 >/dev/null | grep -vc '^warning: \|written to') -eq 0 ]] ||
+  fail "a line of a warning is not called one"
 expect 0 'warning: .*cut.mcap' diagram "$work/cut.mcap" -o "$work/cut.svg"
 expect 2 'scenario|MCAP|mcap' diagram "$source/README.md" -o "$work/none.svg"
 
@@ -190,6 +224,7 @@ at = data.index(b"\x01\x00\x38\x02", 50000)   # the startup frame of slot 2 on A
 data[at + 5] ^= 1
 open(sys.argv[2], "wb").write(data)
 END
+expect 1 '^1 contradiction$|in [0-9]+ cycles: 1 contradiction$' schedule check "$schedule" --against "$work/disturbed.pcapng"
 expect 1 'disturbed.pcapng: at packet [0-9]+: header CRC error: slot 2 on A' \
   schedule check "$schedule" --against "$work/disturbed.pcapng"
 expect 1 '"header CRC error": 1' schedule check "$schedule" --against "$work/disturbed.pcapng" --json
@@ -205,6 +240,33 @@ expect 0 'No fault-free node was harmed' run "$work/cold_faulty.yaml" --strategy
 sed -i 's/channels: A, length: 1 us, interval: 500 ms/length: 1 ms, interval: 0 ms/' "$work/cold_faulty.yaml"
 expect 0 'HARMED by fault 0, .*never became normal active' \
   run "$work/cold_faulty.yaml" --strategy tt --no-log --out "$work/cold_faulty"
+# Of a cluster that never started the table shows that nothing worked, and nothing as perfect.
+for row in 'uses of an image +0' 'objects compared / missed / spurious +-' 'precision of the time base \[us\] +-'; do
+  expect 0 "^$row$" run "$work/cold_faulty.yaml" --strategy tt --no-log --out "$work/cold_faulty"
+done
+# Frames that are lost are counted, whichever slots and senders they are of.
+sed "s#\.\./schedules#$source/schedules#" "$source/scenarios/paper_scenario1.yaml" >"$work/drowned.yaml"
+printf 'faults:\n  - {kind: transient, from: 1 s, duration: 4 ms}\n' >>"$work/drowned.yaml"
+expect 0 'HARMED by fault 0, 1\.0[0-9]+ s: fusion: [0-9]+ frames lost, the first: slot [0-9]+ of [a-z_]+ on any channel$' \
+  run "$work/drowned.yaml" --strategy tt --no-log --out "$work/drowned"
+
+# What the pages show of a scenario loads as it stands there, and so do the keys they name.
+page_example() { awk -v key="    $2:" '$0 == key { on = 1 } on && !/^    / { exit } on { print substr($0, 5) }' "$source/docs/$1"; }
+for example in faults startup; do
+  grep -v '^faults:' "$work/scenarios/paper_scenario1.yaml" >"$work/scenarios/page.yaml"
+  page_example $example.md $example >>"$work/scenarios/page.yaml"
+  grep -q "^$example:" "$work/scenarios/page.yaml" || fail "docs/$example.md has no example of $example"
+  [[ $example == startup ]] || sed -i 's/^duration: .*/duration: 3 s/' "$work/scenarios/page.yaml"
+  expect 0 'precision of the time base' run "$work/scenarios/page.yaml" --strategy tt --no-log --out "$work/page"
+done
+for keys in 'feature_service: {max_image_age: 100 ms}' 'tracker: {coast_after: 300 ms, delete_after: 1 s}'; do
+  inner=${keys#*\{}
+  for key in "${keys%%:*}" "${inner%%:*}"; do
+    grep -q "\`$key\`" "$source/README.md" || fail "README does not name $key"
+  done
+  (cat "$work/scenarios/paper_scenario2.yaml" && echo "$keys") >"$work/scenarios/page.yaml"
+  expect 0 'precision of the time base' run "$work/scenarios/page.yaml" --strategy tt --no-log --out "$work/page"
+done
 
 # What guardians keep from the others is told, and is a check.
 sed "s#\.\./schedules#$source/schedules#" "$source/scenarios/cold_start.yaml" >"$work/guarded.yaml"
@@ -239,7 +301,10 @@ awk -F, -v OFS=, '$2 == "guardian" && $7 == "yes" && !done { $12 = "frame_lost";
   "$work/merged/results.csv" >"$work/campaign/results.csv"
 expect 1 'does not hold' experiment "$campaign" --merge "$work/campaign"
 expect 1 'ttfusion experiment .*campaign.yaml --replay [0-9]+' experiment "$campaign" --merge "$work/campaign"
-expect 2 'is a fault that is missing' experiment "$campaign" --merge "$work/shard1"
+expect 2 'campaign.yaml: --merge: lacks shard 2/2: give the folders of all shards' experiment "$campaign" --merge "$work/shard1"
+expect 0 '' experiment "$campaign" --shard 3/5 --out "$work/shard3"
+expect 2 'lacks shard 1/5, 2/5, 4/5, 5/5' experiment "$campaign" --merge "$work/shard3"
+expect 2 '--merge = [0-9]+: is a fault that is (missing|there twice)' experiment "$campaign" --merge "$work/shard1" "$work/shard3"
 expect 0 'fault 3: [a-z_]+ ' experiment "$campaign" --replay 3
 for fault in 2 3 8; do
   "$program" experiment "$campaign" --replay $fault >"$work/replay.txt"
