@@ -30,7 +30,11 @@ void read_occasions(YamlMap& yaml, Fault& fault) {
 }
 
 void read_receivers(YamlMap& yaml, Fault& fault) {
-  if (yaml.has("receivers")) fault.receiver_names = yaml.texts("receivers");
+  if (!yaml.has("receivers")) return;
+  fault.receiver_names = yaml.texts("receivers");
+  std::vector<std::string> names = fault.receiver_names;
+  std::sort(names.begin(), names.end());
+  if (std::adjacent_find(names.begin(), names.end()) != names.end()) yaml.fail("receivers", "must be different nodes");
 }
 
 void read_bursts(YamlMap& yaml, Fault& fault) {
@@ -111,6 +115,7 @@ void read_parameters(YamlMap& yaml, Fault& fault, Duration latest) {
     case FaultKind::kMasquerading: read_masquerading(yaml, fault); break;
     case FaultKind::kSosTiming:
       fault.shift = yaml.duration("shift", {-kMostEarly, Duration::milliseconds(1)});
+      if (yaml.has("shift") && fault.shift == Duration{}) yaml.fail("shift", "must not be 0, by which nothing is late or early");
       read_receivers(yaml, fault);
       break;
     case FaultKind::kSosValue: read_receivers(yaml, fault); break;

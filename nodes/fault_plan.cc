@@ -36,7 +36,7 @@ class Resolver {
   NodeId find(std::string_view key, const std::string& name) {
     const auto node = cluster_.find_node(name);
     if (!node)
-      fail(key, name, "must be a node");
+      fail(key, name, "must be a node", ": " + names_on_flexray());
     else if (!cluster_.node(*node).flexray)
       fail(key, name, "must be on FlexRay");
     return node.value_or(kNoNode);
@@ -75,9 +75,15 @@ class Resolver {
     findings_.add({file_, fault_->line, fmt::format("faults[{}].{}", index_, by ? "by" : "slot"),
                    by ? fmt::to_string(fault_->by) : "", objection});
   }
-  void fail(std::string_view key, std::string value, std::string_view expected) {
+  std::string names_on_flexray() const {
+    std::string names;
+    for (const schedules::Node& node : cluster_.nodes)
+      if (node.flexray) names += (names.empty() ? "" : ", ") + node.name;
+    return names;
+  }
+  void fail(std::string_view key, std::string value, std::string_view expected, std::string_view more = {}) {
     findings_.add({file_, fault_->line, fmt::format("faults[{}].{}", index_, key), std::move(value),
-                   fmt::format("{} of {}", expected, cluster_.name)});
+                   fmt::format("{} of {}{}", expected, cluster_.name, more)});
   }
   void fail_number(std::string_view key, int value, std::string_view expected) {
     fail(key, fmt::to_string(value), expected);

@@ -24,8 +24,8 @@ class BitFlips final : public FrameFault {
     const int flips = flip(frame, index_of(signal.channel));
     if (flips == 0) return true;
     if (fault().receivers.empty()) signal.bytes = frame.whole();
-    acted("{} bit{} of a frame of {} on {} inverted", flips, flips == 1 ? " is" : "s are",
-          name(signal.sender), letter(signal.channel));
+    acted("{} bit{} of a frame of {} on {} {} inverted", flips, flips == 1 ? "" : "s", name(signal.sender),
+          letter(signal.channel), flips == 1 ? "is" : "are");
     return true;
   }
   bool arriving(Arriving& signal, bool emitted) override {

@@ -29,7 +29,9 @@ class SosTiming final : public FrameFault {
 
   bool leaving(Leaving& signal) override {
     if (!befalls(signal)) return true;
-    acted("a frame of {} on {} is {} ns late", name(signal.sender), letter(signal.channel), fault().shift.ns);
+    const std::int64_t shift = fault().shift.ns;
+    acted("a frame of {} on {} is {} ns {}", name(signal.sender), letter(signal.channel), shift < 0 ? -shift : shift,
+          shift < 0 ? "early" : "late");
     if (fault().receivers.empty()) shift_by(signal, fault().shift, plant().now());
     return true;
   }

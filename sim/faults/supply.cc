@@ -39,7 +39,7 @@ class Drift final : public ActiveFault {
   TrueTime next() const override { return next_; }
   void act(TrueTime) override {
     plant().change_drift(fault().node, fault().drift_ppb);
-    acted("{} drifts by {} ppb from now on", name(fault().node), fault().drift_ppb);
+    acted("{} drifts by {} ppm from now on", name(fault().node), static_cast<double>(fault().drift_ppb) / 1000.0);
     next_ = Disturbance::kNever;
   }
 

@@ -180,6 +180,8 @@ TEST(FaultPlan, MistakesAreSaidInOneSentence) {
       {"{kind: masquerading, node: a, slot: 1024}", "faults[0].slot = 1024: must be a whole number 1..1023"},
       {"{kind: sos_timing, node: a}", "faults[0].shift: is missing"},
       {"{kind: sos_timing, node: a, shift: -10 us}", "faults[0].shift = -10 us: must be a time"},
+      {"{kind: sos_timing, node: a, shift: 0 us}", "faults[0].shift = 0 us: must not be 0"},
+      {"{kind: sos_timing, node: a, shift: 1 us, receivers: [b, c, b]}", "faults[0].receivers: must be different nodes"},
       {"{kind: sos_timing, node: a, shift: 1 us, receivers: b}", "faults[0].receivers = b: must be a list"},
       {"{kind: sos_timing, node: a, shift: 1 us, receivers: []}",
        "faults[0].receivers: must be a list with at least one entry"},
@@ -273,6 +275,8 @@ TEST(FaultPlan, WhatTheClusterHasNotIsRefused) {
                                  cluster);
   ASSERT_EQ(sentences.size(), 7U);
   EXPECT_THAT(sentences[0], HasSubstr("drive.yaml:2: faults[0].node = nobody: must be a node of "));
+  for (const schedules::Node& node : cluster.nodes)
+    EXPECT_EQ(sentences[0].find(node.name) != std::string::npos, node.flexray.has_value()) << node.name << " in " << sentences[0];
   EXPECT_THAT(sentences[1], HasSubstr("drive.yaml:3: faults[1].node = " + off_bus + ": must be on FlexRay of "));
   EXPECT_THAT(sentences[2], HasSubstr("drive.yaml:4: faults[2].receivers = nobody: must be a node of "));
   EXPECT_THAT(sentences[3], HasSubstr("drive.yaml:5: faults[3].slot = 1023: must be 1.."));

@@ -28,6 +28,30 @@ TEST(FrameFaults, WithoutAFaultNobodyHasAnythingToSay) {
   EXPECT_TRUE(bus.activities().empty());
 }
 
+// What the log and the run's table say of a fault's first act.
+TEST(FrameFaults, SayInWordsWhatTheyDo) {
+  const auto first_act = [](const nodes::Fault& fault) {
+    const FaultBus bus(fault, 15);
+    for (const FaultBus::Activity& activity : bus.activities())
+      if (activity.what == records::kFaultActs) return activity.text;
+    return std::string("nothing");
+  };
+  nodes::Fault flips = fault_of(FaultKind::kBitFlipPayload, 1);
+  EXPECT_EQ(first_act(flips), "1 bit of a frame of node1 on A is inverted");
+  flips.flips = 2;
+  EXPECT_EQ(first_act(flips), "2 bits of a frame of node1 on A are inverted");
+  nodes::Fault timing = fault_of(FaultKind::kSosTiming, 1);
+  timing.shift = Duration{2000};
+  EXPECT_EQ(first_act(timing), "a frame of node1 on A is 2000 ns late");
+  timing.shift = Duration{-2000};
+  EXPECT_EQ(first_act(timing), "a frame of node1 on A is 2000 ns early");
+  nodes::Fault drift = fault_of(FaultKind::kDrift, 1);
+  for (const auto& [ppb, words] : {std::pair{300'000, "300"}, std::pair{-1'500'250, "-1500.25"}, std::pair{123'457, "123.457"}}) {
+    drift.drift_ppb = ppb;
+    EXPECT_EQ(first_act(drift), fmt::format("node1 drifts by {} ppm from now on", words));
+  }
+}
+
 TEST(FrameFaults, OmissionLeavesASlotEmptyForAllReceivers) {
   nodes::Fault fault = fault_of(FaultKind::kOmission, 1, 10, 10);
   fault.channels = Channels::kA;
