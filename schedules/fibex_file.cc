@@ -77,6 +77,11 @@ std::optional<double> FibexReader::number(XmlElement& element, std::string_view 
   return found.empty() ? std::nullopt : std::optional<double>(found.front());
 }
 
+bool FibexReader::is_flexray(XmlElement& element, std::string_view type, std::string_view witness) {
+  const std::string given = element.attribute("xsi:type");
+  return given.empty() ? element.has(witness) : given == fmt::format("flexray:{}", type);
+}
+
 void FibexReader::fail(const XmlElement& element, std::string value, std::string expected) {
   wrong_.add({file_, element.line(), element.path(), std::move(value), std::move(expected)});
 }
@@ -89,28 +94,6 @@ namespace {
 
 constexpr int kLastSlotId = 2047;  // cSlotIDMax
 constexpr std::int64_t kPsPerUs = 1'000'000;
-
-// Sets the parameters whose elements are there.
-template <class Parameters, std::size_t kCount>
-void read_parameters(XmlElement& element, const FibexParameter (&table)[kCount], Parameters& parameters,
-                     std::set<std::string, std::less<>>& given, FibexReader& reader) {
-  for (const FibexParameter& one : table) {
-    auto child = element.child(one.element);
-    if (!child) continue;
-    const std::string text = child->text();
-    child->finish();
-    if (const auto expected = set_fibex_value(parameters, one.name, text))
-      reader.fail(*child, text, fmt::format("{} ({})", *expected, one.name));
-    else
-      given.insert(std::string(one.name));
-  }
-}
-
-// By its xsi:type, or, where it has none, by an element that only FlexRay has.
-bool is_flexray(XmlElement& element, std::string_view type, std::string_view witness) {
-  const std::string given = element.attribute("xsi:type");
-  return given.empty() ? element.has(witness) : given == fmt::format("flexray:{}", type);
-}
 
 // An eighth of gdBit (cSamplesPerBit), which is read, or else derived from the bit rate.
 void read_sample_clock(XmlElement& cluster, const FibexFile& file, FibexReader& reader) {
@@ -152,14 +135,14 @@ void read_cluster(XmlElement& cluster, FibexFile& out, FibexReader& reader) {
   static constexpr FibexParameter kSpeed[] = {{"baudrate", "fx:SPEED"}};
   out.cluster_name = reader.name_of(cluster);
   out.cluster_line = cluster.line();
-  read_parameters(cluster, kSpeed, out.global, out.given, reader);
-  read_parameters(cluster, kFibexCluster, out.global, out.given, reader);
+  reader.parameters(cluster, kSpeed, out.global, out.given);
+  reader.parameters(cluster, kFibexCluster, out.global, out.given);
   if (auto wake_up = cluster.child("flexray:WAKE-UP")) {
-    read_parameters(*wake_up, kFibexWakeUp, out.global, out.given, reader);
+    reader.parameters(*wake_up, kFibexWakeUp, out.global, out.given);
     wake_up->finish();
   }
   if (auto extension = cluster.child("fx:MANUFACTURER-EXTENSION")) {
-    read_parameters(*extension, kFibexExtension, out.global, out.given, reader);
+    reader.parameters(*extension, kFibexExtension, out.global, out.given);
     if (const auto topology = extension->text_of("ttf:TOPOLOGY")) {
       if (*topology != "star" && *topology != "bus") reader.fail(*extension, *topology, "must have a TOPOLOGY bus or star");
       out.topology = *topology == "star" ? Topology::kStar : Topology::kBus;
@@ -222,123 +205,6 @@ std::optional<Channel> read_channel(XmlElement& channel, FibexFile& out, FibexRe
   return name == "B" ? Channel::kB : Channel::kA;
 }
 
-// STARTUP-SYNC and SYNC hold the slot; NONE none, which our own extension adds.
-void read_key_slot(XmlElement& controller, FibexEcu& out, FibexReader& reader) {
-  static constexpr FibexParameter kKeySlot[] = {{"pKeySlotId", "flexray:STARTUP-SYNC"},
-                                                {"pKeySlotId", "flexray:SYNC"},
-                                                {"pKeySlotId", "ttf:KEY-SLOT-ID"}};
-  if (auto usage = controller.child("flexray:KEY-SLOT-USAGE")) {
-    out.parameters.pKeySlotUsedForStartup = usage->has("flexray:STARTUP-SYNC");
-    out.parameters.pKeySlotUsedForSync = usage->has("flexray:STARTUP-SYNC") || usage->has("flexray:SYNC");
-    for (const char* flag : {"pKeySlotUsedForStartup", "pKeySlotUsedForSync"}) out.given.insert(flag);
-    usage->ignore("flexray:NONE");
-    read_parameters(*usage, kKeySlot, out.parameters, out.given, reader);
-    usage->finish();
-  }
-  if (auto extension = controller.child("fx:MANUFACTURER-EXTENSION")) {
-    read_parameters(*extension, kKeySlot, out.parameters, out.given, reader);
-    extension->finish();
-  }
-}
-
-void read_controller(XmlElement& controller, FibexEcu& out, FibexReader& reader) {
-  out.has_controller = true;
-  out.controller_line = controller.line();
-  controller.ignore("ho:SHORT-NAME");
-  read_key_slot(controller, out, reader);
-  read_parameters(controller, kFibexController, out.parameters, out.given, reader);
-  // Both follow from others, if these are there.
-  if (controller.has("flexray:MAX-DRIFT"))
-    out.max_drift = reader.integer(controller, "flexray:MAX-DRIFT", kLeastMaxDrift, kMostMaxDrift);
-  if (controller.has("flexray:MICRO-PER-MACRO-NOM"))
-    out.micro_per_macro = reader.integer(controller, "flexray:MICRO-PER-MACRO-NOM", 20, 240);
-  if (controller.has("flexray:MAX-DYNAMIC-PAYLOAD-LENGTH"))
-    out.max_dynamic_words = reader.integer(controller, "flexray:MAX-DYNAMIC-PAYLOAD-LENGTH", 0, 127);
-  controller.finish();
-}
-
-// Channels by the ids of their elements.
-using ChannelIds = std::map<std::string, Channel>;
-
-// Whether a connector is a plug of the ECU's FlexRay controller on the cluster. Where it does not say of which controller or
-// channel it is, it is.
-bool is_of_the_cluster(XmlElement& connector, const std::set<std::string>& controllers, const std::string& controller,
-                       const ChannelIds& channels, FibexReader& reader) {
-  const std::string of = connector.reference("fx:CONTROLLER-REF"), on = connector.reference("fx:CHANNEL-REF");
-  if (!of.empty() && !controllers.contains(of)) {
-    reader.fail(connector, of, "must have a CONTROLLER-REF to a controller of its ECU");
-    return false;
-  }
-  if (!of.empty() && of != controller)
-    reader.leave_out(connector, of, "is of another controller than the ECU's first on FlexRay, and left out");
-  else if (!on.empty() && !channels.contains(on))
-    reader.leave_out(connector, on, "is on no channel of the first FlexRay cluster, and left out");
-  else
-    return true;
-  return false;
-}
-
-// A connector is a node's plug on one channel. One that names none says nothing of pChannels.
-void read_attachment(XmlElement& connector, const ChannelIds& channels, unsigned& attached, FibexEcu& out,
-                     FibexReader& reader) {
-  const bool wakes = connector.has("flexray:WAKE-UP-CHANNEL");
-  const bool wakeup = reader.boolean(connector, "flexray:WAKE-UP-CHANNEL", false);
-  const auto channel = channels.find(connector.reference("fx:CHANNEL-REF"));
-  if (channel == channels.end()) return;
-  attached |= 1u << static_cast<unsigned>(channel->second);
-  if (!wakes) return;
-  if (wakeup && out.given.contains("pWakeupChannel") && out.parameters.pWakeupChannel != channel->second)
-    return reader.leave_out(connector, "flexray:WAKE-UP-CHANNEL true",
-                            "is left out: a node sends its wake-up pattern on one channel");
-  if (!wakeup) return;
-  out.parameters.pWakeupChannel = channel->second;
-  out.given.insert("pWakeupChannel");
-}
-
-void read_ecu(XmlElement& ecu, const ChannelIds& channels, FibexFile& out, FibexReader& reader) {
-  FibexEcu one;
-  one.name = reader.name_of(ecu);
-  one.line = ecu.line();
-  std::set<std::string> controllers;  // by ID
-  std::string used;
-  for (XmlElement& controller : ecu.children_of("fx:CONTROLLERS", "fx:CONTROLLER")) {
-    const std::string id = controller.attribute("ID");
-    controllers.insert(id);
-    if (one.has_controller || !is_flexray(controller, "CONTROLLER-TYPE", "flexray:MICRO-PER-CYCLE"))
-      reader.leave_out(controller, controller.attribute("ID"),
-                       "is not the ECU's first FlexRay controller, and left out");
-    else
-      read_controller(controller, one, reader);
-    if (one.has_controller && used.empty()) used = id;
-  }
-  unsigned attached = 0;
-  auto connectors = ecu.children_of("fx:CONNECTORS", "fx:CONNECTOR");
-  bool elsewhere = !connectors.empty();
-  for (XmlElement& connector : connectors) {
-    if (!is_of_the_cluster(connector, controllers, used, channels, reader)) continue;
-    elsewhere = false;
-    read_attachment(connector, channels, attached, one, reader);
-    const auto ports = [&](const char* list, const char* port, std::vector<std::string>& to) {
-      for (XmlElement& item : connector.children_of(list, port)) {
-        to.push_back(item.reference("fx:FRAME-TRIGGERING-REF"));
-        item.ignore("fx:COMPLETE-FRAME");
-        item.finish();
-      }
-    };
-    ports("fx:INPUTS", "fx:INPUT-PORT", one.receives);
-    ports("fx:OUTPUTS", "fx:OUTPUT-PORT", one.sends);
-    connector.finish();
-  }
-  if (elsewhere) one.has_controller = false;  // on another cluster, as far as this one knows
-  if (attached != 0) {
-    one.parameters.pChannels = static_cast<Channels>(attached);
-    one.given.insert("pChannels");
-  }
-  if (!one.given.contains("pWakeupChannel")) one.parameters.pWakeupChannel = default_wakeup(one.parameters.pChannels);
-  ecu.finish();
-  out.ecus.push_back(std::move(one));
-}
-
 bool is_understood(const std::string& version) {
   const bool digits = std::all_of(version.begin(), version.end(), [](char c) { return c == '.' || (c >= '0' && c <= '9'); });
   return digits && version.size() > 1 && version[0] >= '2' && version[0] <= '4' && version[1] == '.';
@@ -349,7 +215,7 @@ ChannelIds read_channels(XmlElement& elements, FibexFile& out, FibexReader& read
   ChannelIds channels;
   for (XmlElement& channel : elements.children_of("fx:CHANNELS", "fx:CHANNEL")) {
     const std::string id = channel.attribute("ID");
-    if (!is_flexray(channel, "CHANNEL-TYPE", "flexray:FLEXRAY-CHANNEL-NAME")) {
+    if (!reader.is_flexray(channel, "CHANNEL-TYPE", "flexray:FLEXRAY-CHANNEL-NAME")) {
       reader.leave_out(channel, id, "is no FlexRay channel, and left out");
     } else if (!out.channels.empty() && !out.channels.contains(id)) {
       reader.leave_out(channel, id, "is no channel of the first FlexRay cluster, and left out");
@@ -385,7 +251,7 @@ FibexFile read_fibex(const XmlFile& file, Findings& wrong, Findings& left_out) {
   }
   bool found = false;
   for (XmlElement& cluster : elements->children_of("fx:CLUSTERS", "fx:CLUSTER")) {
-    if (found || !is_flexray(cluster, "CLUSTER-TYPE", "flexray:MACRO-PER-CYCLE")) {
+    if (found || !reader.is_flexray(cluster, "CLUSTER-TYPE", "flexray:MACRO-PER-CYCLE")) {
       reader.leave_out(cluster, cluster.attribute("ID"), "is not the first FlexRay cluster, and left out");
       continue;
     }
@@ -394,7 +260,7 @@ FibexFile read_fibex(const XmlFile& file, Findings& wrong, Findings& left_out) {
   }
   if (!found) reader.fail(*elements, "", "must have a cluster of xsi:type flexray:CLUSTER-TYPE");
   const ChannelIds channels = read_channels(*elements, out, reader);
-  for (XmlElement& ecu : elements->children_of("fx:ECUS", "fx:ECU")) read_ecu(ecu, channels, out, reader);
+  out.ecus = read_ecus(*elements, channels, reader);
   const auto codings = read_codings(root, *elements, reader);
   out.pdus = read_pdus(*elements, codings, reader);
   out.frames = read_frames(*elements, reader);

@@ -16,6 +16,7 @@
 
 #include "core/errors.h"
 #include "schedules/cluster.h"
+#include "schedules/fibex_parameters.h"
 #include "schedules/xml_file.h"
 
 namespace ttf::schedules {
@@ -107,7 +108,7 @@ struct FibexFile {
 // What is wrong goes to `wrong`, what is not understood to `left_out`.
 FibexFile read_fibex(const XmlFile& file, Findings& wrong, Findings& left_out);
 
-// The parts of read_fibex (fibex_file.cc, fibex_signals.cc), and what they share.
+// The parts of read_fibex (fibex_file.cc, fibex_ecus.cc, fibex_signals.cc), and what they share.
 class FibexReader {
  public:
   FibexReader(const std::string& file, Findings& wrong, Findings& left_out)
@@ -124,6 +125,24 @@ class FibexReader {
   std::vector<double> numbers(XmlElement& element, std::string_view name);
   std::optional<double> number(XmlElement& element, std::string_view name);
 
+  // By its xsi:type, or, where it has none, by an element that only FlexRay has.
+  bool is_flexray(XmlElement& element, std::string_view type, std::string_view witness);
+  // Sets the parameters whose elements are there.
+  template <class Parameters, std::size_t kCount>
+  void parameters(XmlElement& element, const FibexParameter (&table)[kCount], Parameters& parameters,
+                  std::set<std::string, std::less<>>& given) {
+    for (const FibexParameter& one : table) {
+      auto child = element.child(one.element);
+      if (!child) continue;
+      const std::string text = child->text();
+      child->finish();
+      if (const auto expected = set_fibex_value(parameters, one.name, text))
+        fail(*child, text, *expected + " (" + std::string(one.name) + ")");
+      else
+        given.insert(std::string(one.name));
+    }
+  }
+
   void fail(const XmlElement& element, std::string value, std::string expected);
   void leave_out(const XmlElement& element, std::string value, std::string why);
 
@@ -133,6 +152,10 @@ class FibexReader {
   Findings& left_out_;
 };
 
+// Channels by the ids of their elements.
+using ChannelIds = std::map<std::string, Channel>;
+
+std::vector<FibexEcu> read_ecus(XmlElement& elements, const ChannelIds& channels, FibexReader& reader);
 std::map<std::string, FibexCoding> read_codings(XmlElement& root, XmlElement& elements, FibexReader& reader);
 std::vector<FibexPdu> read_pdus(XmlElement& elements, const std::map<std::string, FibexCoding>& codings,
                                 FibexReader& reader);
