@@ -21,14 +21,19 @@ std::uint8_t crc_state(const wire::FrameCrcs& crcs) {
 
 }  // namespace
 
-ChannelLog::ChannelLog(const schedules::GlobalParameters& flexray, std::size_t most, records::Sink& sink)
+ChannelLog::ChannelLog(const schedules::GlobalParameters& flexray, std::size_t room, records::Sink& sink)
     : bit_ps_(flexray.gdBit_ps),
       bits_before_bytes_(flexray.gdTSSTransmitter + kFrameStartBits),
-      sink_(sink),
-      ways_(most) {
-  TTF_CHECK(most < kNone, "{} signals on their way", most);
-  free_.reserve(most);
-  for (std::size_t w = most; w-- > 0;) free_.push_back(static_cast<Id>(w));
+      sink_(sink) {
+  add_ways(room);
+}
+
+void ChannelLog::add_ways(std::size_t count) {
+  const std::size_t before = ways_.size();
+  TTF_CHECK(before + count < kNone, "{} signals on their way", before);
+  ways_.resize(before + count);
+  free_.reserve(ways_.size());
+  for (std::size_t w = ways_.size(); w-- > before;) free_.push_back(static_cast<Id>(w));
 }
 
 void ChannelLog::Bytes::set(std::span<const std::byte> bytes) {
@@ -37,7 +42,7 @@ void ChannelLog::Bytes::set(std::span<const std::byte> bytes) {
 }
 
 ChannelLog::Way& ChannelLog::take(Id& id) {
-  TTF_CHECK(!free_.empty(), "{} signals are on their way", ways_.size());
+  if (free_.empty()) add_ways(ways_.size());
   id = free_.back();
   free_.pop_back();
   Way& way = ways_[id];

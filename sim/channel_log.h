@@ -5,7 +5,7 @@
 // The medium tells it of each signal's way and asks nothing: a run is the same with and without it. Only frames and
 // activity that nobody can make out have a way here; symbols have none. A frame counts as what the best-placed receiver
 // had: as one that nobody can make out only if that befell it at all who hear it (who sends at the same time does not make
-// it out), as changed only if all who can make it out have the same other bytes. Nothing here allocates after construction.
+// it out), as changed only if all who can make it out have the same other bytes. Nothing here allocates after construction, while there is room.
 #pragma once
 
 #include <array>
@@ -30,8 +30,8 @@ class ChannelLog {
   using Id = std::uint16_t;
   static constexpr Id kNone = std::numeric_limits<Id>::max();   // of what has no way here: told of, it is ignored
 
-  // `most`: signals on their way at once, below kNone.
-  ChannelLog(const schedules::GlobalParameters& flexray, std::size_t most, records::Sink& sink);
+  // `room`: for signals on their way at once. Where there are more, it takes more; they are fewer than kNone.
+  ChannelLog(const schedules::GlobalParameters& flexray, std::size_t room, records::Sink& sink);
 
   // A way begins: with what a controller sends, and its true instants at the sender; or with no controller.
   Id sent(NodeId sender, const bus::Transmission& transmission, TrueTime start, TrueTime end);
@@ -72,6 +72,7 @@ class ChannelLog {
     bool altered = false;           // not as it was sent
     bool unlike = false;            // receivers have different bytes
   };
+  void add_ways(std::size_t count);
   Way& take(Id& id);
   void report(Way& way);
   std::size_t bytes_until_break(const Way& way) const;

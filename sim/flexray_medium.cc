@@ -37,7 +37,7 @@ FlexRayMedium::FlexRayMedium(const schedules::Cluster& cluster, MediumQueue& que
         attached_[index_of(channel)].push_back(static_cast<NodeId>(n));
   }
   ends_ = on_bus - 1;
-  to_coupler_.reserve(kLaneRoom);
+  to_coupler_.reserve(kFlights);
   for (const Channel channel : {Channel::kA, Channel::kB}) {
     from_nowhere_[index_of(channel)] = make_way(channel, std::nullopt, false);
     if (star_) from_coupler_[index_of(channel)] = make_way(channel, std::nullopt, true);
@@ -46,14 +46,8 @@ FlexRayMedium::FlexRayMedium(const schedules::Cluster& cluster, MediumQueue& que
     for (const Channel channel : {Channel::kA, Channel::kB})
       if (position_[n] >= 0) ways_[n][index_of(channel)] = make_way(channel, static_cast<NodeId>(n), false);
   same_receivers_ = attached_[0] == attached_[1];
-  flights_.resize(kFlights);
-  free_flights_.reserve(kFlights);
-  const auto most = static_cast<std::size_t>(on_bus);
-  stops_.resize(kFlights * most);
-  for (std::size_t f = kFlights; f-- > 0;) {
-    flights_[f].room = std::span(stops_).subspan(f * most, most);
-    free_flights_.push_back(static_cast<std::uint32_t>(f));
-  }
+  most_stops_ = static_cast<std::size_t>(on_bus);
+  add_flights(kFlights);
 }
 
 FlexRayMedium::Way FlexRayMedium::make_way(Channel channel, std::optional<NodeId> sender, bool from_coupler) const {
@@ -201,12 +195,27 @@ void FlexRayMedium::at_coupler(const MediumEvent& event) {
   release(arrived);
 }
 
+// Flights move: nobody holds on to one across this.
+void FlexRayMedium::add_flights(std::size_t count) {
+  const std::size_t before = flights_.size();
+  std::array<std::size_t, 2> clear{};
+  for (std::size_t c = 0; c < clear.size(); ++c)
+    if (clear_[c] != nullptr) clear[c] = static_cast<std::size_t>(clear_[c] - flights_.data());
+  flights_.resize(before + count);
+  stops_.resize(flights_.size() * most_stops_);
+  free_flights_.reserve(flights_.size());
+  for (std::size_t f = flights_.size(); f-- > before;) free_flights_.push_back(static_cast<std::uint32_t>(f));
+  for (std::size_t c = 0; c < clear.size(); ++c)
+    if (clear_[c] != nullptr) clear_[c] = &flights_[clear[c]];
+}
+
 FlexRayMedium::Flight& FlexRayMedium::take_off(NodeId sender, Channel channel, ChannelLog::Id logged) {
-  TTF_CHECK(!free_flights_.empty(), "{} signals are on their way", kFlights);
+  if (free_flights_.empty()) add_flights(flights_.size());
   Flight& flight = flights_[free_flights_.back()];
   free_flights_.pop_back();
   ++aloft_[index_of(channel)];
   flight.size = flight.next = 0;
+  flight.last_heard = {TrueTime{}, kNoNode, 0};
   flight.logged = logged;
   flight.sender = sender;
   flight.channel = channel;
@@ -245,42 +254,48 @@ void FlexRayMedium::speaks(NodeId node, const Leaving& signal) {
   }
 }
 
-// A stop more: what arrives there, together with what it overlaps with.
+// What arrives there, together with what it overlaps with: a stop more, unless something that is on its way already ends
+// last and has one.
 void FlexRayMedium::put(Flight& flight, NodeId receiver, const Arrival& arrival) {
   Lane& pending = lane(receiver, arrival.channel);
   Pending made{arrival, next_id_++, flight.sender, false};
+  const Stop own{arrival.end, receiver, made.id};
+  if (flight.last_heard.receiver == kNoNode || own.end > flight.last_heard.end) flight.last_heard = own;
   for (std::size_t i = 0; i < pending.size();) {
-    if (!overlap(pending[i].arrival, made.arrival)) {
+    const Pending other = pending[i];
+    if (!overlap(other.arrival, made.arrival)) {
       ++i;
       continue;
     }
     // Two become one.
-    const Arrival other = pending[i].arrival;
-    const bool cas = other.signal == Signal::kCas && made.arrival.signal == Signal::kCas;
-    release(other);
+    const bool cas = other.arrival.signal == Signal::kCas && made.arrival.signal == Signal::kCas;
+    release(other.arrival);
     release(made.arrival);
-    if (log_ != nullptr) log_->lost(made.arrival.logged), log_->lost(other.logged);
+    if (log_ != nullptr) log_->lost(made.arrival.logged), log_->lost(other.arrival.logged);
+    if (other.arrival.end >= made.arrival.end) made.id = other.id;   // else the other's stop will find nothing
     made.arrival.logged = ChannelLog::kNone;
     made.arrival.signal = cas ? Signal::kCas : Signal::kUndecodable;
-    made.arrival.start = std::min(made.arrival.start, other.start);
-    made.arrival.end = std::max(made.arrival.end, other.end);
+    made.arrival.start = std::min(made.arrival.start, other.arrival.start);
+    made.arrival.end = std::max(made.arrival.end, other.arrival.end);
     made.merged = true;
-    pending.take_out(i);   // its stop will find nothing
+    pending.take_out(i);
     i = 0;   // grown, it may reach what it did not reach before
   }
-  TTF_CHECK(pending.size() < kLaneRoom, "{} signals on their way to one node", pending.size());
   pending.add(made);
-  flight.room[flight.size++] = {made.arrival.end, receiver, made.id};
+  if (made.id == own.id) stops_of(flight)[flight.size++] = own;
 }
 
 void FlexRayMedium::depart(Flight& flight) {
   const auto by_end = [](const Stop& a, const Stop& b) {
     return a.end != b.end ? a.end < b.end : a.receiver < b.receiver;
   };
+  // Drawn into others everywhere: it has no stop. The log hears of it when it is over, as of any: it may break off.
+  if (flight.size == 0 && flight.logged != ChannelLog::kNone && flight.last_heard.receiver != kNoNode)
+    stops_of(flight)[flight.size++] = flight.last_heard;
+  if (flight.size == 0) return land(flight);
   // As the way is, unless something has changed a signal on its last metre.
-  const std::span<Stop> stops = flight.room.first(flight.size);
+  const std::span<Stop> stops = stops_of(flight).first(flight.size);
   if (!std::is_sorted(stops.begin(), stops.end(), by_end)) std::sort(stops.begin(), stops.end(), by_end);
-  if (stops.empty()) return land(flight);
   schedule(flight);
 }
 
@@ -310,7 +325,7 @@ FlexRayMedium::Stopover FlexRayMedium::stop_over_noted(const MediumEvent& event,
     return {};
   }
   Flight& flight = flights_[event.frame];
-  const Stop stop = flight.room[flight.next++];
+  const Stop stop = stops_of(flight)[flight.next++];
   Stopover here;
   here.goes_on = flight.next < flight.size;
   if (!here.goes_on) land(flight);
@@ -343,6 +358,7 @@ void FlexRayMedium::power_off(NodeId node, TrueTime now) {
     Lane& incoming = lane(node, channel);
     for (const Pending& one : incoming) release(one.arrival);
     incoming.clear();
+    Flight* left = nullptr;   // what is left of it
     TrueTime& until = sent_until_[lane_of(node, channel)];
     if (until > now) busy_[index_of(channel)] += now - until;
     until = std::min(until, now);
@@ -364,11 +380,11 @@ void FlexRayMedium::power_off(NodeId node, TrueTime now) {
         rest.signal = Signal::kUndecodable;
         rest.end = ends + on_the_way;
         rest.logged = ChannelLog::kNone;
-        Flight& flight = take_off(node, channel, ChannelLog::kNone);
-        put(flight, receiver, rest);
-        depart(flight);
+        if (left == nullptr) left = &take_off(node, channel, ChannelLog::kNone);
+        put(*left, receiver, rest);
       }
     }
+    if (left != nullptr) depart(*left);
   }
 }
 

@@ -34,7 +34,11 @@ namespace ttf::sim {
 
 class FlexRayMedium {
  public:
-  // Signals that can be on their way at once, whoever they are for, beside those that have not reached a coupler yet.
+  // Signals on their way at once that there is room for from the beginning, beside those that have not reached a coupler
+  // yet. A signal is one until it has ended at its last receiver, and no longer: what it is drawn into, or what is drawn
+  // into it, arrives with the one of them that ends last. So there are, on either channel, at most one that a node sends,
+  // what is left of one that broke off, one that each fault makes of nothing, and what a fault makes late: a slot's frame
+  // for each slot in that time. Where a plan of faults makes more of it than this, there is more room.
   static constexpr std::size_t kFlights = 512;
   // The frames and the events of the queue that it may need.
   static constexpr std::size_t kMostPending = kFlights + 64;
@@ -104,25 +108,27 @@ class FlexRayMedium {
     NodeId sender{};
     bool merged = false;              // of several signals
   };
-  // More than can ever be on its way to a node at once, were all others to babble.
+  // Those on their way to one node on one channel, in no order, no two of them at once: hardly ever more than one, but for
+  // what a fault makes late.
   static constexpr std::size_t kLaneRoom = 64;
-  // Those on their way to one node on one channel, in no order: one at a time, as a rule.
   class Lane {
    public:
-    Lane() : room_(kLaneRoom) {}
-    std::size_t size() const { return size_; }
-    Pending* begin() { return room_.data(); }
-    Pending* end() { return room_.data() + size_; }
-    const Pending* begin() const { return room_.data(); }
-    const Pending* end() const { return room_.data() + size_; }
+    Lane() { room_.reserve(kLaneRoom); }
+    std::size_t size() const { return room_.size(); }
+    auto begin() { return room_.begin(); }
+    auto end() { return room_.end(); }
+    auto begin() const { return room_.begin(); }
+    auto end() const { return room_.end(); }
     Pending& operator[](std::size_t index) { return room_[index]; }
-    void add(const Pending& pending) { room_[size_++] = pending; }
-    void take_out(std::size_t index) { room_[index] = room_[--size_]; }
-    void clear() { size_ = 0; }
+    void add(const Pending& pending) { room_.push_back(pending); }
+    void take_out(std::size_t index) {
+      room_[index] = room_.back();
+      room_.pop_back();
+    }
+    void clear() { room_.clear(); }
 
    private:
     std::vector<Pending> room_;
-    std::size_t size_ = 0;
   };
   // From a sender, or from the coupler of a star, to a node.
   struct Leg {
@@ -141,8 +147,8 @@ class FlexRayMedium {
   // leads, and no lane knows of it. What leaves on both channels at once and is clear on both, for the same receivers,
   // is one flight, which stops on A and then on B.
   struct Flight {
-    std::span<Stop> room;             // in stops_, for every node; not of a clear flight
-    std::size_t size = 0, next = 0;   // stops, by (end, receiver) once it has departed
+    std::size_t size = 0, next = 0;   // stops, by (end, receiver) once it has departed; none of a clear flight
+    Stop last_heard;                  // the end of what it brings, wherever that is drawn into
     std::uint64_t sequence = 0;       // in the queue
     ChannelLog::Id logged = ChannelLog::kNone;
     NodeId sender{};
@@ -170,6 +176,10 @@ class FlexRayMedium {
               const wire::DecodedFrame* content = nullptr);
   void to_coupler(const Leaving& signal, NodeId sender, TrueTime now, ChannelLog::Id logged);
   void at_coupler(const MediumEvent& event);
+  std::span<Stop> stops_of(const Flight& flight) {
+    return std::span(stops_).subspan(static_cast<std::size_t>(&flight - flights_.data()) * most_stops_, most_stops_);
+  }
+  void add_flights(std::size_t count);
   Flight& take_off(NodeId sender, schedules::Channel channel, ChannelLog::Id logged);
   void land(Flight& flight);
   ChannelLog::Id witness(ChannelLog::Id logged, const Leaving& signal, const Arriving& last, bool arrives);
@@ -208,7 +218,8 @@ class FlexRayMedium {
   bool same_receivers_;                           // whoever is attached is so to both channels
   std::vector<Ways> ways_;                        // by sender
   Ways from_nowhere_, from_coupler_;
-  std::vector<Stop> stops_;
+  std::vector<Stop> stops_;                       // most_stops_ for each flight
+  std::size_t most_stops_;                        // a node each
   std::vector<Flight> flights_;
   std::vector<std::uint32_t> free_flights_;
   std::array<Flight*, 2> clear_{};                // by channel; null where there is none
@@ -250,9 +261,9 @@ inline FlexRayMedium::Stopover FlexRayMedium::stop_over_clear(Flight& flight, Tr
 inline EventOrder FlexRayMedium::next_arrival(MediumEvent& event) const {
   const Flight& flight = flights_[event.frame];
   const bool clear = flight.ways != nullptr;
-  const NodeId receiver = clear ? flight.leg->receiver : flight.room[flight.next].receiver;
-  const TrueTime end =
-      clear ? flight.left[index_of(flight.channel)].end + flight.leg->delay : flight.room[flight.next].end;
+  const Stop* const stop = clear ? nullptr : &stops_[event.frame * most_stops_ + flight.next];
+  const NodeId receiver = clear ? flight.leg->receiver : stop->receiver;
+  const TrueTime end = clear ? flight.left[index_of(flight.channel)].end + flight.leg->delay : stop->end;
   event.node = static_cast<std::uint8_t>(receiver);
   event.channel_or_bus = static_cast<std::uint8_t>(flight.channel);
   const auto rank = static_cast<std::uint16_t>((index_of(flight.channel) << 8) | index_of(flight.sender));

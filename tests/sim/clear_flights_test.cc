@@ -177,6 +177,43 @@ TEST_P(ClearFlights, WhatArrivesIsWhatDelaysAndOverlapsSay) {
   EXPECT_GT(drawn_together, 1000);
 }
 
+// A noise of 100 ms, and in it 10 us bursts and frames, one behind the other: more of them than there is room for at once.
+TEST_P(ClearFlights, WhatIsDrawnIntoALongNoiseIsOverWhenItEnds) {
+  Line line(std::get<0>(GetParam()), std::get<1>(GetParam()));
+  const TrueTime begins{1'000}, ends = begins + Duration::milliseconds(100);
+  line.send({NodeId{0}, Channel::kA, Signal::kUndecodable, begins, ends, 0});
+  int sent = 0;
+  for (TrueTime now = begins + Duration::microseconds(50); now < ends; now += Duration::microseconds(50), ++sent) {
+    line.run(now);
+    const auto sender = static_cast<NodeId>(1 + sent % 4);
+    const Signal signal = sent % 2 == 0 ? Signal::kUndecodable : Signal::kFrame;
+    line.send({sender, Channel::kA, signal, now, now + Duration::microseconds(10), 1 + sent % 100});
+    if (line.attached(index_of(sender), Channel::kB))
+      line.send({sender, Channel::kB, signal, now, now + Duration::microseconds(10), 1 + sent % 100});
+  }
+  ASSERT_GT(sent, 2 * static_cast<int>(FlexRayMedium::kFlights));
+  line.run(ends + Duration{100'000});
+  EXPECT_TRUE(line.queue.empty());
+  ASSERT_EQ(line.reached, line.expected());
+}
+
+// Each ends later than all before it: none is over before the last one has begun.
+TEST_P(ClearFlights, WhereThereAreMoreThanThereIsRoomForThereIsMoreRoom) {
+  Line line(std::get<0>(GetParam()), std::get<1>(GetParam()));
+  TrueTime now{1'000};
+  const TrueTime ends = now + Duration::milliseconds(2);
+  for (int sent = 0; sent < 3 * static_cast<int>(FlexRayMedium::kFlights); ++sent, now += Duration::microseconds(1)) {
+    line.run(now);
+    line.send({static_cast<NodeId>(sent % 4), Channel::kA, Signal::kCas, now, ends + Duration{10 * sent}, 0});
+  }
+  // Beside it, on the other channel, something that is clear.
+  line.send({NodeId{1}, Channel::kB, Signal::kFrame, now, now + Duration{5'000}, 7});
+  ASSERT_LT(now, ends);
+  line.run(ends + Duration{100'000});
+  EXPECT_TRUE(line.queue.empty());
+  ASSERT_EQ(line.reached, line.expected());
+}
+
 INSTANTIATE_TEST_SUITE_P(Lines, ClearFlights, testing::Combine(testing::Bool(), testing::Bool()));
 
 }  // namespace

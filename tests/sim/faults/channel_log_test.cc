@@ -268,5 +268,39 @@ TEST(ChannelLog, ThroughAStarAFrameBreaksOffWhereItsSenderDoes) {
   }
 }
 
+// 100 ms of noise, and a burst of 10 us in every 100 us of it, beside the frames of four nodes.
+TEST(ChannelLog, WhatIsDrawnIntoALongNoiseIsToldWhenItIsOver) {
+  nodes::Fault noise = fault_of(FaultKind::kNoise, -1, 10, 20);
+  noise.length = noise.interval = Duration::milliseconds(100);
+  nodes::Fault babble = fault_of(FaultKind::kBabblingIdiot, 3, 10, 20);
+  babble.length = Duration::microseconds(10);
+  babble.interval = Duration::microseconds(100);
+  noise.channels = babble.channels = schedules::Channels::kA;
+  const LoggedBus logged(with({noise, babble}), 40);
+  // The noise, 1000 bursts, four frames in each of 20 cycles.
+  ASSERT_EQ(logged.frames().size(), 1U + 1000U + 4U * 20U);
+  EXPECT_EQ(logged.heard.count(records::kChannelCoding), logged.frames().size()) << "nobody can make any of it out";
+  for (std::size_t f = 1; f < logged.frames().size(); ++f)
+    EXPECT_LE(logged.frames()[f - 1].record.end, logged.frames()[f].record.end + Duration::microseconds(3)) << "delays";
+  for (int n = 0; n < 4; ++n) EXPECT_EQ(logged.bus.state(n), bus::PocKind::kNormalActive) << "there is a second channel";
+}
+
+TEST(ChannelLog, WhatIsDrawnIntoALongNoiseMayBreakOff) {
+  nodes::Fault noise = fault_of(FaultKind::kNoise, -1, 10, 10);
+  noise.length = noise.interval = Duration::milliseconds(50);
+  noise.channels = schedules::Channels::kA;
+  nodes::Fault crash = fault_of(FaultKind::kCrash, 2, 12);
+  crash.from = Duration{12 * kCycleNs + 2 * 43'000 + 7'000 + 12'000};   // in its slot, the third
+  const LoggedBus logged(with({noise, crash}), 40);
+  const TrueTime breaks_off = TrueTime{1'000'000} + crash.from;
+  std::size_t cut = 0;
+  for (const Heard::Frame& frame : logged.frames()) {
+    if (frame.record.sender != NodeId{2} || frame.record.start < breaks_off - Duration{40'000}) continue;
+    EXPECT_EQ(frame.record.end, breaks_off) << "channel " << static_cast<int>(frame.record.channel);
+    ++cut;
+  }
+  EXPECT_EQ(cut, 2U) << "on both channels";
+}
+
 }  // namespace
 }  // namespace ttf::sim
