@@ -223,7 +223,6 @@ class Trial final : public sim::Disturbance, public sim::Plant, public records::
   }
   void power_on(NodeId node, TrueTime at) override { simulation_->power_on(node, at); }
   void change_drift(NodeId node, std::int64_t ppb) override { simulation_->change_drift(node, ppb); }
-  void command(NodeId node, bus::PocEventKind command) override { simulation_->command(node, command); }
   void emit(const sim::Leaving& signal, std::optional<NodeId> source) override { simulation_->emit(signal, source); }
 
   using records::Sink::on;

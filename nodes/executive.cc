@@ -332,10 +332,6 @@ bus::IncomingList& Executive::incoming(const schedules::PortBinding& binding) {
   return binding.can_bus ? cans_[*binding.can_bus]->incoming(binding.pdu) : flexray_->incoming(binding.pdu);
 }
 
-void Executive::command(bus::PocEventKind command, Microticks now) {
-  if (!asleep_) flexray_->command(command, now);
-}
-
 void Executive::receive(const bus::Reception& reception) {
   if (asleep_) {
     if (reception.signal == bus::Signal::kWakeup && !rises_) rises_ = reception.end + ticks(config_.boots);

@@ -86,8 +86,6 @@ class Executive final : private bus::ControllerEvents {
   void trigger(SensorId sensor, Microticks now);                          // at a device
   void strobe(SensorId sensor, std::uint32_t sequence, Microticks now);   // at a host
 
-  // A command of the host's to the FlexRay controller, which the node must have; everything up to `now` is done.
-  void command(bus::PocEventKind command, Microticks now);
   // The node's oscillator has changed its drift; its ticks so far are the same.
   void drift(const timebase::Oscillator& oscillator) { config_.oscillator = oscillator; }
 

@@ -60,9 +60,6 @@ void BusSimulation::advance(std::size_t node, Microticks now) { controllers_[nod
 void BusSimulation::receive(std::size_t node, const bus::Reception& reception) {
   controllers_[node]->receive(reception);
 }
-void BusSimulation::obey(std::size_t node, bus::PocEventKind command, Microticks now) {
-  controllers_[node]->command(command, now);
-}
 void BusSimulation::happen(const MediumEvent& event) {
   TTF_CHECK(false, "an event of kind {} without hosts", static_cast<int>(event.kind));
 }

@@ -46,7 +46,6 @@ class BusSimulation final : public Crank {
   Microticks next_event(std::size_t node) const override;
   void advance(std::size_t node, Microticks now) override;
   void receive(std::size_t node, const bus::Reception& reception) override;
-  void obey(std::size_t node, bus::PocEventKind command, Microticks now) override;
   void happen(const MediumEvent& event) override;
   void make_controller(std::size_t node);
   void make_guardians(const std::vector<BusNode>& nodes, const std::vector<timebase::Oscillator>& oscillators);

@@ -215,9 +215,6 @@ void ClusterSimulation::advance(std::size_t node, Microticks now) {
 }
 
 void ClusterSimulation::receive(std::size_t node, const bus::Reception& reception) { nodes_[node]->receive(reception); }
-void ClusterSimulation::obey(std::size_t node, bus::PocEventKind command, Microticks now) {
-  nodes_[node]->command(command, now);
-}
 void ClusterSimulation::drifts(std::size_t node) { nodes_[node]->drift(oscillator(static_cast<NodeId>(node))); }
 
 const nodes::Executive& ClusterSimulation::node(NodeId id) const {

@@ -74,7 +74,6 @@ class ClusterSimulation final : public Crank, private nodes::SensorLines {
   Microticks next_event(std::size_t node) const override;
   void advance(std::size_t node, Microticks now) override;
   void receive(std::size_t node, const bus::Reception& reception) override;
-  void obey(std::size_t node, bus::PocEventKind command, Microticks now) override;
   void drifts(std::size_t node) override;
   void happen(const MediumEvent& event) override;
 

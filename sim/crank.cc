@@ -70,15 +70,6 @@ void Crank::change_drift(NodeId node, std::int64_t ppb) {
   refresh(n);
 }
 
-void Crank::command(NodeId node, bus::PocEventKind command) {
-  const std::size_t n = index_of(node);
-  if (!seats_[n].powered || !cluster_.node(node).flexray) return;
-  const Microticks at = ticks(n);
-  advance(n, at);
-  obey(n, command, at);
-  refresh(n);
-}
-
 void Crank::emit(const Leaving& signal, std::optional<NodeId> source) { medium_.emit(signal, source); }
 
 void Crank::refresh(std::size_t node) {

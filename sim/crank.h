@@ -35,7 +35,6 @@ class Crank : public Plant {
   void power_off(NodeId node) final;
   void power_on(NodeId node, TrueTime at) final;
   void change_drift(NodeId node, std::int64_t ppb) final;
-  void command(NodeId node, bus::PocEventKind command) final;
   void emit(const Leaving& signal, std::optional<NodeId> source) final;
 
   bool powered(NodeId node) const { return seats_[index_of(node)].powered; }
@@ -68,7 +67,6 @@ class Crank : public Plant {
   virtual Microticks next_event(std::size_t node) const = 0;
   virtual void advance(std::size_t node, Microticks now) = 0;
   virtual void receive(std::size_t node, const bus::Reception& reception) = 0;
-  virtual void obey(std::size_t node, bus::PocEventKind command, Microticks now) = 0;
   virtual void drifts(std::size_t node) { (void)node; }        // its oscillator is another one now
   // What is no arrival on FlexRay.
   virtual void happen(const MediumEvent& event) = 0;

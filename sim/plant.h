@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <optional>
 
-#include "bus/poc_event.h"
 #include "core/ids.h"
 #include "core/time.h"
 #include "sim/disturbance.h"
@@ -27,9 +26,6 @@ class Plant {
   // The node's oscillator deviates by this from now on; ticks already counted stay. With or without supply: a crystal
   // is what it is.
   virtual void change_drift(NodeId node, std::int64_t ppb) = 0;
-  // A command of the node's host to its FlexRay controller (kConfig to kFreeze of PocEventKind). A node that is off
-  // hears none.
-  virtual void command(NodeId node, bus::PocEventKind command) = 0;
   // What comes out of nothing and reaches everybody on the channel at once; `source` is the sender where there is one.
   // Its start is not before now().
   virtual void emit(const Leaving& signal, std::optional<NodeId> source) = 0;

@@ -147,7 +147,6 @@ TEST(ExecutiveStartup, WhoSleepsHearsNothingButAWakeupPattern) {
   ColdNode node(std::nullopt, ColdStart::kSleeps, Duration::milliseconds(3));
   node.executive->receive(heard_until(100, bus::Signal::kCas));
   node.executive->receive(heard_until(300, bus::Signal::kUndecodable));
-  node.executive->command(bus::PocEventKind::kConfig, {40 * 400});
   node.run_to(20'000);
   EXPECT_TRUE(node.told.changes.empty());
   EXPECT_EQ(node.executive->clock(), nullptr);

@@ -1,10 +1,11 @@
-// What a plant does to controllers: supply, drift, commands, and schedules that a node alone believes in.
+// What a plant does to controllers: supply, drift, and schedules that a node alone believes in.
 #include <gtest/gtest.h>
 
 #include <array>
 #include <memory>
 #include <vector>
 
+#include "bus/poc_event.h"
 #include "core/random.h"
 #include "sim/bus_simulation.h"
 #include "tests/sim/bus_clusters.h"
@@ -149,16 +150,15 @@ TEST(Plant, ADriftBeyondTheLimitTakesThatNodeOnlyOutOfTheCluster) {
 TEST(Plant, AHostCommandsItsController) {
   Plant4 plant(5);
   plant.run_to(Duration{20 * kCycle_ns});
-  plant.simulation->command(NodeId{3}, bus::PocEventKind::kHalt);
+  const auto command = [&](NodeId node, bus::PocEventKind what) {
+    plant.simulation->controller(node).command(what, plant.simulation->oscillator(node).ticks_at(plant.simulation->now()));
+  };
+  command(NodeId{3}, bus::PocEventKind::kHalt);
   EXPECT_EQ(plant.kind(3), PocKind::kNormalActive);   // at the end of the cycle
-  plant.simulation->command(NodeId{2}, bus::PocEventKind::kFreeze);
+  command(NodeId{2}, bus::PocEventKind::kFreeze);
   EXPECT_EQ(plant.kind(2), PocKind::kHalt);
   plant.run_to(Duration{22 * kCycle_ns});
   EXPECT_EQ(plant.kind(3), PocKind::kHalt);
-  plant.simulation->power_off(NodeId{3});
-  plant.simulation->command(NodeId{3}, bus::PocEventKind::kRun);   // nobody is there
-  plant.run_to(Duration{25 * kCycle_ns});
-  EXPECT_FALSE(plant.simulation->powered(NodeId{3}));
   EXPECT_EQ(plant.kind(0), PocKind::kNormalActive);
 }
 
@@ -183,12 +183,11 @@ class Tormentor final : public Disturbance {
   TrueTime next() const override { return next_; }
   void act(TrueTime now) override {
     const auto node = static_cast<NodeId>(draw_.integer(0, 3));
-    switch (draw_.integer(0, 4)) {
+    switch (draw_.integer(0, 3)) {
       case 0: plant_.power_off(node); break;
       case 1: plant_.power_on(node, now + Duration{draw_.integer(0, 3) * draw_.integer(0, 1'000'000)}); break;
       case 2: plant_.change_drift(node, draw_.integer(-3'000'000, 3'000'000)); break;
-      case 3: plant_.command(node, static_cast<bus::PocEventKind>(draw_.integer(1, 9))); break;
-      case 4: {
+      case 3: {
         const TrueTime start = now + Duration{draw_.integer(0, 1'000)};
         plant_.emit({node, draw_.integer(0, 1) == 0 ? schedules::Channel::kA : schedules::Channel::kB,
                      static_cast<bus::Signal>(draw_.integer(1, 3)), start, start + Duration{draw_.integer(1, 200'000)}, {}},

@@ -134,7 +134,6 @@ struct Listener final : Plant {
   void change_drift(NodeId node, std::int64_t ppb) override {
     asked.push_back(fmt::format("drift {} {}", index_of(node), ppb));
   }
-  void command(NodeId, bus::PocEventKind) override {}
   void emit(const Leaving&, std::optional<NodeId>) override {}
 };
 
