@@ -217,6 +217,7 @@ class Trial final : public sim::Disturbance, public sim::Plant, public records::
 
   // --- the plant: who loses its supply is told to the judge
   TrueTime now() const override { return simulation_->now(); }
+  bool powered(NodeId node) const override { return simulation_->powered(node); }
   void power_off(NodeId node) override {
     judge_.lost_supply(node, simulation_->now());
     simulation_->power_off(node);

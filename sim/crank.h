@@ -37,7 +37,7 @@ class Crank : public Plant {
   void change_drift(NodeId node, std::int64_t ppb) final;
   void emit(const Leaving& signal, std::optional<NodeId> source) final;
 
-  bool powered(NodeId node) const { return seats_[index_of(node)].powered; }
+  bool powered(NodeId node) const final { return seats_[index_of(node)].powered; }
   const timebase::Oscillator& oscillator(NodeId node) const { return seats_[index_of(node)].oscillator; }
   FlexRayMedium& medium() { return medium_; }
   // The guardian of a star's channel; null where the cluster has none.

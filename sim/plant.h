@@ -17,6 +17,8 @@ class Plant {
  public:
   virtual ~Plant() = default;
   virtual TrueTime now() const = 0;
+  // Whether the node has its supply; who sleeps has it.
+  virtual bool powered(NodeId node) const = 0;
   // The node loses its supply, at once. Nothing of it is left; what is on its way to it finds nobody; what it is
   // sending is cut off, and nobody can make out what has left of it. Without supply a node stays so.
   virtual void power_off(NodeId node) = 0;

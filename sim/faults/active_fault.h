@@ -61,6 +61,11 @@ class ActiveFault {
   TrueTime until() const { return setting_.until; }
   bool active(TrueTime at) const { return at >= setting_.from && at < setting_.until; }
   bool on(schedules::Channel channel) const { return includes(setting_.fault.channels, channel); }
+  // Whether anything the node sends by this fault comes onto the channel: it has its supply and a wire to there.
+  bool can_send(schedules::Channel channel) const {
+    const NodeId node = setting_.fault.node;
+    return setting_.plant.powered(node) && includes(setting_.cluster.node(node).flexray->pChannels, channel);
+  }
   std::string_view name(NodeId node) const { return setting_.cluster.node(node).name; }
   void emit(const Leaving& signal, std::optional<NodeId> source) { setting_.log.emit(signal, source); }
 

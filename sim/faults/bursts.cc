@@ -33,6 +33,8 @@ class Bursts : public ActiveFault {
  protected:
   // Sends one, and says when it is over.
   virtual TrueTime burst(TrueTime now, Channel channel) = 0;
+  // Noise ends with the fault. A frame or a symbol is sent whole: it may end after the fault.
+  TrueTime noise_until(TrueTime now) const { return std::min(now + fault().length, until()); }
 
  private:
   TrueTime next_;
@@ -45,25 +47,25 @@ class Noise final : public Bursts {
 
  private:
   TrueTime burst(TrueTime now, Channel channel) override {
-    const TrueTime end = now + fault().length;
-    acted("noise on {} for {} ns", letter(channel), fault().length.ns);
+    const TrueTime end = noise_until(now);
+    acted("noise on {} for {} ns", letter(channel), (end - now).ns);
     emit({kNoNode, channel, Signal::kUndecodable, now, end, {}}, std::nullopt);
     return end;
   }
 };
 
-// A node's lines: only the channels it is attached to.
 class NodeBursts : public Bursts {
  public:
   using Bursts::Bursts;
 
  protected:
   const schedules::NodeParameters& parameters() const { return *cluster().node(fault().node).flexray; }
-  TrueTime send(TrueTime now, Channel channel, Signal signal, Duration length, std::span<const std::byte> bytes) {
-    if (!includes(parameters().pChannels, channel)) return now;
+  // It takes its time also where there is no wire, or no supply.
+  TrueTime send(TrueTime now, Channel channel, Signal signal, TrueTime end, std::span<const std::byte> bytes) {
+    if (!can_send(channel)) return end;
     acted("{} sends {} on {}, outside its schedule", name(fault().node), text(signal), letter(channel));
-    emit({fault().node, channel, signal, now, now + length, bytes}, fault().node);
-    return now + length;
+    emit({fault().node, channel, signal, now, end, bytes}, fault().node);
+    return end;
   }
 
  private:
@@ -109,9 +111,9 @@ class BabblingIdiot final : public NodeBursts {
   };
   TrueTime burst(TrueTime now, Channel channel) override {
     if (fault().signal == nodes::FaultSignal::kNoise)
-      return send(now, channel, Signal::kUndecodable, fault().length, {});
+      return send(now, channel, Signal::kUndecodable, noise_until(now), {});
     const Frame& frame = last_[index_of(channel)];
-    return send(now, channel, Signal::kFrame, wire::frame_duration(flexray(), wire::words_in_frame(frame.size)),
+    return send(now, channel, Signal::kFrame, now + wire::frame_duration(flexray(), wire::words_in_frame(frame.size)),
                 std::span<const std::byte>(frame.bytes).first(frame.size));
   }
 
@@ -125,7 +127,7 @@ class RepeatedCas final : public NodeBursts {
  private:
   TrueTime burst(TrueTime now, Channel channel) override {
     const std::int64_t ps = (flexray().gdTSSTransmitter + schedules::kCasBits) * flexray().gdBit_ps;
-    return send(now, channel, Signal::kCas, {(ps + 999) / 1000}, {});
+    return send(now, channel, Signal::kCas, now + Duration{(ps + 999) / 1000}, {});
   }
 };
 
@@ -146,7 +148,7 @@ class RogueStartup final : public ActiveFault {
         std::span<const std::byte>(nothing).first(2 * static_cast<std::size_t>(flexray().gPayloadLengthStatic));
     const TrueTime end = now + wire::frame_duration(flexray(), flexray().gPayloadLengthStatic);
     for (const Channel channel : kBothChannels) {
-      if (!on(channel) || !includes(p.pChannels, channel)) continue;
+      if (!on(channel) || !can_send(channel)) continue;
       const std::size_t size = wire::encode_frame(header, channel, payload, frame_);
       acted("{} sends a startup frame of cycle {} on {}, on a grid of its own", name(fault().node), header.cycle,
             letter(channel));

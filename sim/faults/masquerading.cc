@@ -75,7 +75,7 @@ class InAnothersSlot final : public FrameFault {
     RandomStream stream = frame_draws(0);
     for (std::byte& byte : payload) byte = static_cast<std::byte>(stream.bits() & 0xffU);
     for (const Channel channel : kBothChannels) {
-      if (!on(channel) || !includes(cluster().node(fault().node).flexray->pChannels, channel)) continue;
+      if (!on(channel) || !can_send(channel)) continue;
       const std::size_t size = wire::encode_frame(header, channel, payload, frame_);
       acted("{} sends a frame of slot {}, which is not its own, on {}", name(fault().node), fault().slot,
             letter(channel));

@@ -65,6 +65,27 @@ TEST(FaultReport, ACrashOfOneHarmsNoOther) {
   EXPECT_TRUE(found.unattributed.nothing());
 }
 
+// A burst is told no longer than its fault lasts; a frame is sent to its end, and what comes of it is the fault's.
+TEST(FaultReport, WhatABurstDoesIsItsFaults) {
+  for (const FaultKind kind : {FaultKind::kNoise, FaultKind::kBabblingIdiot}) {
+    Planned run;
+    nodes::Fault& fault = run.add(kind, kind == FaultKind::kNoise ? "" : "gateway", 1'000, 1);
+    fault.length = Duration::milliseconds(100);
+    fault.interval = Duration::milliseconds(100);
+    const FaultFindings& found = run.run();
+    EXPECT_FALSE(found.faults.at(0).nothing());
+    EXPECT_TRUE(found.unattributed.nothing()) << nodes::name_of(kind);
+  }
+  Planned run;
+  nodes::Fault& frame = run.add(FaultKind::kBabblingIdiot, "gateway", 1'000, 0);
+  frame.signal = nodes::FaultSignal::kFrame;
+  frame.duration = Duration{1};
+  const FaultFindings& found = run.run();
+  EXPECT_EQ(found.faults.at(0).acts, 2u) << "on both channels, once";
+  EXPECT_FALSE(found.faults[0].nothing());
+  EXPECT_TRUE(found.unattributed.nothing());
+}
+
 // H2: noise that never ends keeps everybody from starting.
 TEST(FaultReport, WhoNeverStartsIsHarmed) {
   Planned run("scenarios/cold_start.yaml");

@@ -129,6 +129,7 @@ struct Listener final : Plant {
   TrueTime time{};
   std::vector<std::string> asked;
   TrueTime now() const override { return time; }
+  bool powered(NodeId) const override { return true; }
   void power_off(NodeId node) override { asked.push_back(fmt::format("off {}", index_of(node))); }
   void power_on(NodeId node, TrueTime at) override { asked.push_back(fmt::format("on {} {}", index_of(node), at.ns)); }
   void change_drift(NodeId node, std::int64_t ppb) override {

@@ -123,5 +123,47 @@ TEST(MediumFaults, ATransientIsOfItsChannels) {
   }
 }
 
+// Ten times as long as the fault, which begins and ends a macrotick before a cycle does.
+TEST(MediumFaults, NoiseEndsWithItsFault) {
+  for (const FaultKind kind : {FaultKind::kNoise, FaultKind::kBabblingIdiot}) {
+    nodes::Fault fault = fault_of(kind, 3, 10, 1);
+    fault.length = fault.interval = Duration{10 * kCycleNs};
+    fault.channels = Channels::kA;
+    FaultBus bus(with({fault}));
+    bus.run(5 * 30);
+    EXPECT_EQ(bus.acts(), 1U);
+    EXPECT_EQ(bus.said(0).count(2, bus::kSyntaxError | bus::kNoFrame), 1) << nodes::name_of(kind);
+    for (const Said::Problem& problem : bus.said(0).problems) EXPECT_LE(problem.cycle, 10) << nodes::name_of(kind);
+    EXPECT_EQ(bus.simulation().medium().carrier(NodeId{0}, Channel::kA, bus.simulation().now()), false);
+  }
+}
+
+// Whatever it is to send besides its schedule: there is nothing that could, and time goes on all the same.
+TEST(MediumFaults, ANodeWithoutSupplySendsNothing) {
+  std::vector<nodes::Fault> senders(5);
+  for (nodes::Fault& fault : senders) fault = fault_of(FaultKind::kBabblingIdiot, 1, 15, 5);
+  senders[0].interval = Duration{};
+  senders[1].signal = nodes::FaultSignal::kFrame;
+  senders[1].interval = Duration{};
+  senders[2].kind = senders[3].kind = FaultKind::kDuplicateColdstart;
+  senders[3].duplicate = nodes::DuplicateMode::kStartupFrames;
+  // From the middle of cycle 14 on, when it has sent its own frame and crashes before the other's slot.
+  nodes::Fault& masquerade = senders[4];
+  masquerade = fault_of(FaultKind::kMasquerading, 1, 14, 6);
+  masquerade.slot = 40;
+  nodes::Fault crash = fault_of(FaultKind::kCrash, 1, 14);
+  crash.from += Duration{20 * 43'000};
+  for (std::size_t f = 0; f < senders.size(); ++f) {
+    SCOPED_TRACE(f);
+    FaultBus alone(with({senders[f]})), off(with({crash, senders[f]})), crashed(with({crash}));
+    for (FaultBus* bus : {&alone, &off, &crashed}) bus->run(5 * 30);
+    EXPECT_GT(alone.acts(), 0U);
+    EXPECT_EQ(off.acts(1), 0U);
+    for (const FaultBus::Activity& activity : off.activities())
+      EXPECT_FALSE(activity.fault == 1 && activity.what == records::kFaultActs) << activity.text;
+    for (const int n : {0, 2, 3}) EXPECT_EQ(off.said(n).all, crashed.said(n).all);
+  }
+}
+
 }  // namespace
 }  // namespace ttf::sim
