@@ -17,6 +17,42 @@ schedules::Channels only(std::uint8_t channel) {
   return channel == 0 ? schedules::Channels::kA : schedules::Channels::kB;
 }
 
+// Of the named nodes: a lone coldstart node takes the others'.
+bool takes_supply(const nodes::Fault& fault, NodeId node) {
+  return fault.kind == nodes::FaultKind::kCrash ||
+         (fault.kind == nodes::FaultKind::kLoneColdstart && fault.node != node);
+}
+
+// From start-up, to where it begins or ends without success.
+bool falls_back(const records::StateChanged& change) {
+  using bus::PocKind;
+  const auto from = static_cast<PocKind>(change.from);
+  switch (static_cast<PocKind>(change.to)) {
+    case PocKind::kHalt:
+    case PocKind::kColdstartGap: return true;
+    case PocKind::kColdstartListen:
+    case PocKind::kIntegrationListen:
+      return from != PocKind::kReady && from != PocKind::kColdstartListen && from != PocKind::kIntegrationListen;
+    case PocKind::kReady:
+      return from != PocKind::kConfig && from != PocKind::kWakeupListen && from != PocKind::kWakeupSend &&
+             from != PocKind::kWakeupDetect;
+    case PocKind::kDefaultConfig:
+    case PocKind::kConfig:
+    case PocKind::kWakeupListen:
+    case PocKind::kWakeupSend:
+    case PocKind::kWakeupDetect:
+    case PocKind::kColdstartCollisionResolution:
+    case PocKind::kColdstartConsistencyCheck:
+    case PocKind::kInitialiseSchedule:
+    case PocKind::kIntegrationColdstartCheck:
+    case PocKind::kColdstartJoin:
+    case PocKind::kIntegrationConsistencyCheck:
+    case PocKind::kNormalActive:
+    case PocKind::kNormalPassive: return false;
+  }
+  return false;
+}
+
 }  // namespace
 
 bool FaultEffects::harmed() const {
@@ -86,6 +122,7 @@ void FaultReport::on(const records::FaultActivity& activity) {
     for (std::size_t n = 0; n < nodes_.size(); ++n) {
       if (!named[n]) continue;
       nodes_[n].faulty = true;
+      nodes_[n].cut_off |= takes_supply(fault, static_cast<NodeId>(n));
       clocks_.forget(static_cast<NodeId>(n));
     }
   }
@@ -112,7 +149,8 @@ void FaultReport::on(const records::StateChanged& change) {
   const TrueTime at = change.stamp.true_time;
   if (index_of(node) >= nodes_.size()) return;
   const Cause cause = causes_.of_node(node, at);
-  changed(cause, node, change.from_name, change.to_name, change.why, at);
+  if (!starts_as_planned(node) || falls_back(change))
+    changed(cause, node, change.from_name, change.to_name, change.why, at);
   if (change.to == static_cast<std::uint8_t>(bus::PocKind::kNormalPassive))
     notice(cause, Check::kPassive, node, cycle_at(at), at);
   if (change.to == static_cast<std::uint8_t>(bus::PocKind::kHalt)) notice(cause, Check::kHalt, node, cycle_at(at), at);
@@ -131,7 +169,8 @@ void FaultReport::on(const records::PowerChanged& power) {
   if (index_of(node) >= nodes_.size()) return;
   const Cause cause = causes_.of_node(node, at);
   const std::string_view off = "without supply", on = "with supply";
-  changed(cause, node, power.on ? off : on, power.on ? on : off, "", at);
+  if (!power.on || !starts_as_planned(node))
+    changed(cause, node, power.on ? off : on, power.on ? on : off, "", at);
   if (power.on) return;
   if (cause) causes_.left(node, *cause);
   left_active(cause, node, at);

@@ -7,6 +7,7 @@
 //   - a node is without a fault until a fault that names it begins
 //   - H3 is told from when frames begin (experiments/frame_clocks.h), H4 and H5 from who reports which slot
 //     (experiments/slot_ledger.h), in the static segment
+// Of a node that has to start, the steps on its way are nobody's doing, only those back are, and all once a fault took its supply.
 // What is seen or harmed belongs to the fault that it fits (experiments/fault_causes.h), or is unattributed. Nothing counts before
 // the first fault has begun.
 #pragma once
@@ -113,11 +114,16 @@ class FaultReport final : public records::Sink {
   struct Node {
     bool active = false, faulty = false;
     bool has_to_start = false;             // and has not yet
+    bool cut_off = false;                  // a fault has taken its supply, or keeps it
   };
   // A cycle is counted once however many nodes and slots it is about: by its counter, where that comes again after a round.
   using Counted = std::array<std::array<std::optional<TrueTime>, 64>, 2 * kAllChecks.size()>;
 
   bool counts(NodeId node) const { return nodes_[index_of(node)].active && !nodes_[index_of(node)].faulty; }
+  // Whatever is at fault, it would take these steps: only those back are anybody's doing.
+  bool starts_as_planned(NodeId node) const {
+    return nodes_[index_of(node)].has_to_start && !nodes_[index_of(node)].cut_off;
+  }
   FaultEffects& effects(Cause cause);
   std::int64_t cycle_at(TrueTime at) const;
   CheckSeen& notice(Cause cause, Check check, bool faulty, std::int64_t cycle, TrueTime at);

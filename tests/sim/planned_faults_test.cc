@@ -65,6 +65,33 @@ TEST(FaultReport, ACrashOfOneHarmsNoOther) {
   EXPECT_TRUE(found.unattributed.nothing());
 }
 
+// Five nodes start while the sixth has no supply: that they do so is no effect of it. That it starts late is.
+TEST(FaultReport, TheStepsOfAStartUpAreNobodysDoing) {
+  Planned run("scenarios/cold_start.yaml");
+  run.add(FaultKind::kCrash, "camera", 1, 100);
+  const FaultFindings& found = run.run();
+  const FaultSeen& fault = found.faults.at(0);
+  for (const auto& state : fault.states) EXPECT_EQ(state.node, run.node("camera")) << state.from << " to " << state.to;
+  EXPECT_TRUE(std::any_of(fault.states.begin(), fault.states.end(), [](const auto& state) { return state.to == "with supply"; }));
+  EXPECT_TRUE(std::any_of(fault.states.begin(), fault.states.end(), [](const auto& state) { return state.to == "normal active"; }));
+  EXPECT_TRUE(found.unattributed.states.empty());
+}
+
+// The leading node loses its supply when others have begun to follow: they are thrown back, and say so.
+TEST(FaultReport, StepsBackInAStartUpAreOfTheFault) {
+  Planned run("scenarios/cold_start.yaml");
+  run.add(FaultKind::kCrash, "fusion", 14, 0);
+  const FaultFindings& found = run.run();
+  std::set<NodeId> thrown_back;
+  for (const auto& state : found.faults.at(0).states) {
+    if (state.node == run.node("fusion")) continue;
+    thrown_back.insert(state.node);
+    EXPECT_TRUE(state.to == "coldstart listen" || state.to == "integration listen" || state.to == "coldstart gap")
+        << state.from << " to " << state.to;
+  }
+  EXPECT_FALSE(thrown_back.empty());
+}
+
 // A burst is told no longer than its fault lasts; a frame is sent to its end, and what comes of it is the fault's.
 TEST(FaultReport, WhatABurstDoesIsItsFaults) {
   for (const FaultKind kind : {FaultKind::kNoise, FaultKind::kBabblingIdiot}) {
