@@ -106,7 +106,8 @@ FaultCauses::Cause FaultCauses::latest(TrueTime until, Fits fits) const {
   TrueTime newest{};
   for (std::size_t f = 0; f < suspects_.size(); ++f) {
     const Suspect& suspect = suspects_[f];
-    if (!begun(suspect, until) || !fits(suspect)) continue;
+    // What has never acted has done nothing.
+    if (!begun(suspect, until) || suspect.acts.empty() || !fits(suspect)) continue;
     const TrueTime act = last_act(suspect, until);
     if (cause && act < newest) continue;
     cause = f;

@@ -89,6 +89,8 @@ class Executive final : private bus::ControllerEvents {
   // The node's oscillator has changed its drift; its ticks so far are the same.
   void drift(const timebase::Oscillator& oscillator) { config_.oscillator = oscillator; }
 
+  // It has not been woken yet.
+  bool asleep() const { return asleep_; }
   // The node's clock of the cluster, null while it has none: off FlexRay, or before it has integrated.
   const timebase::CycleClock* clock() const;
   const timebase::Oscillator& oscillator() const { return config_.oscillator; }

@@ -29,6 +29,7 @@ class Resolver {
     check_slot();
     check_bits();
     check_coldstart();
+    check_wires();
     check_belief();
   }
 
@@ -66,6 +67,12 @@ class Resolver {
     if (!starts || fault_->node == kNoNode || !cluster_.node(fault_->node).flexray) return;
     if (!cluster_.node(fault_->node).flexray->pKeySlotUsedForStartup)
       fail("node", cluster_.node(fault_->node).name, "must be a coldstart node");
+  }
+  void check_wires() {
+    if (fault_->kind != FaultKind::kChannelSwap || fault_->node == kNoNode) return;
+    const auto& parameters = cluster_.node(fault_->node).flexray;
+    if (parameters && parameters->pChannels != schedules::Channels::kAB)
+      fail("node", cluster_.node(fault_->node).name, "must be on both channels");
   }
   void check_belief() {
     if (!changes_schedule(*fault_) || !findings_.empty()) return;

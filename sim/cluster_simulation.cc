@@ -200,7 +200,8 @@ void ClusterSimulation::start(std::size_t node, Microticks now) {
 }
 
 void ClusterSimulation::stop(std::size_t node) {
-  sink_.on(records::PowerChanged{nodes_[node]->stamp(ticks(node)), false});
+  // Nobody was told that a sleeper has its supply.
+  if (!nodes_[node]->asleep()) sink_.on(records::PowerChanged{nodes_[node]->stamp(ticks(node)), false});
   add(gone_, nodes_[node]->counts());
   nodes_[node].reset();
   watched_cycle_[node] = kNoCycle;

@@ -8,17 +8,17 @@ namespace {
 using schedules::Channel;
 
 // What the node sends on A appears on B, and the other way round; the CRC says where it belongs. What it hears is in
-// order.
+// order. Who has one wire only has nothing to swap.
 class ChannelSwap final : public ActiveFault {
  public:
   explicit ChannelSwap(const FaultSetting& setting)
       : ActiveFault(setting), occasions_(setting.fault.every, setting.fault.probability) {}
 
   bool leaving(Leaving& signal) override {
-    if (signal.sender != fault().node || !active(signal.start) ||
+    const Channel other = signal.channel == Channel::kA ? Channel::kB : Channel::kA;
+    if (signal.sender != fault().node || !active(signal.start) || !can_send(other) ||
         !occasions_.chosen(plant().now(), signal.sender, [this](std::uint32_t index) { return draws(index); }))
       return true;
-    const Channel other = signal.channel == Channel::kA ? Channel::kB : Channel::kA;
     acted("what {} sends on {} appears on {}", name(signal.sender), letter(signal.channel), letter(other));
     signal.channel = other;
     return true;

@@ -186,10 +186,11 @@ TEST_P(ClearFlights, WhatIsDrawnIntoALongNoiseIsOverWhenItEnds) {
   for (TrueTime now = begins + Duration::microseconds(50); now < ends; now += Duration::microseconds(50), ++sent) {
     line.run(now);
     const auto sender = static_cast<NodeId>(1 + sent % 4);
-    const Signal signal = sent % 2 == 0 ? Signal::kUndecodable : Signal::kFrame;
-    line.send({sender, Channel::kA, signal, now, now + Duration::microseconds(10), 1 + sent % 100});
-    if (line.attached(index_of(sender), Channel::kB))
-      line.send({sender, Channel::kB, signal, now, now + Duration::microseconds(10), 1 + sent % 100});
+    const bool frame = sent % 2 != 0;
+    for (const Channel channel : {Channel::kA, Channel::kB})
+      if (line.attached(index_of(sender), channel))
+        line.send({sender, channel, frame ? Signal::kFrame : Signal::kUndecodable, now, now + Duration::microseconds(10),
+                   frame ? 1 + sent % 100 : 0});
   }
   ASSERT_GT(sent, 2 * static_cast<int>(FlexRayMedium::kFlights));
   line.run(ends + Duration{100'000});

@@ -204,6 +204,30 @@ TEST(ColdStart, AWakeupPatternPowersTheOthersOn) {
     EXPECT_TRUE(node.active.has_value()) << drive.cluster.node(node.node).name;
 }
 
+// Two lose their supply before anybody wakes them. One gets it back, when nobody is woken any more: it starts up at once.
+TEST(ColdStart, OfASleepersSupplyNobodyIsToldBeforeItIsAwake) {
+  struct Supplies final : records::Sink {
+    using records::Sink::on;
+    std::map<NodeId, std::vector<bool>> told;
+    void on(const records::PowerChanged& r) override { told[r.stamp.node].push_back(r.on); }
+  };
+  Drive drive(kScenario, StrategyKind::kTt);
+  drive.scenario.duration = drive.scenario.world.duration = Duration::milliseconds(300);
+  drive.scenario.startup.wake_up = "fusion";
+  for (const char* name : {"feature", "camera"}) {
+    nodes::Fault& crash = drive.scenario.faults.faults.emplace_back();
+    crash.kind = nodes::FaultKind::kCrash;
+    crash.node_name = name;
+    crash.from = Duration::milliseconds(1);
+  }
+  drive.scenario.faults.faults.back().duration = Duration::milliseconds(200);
+  Supplies supplies;
+  drive.run(supplies);
+  EXPECT_EQ(supplies.told.size(), 5u) << "all but the one that never had any";
+  EXPECT_EQ(supplies.told.count(named(drive.cluster, "feature")), 0u);
+  for (const auto& [node, told] : supplies.told) EXPECT_EQ(told, std::vector{true}) << drive.cluster.node(node).name;
+}
+
 TEST(ColdStart, WithARecordingItIsRefused) {
   Drive drive("scenarios/laser_radar_recorded.yaml", StrategyKind::kTt);
   drive.scenario.startup.cold = true;

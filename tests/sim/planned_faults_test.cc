@@ -80,7 +80,7 @@ TEST(FaultReport, TheStepsOfAStartUpAreNobodysDoing) {
 // The leading node loses its supply when others have begun to follow: they are thrown back, and say so.
 TEST(FaultReport, StepsBackInAStartUpAreOfTheFault) {
   Planned run("scenarios/cold_start.yaml");
-  run.add(FaultKind::kCrash, "fusion", 14, 0);
+  run.add(FaultKind::kCrash, "fusion", 8, 0);
   const FaultFindings& found = run.run();
   std::set<NodeId> thrown_back;
   for (const auto& state : found.faults.at(0).states) {
@@ -90,6 +90,18 @@ TEST(FaultReport, StepsBackInAStartUpAreOfTheFault) {
         << state.from << " to " << state.to;
   }
   EXPECT_FALSE(thrown_back.empty());
+}
+
+// Its node's slots are silent, and it is of that node, too: it has done nothing.
+TEST(FaultReport, WhatNeverActsHasNoEffects) {
+  Planned run;
+  run.add(FaultKind::kCrash, "camera_pre", 1'000, 0);
+  run.add(FaultKind::kBabblingIdiot, "camera_pre", 1'200, 100);
+  const FaultFindings& found = run.run();
+  EXPECT_GT(others(found.faults.at(0), Check::kNoFrame).cycles, 100u);
+  EXPECT_EQ(found.faults.at(1).acts, 0u);
+  EXPECT_TRUE(found.faults[1].nothing());
+  EXPECT_TRUE(found.unattributed.nothing());
 }
 
 // A burst is told no longer than its fault lasts; a frame is sent to its end, and what comes of it is the fault's.

@@ -333,6 +333,31 @@ TEST(BelievedSchedules, WhatCannotBeIsSaidWhenThePlanIsResolved) {
   EXPECT_EQ(refused({masquerade}), "drive.yaml: faults[0].slot = 4: must be another's slot of 4 nodes");
 }
 
+TEST(ChannelSwap, ANodeWithOneWireIsRefused) {
+  schedules::Cluster cluster = bus_cluster(4, 2, 4);
+  cluster.nodes[3].flexray->pChannels = schedules::Channels::kA;
+  nodes::Fault fault = fault_of(FaultKind::kChannelSwap, 3, 0);
+  fault.line = 7;
+  try {
+    nodes::resolve({"drive.yaml", {fault_of(FaultKind::kChannelSwap, 2, 0), fault}}, cluster);
+    ADD_FAILURE() << "not refused";
+  } catch (const InputError& error) {
+    ASSERT_EQ(error.findings().size(), 1U);
+    EXPECT_EQ(error.findings()[0].sentence(), "drive.yaml:7: faults[1].node = node3: must be on both channels of 4 nodes");
+  }
+}
+
+// A campaign's variant with one channel: there is nothing to swap.
+TEST(ChannelSwap, WhereThereIsOneChannelItDoesNothing) {
+  FaultBusConfig config = six({fault_of(FaultKind::kChannelSwap, 3)});
+  for (schedules::Node& node : config.cluster.nodes) node.flexray->pChannels = schedules::Channels::kA;
+  for (schedules::FrameSlot& frame : config.cluster.frames) frame.channels = schedules::Channels::kA;
+  FaultBus bus(std::move(config));
+  bus.run(5 * 30);
+  EXPECT_EQ(bus.acts(), 0U);
+  for (int n = 0; n < 6; ++n) EXPECT_TRUE(bus.said(n).problems.empty()) << n;
+}
+
 TEST(BelievedSchedules, EachDiffersFromTheClusterInItsOwnWay) {
   const schedules::Cluster cluster = bus_cluster(4, 2, 4);
   nodes::Fault fault = fault_of(FaultKind::kWrongSchedule, 3, 0);
