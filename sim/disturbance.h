@@ -19,6 +19,7 @@ struct Leaving {
   bus::Signal signal{};
   TrueTime start{}, end{};
   std::span<const std::byte> bytes;     // may be pointed elsewhere; used before the call returns to the sender
+  bool emitted = false;                 // no controller sent it, but a fault (FlexRayMedium::emit())
 };
 
 // The same on its last metre. Through a guardian it has two: first to the coupler (receiver kNoNode), then from there
@@ -31,6 +32,7 @@ struct Arriving {
   TrueTime start{}, end{};
   bool regenerated = false;             // by the coupler: no fault of the sender can make receivers disagree about it
   std::span<const std::byte> bytes;     // of a frame: may be pointed elsewhere, as above
+  bool emitted = false;                 // as above, on either leg through a coupler
 };
 
 class Disturbance {

@@ -93,13 +93,15 @@ void FlexRayMedium::transmit(NodeId sender, const bus::Transmission& transmissio
 }
 
 void FlexRayMedium::emit(const Leaving& signal, std::optional<NodeId> source) {
-  Coupler* coupler = coupler_[index_of(signal.channel)];
-  const ChannelLog::Id logged = log_ != nullptr ? log_->appears(signal) : ChannelLog::kNone;
-  if (log_ != nullptr && source) speaks(*source, signal);
-  if (coupler == nullptr) return spread(signal, source, false, logged);
-  if (source) return to_coupler(signal, *source, signal.start, logged);
-  coupler->disturbed(signal);
-  spread(signal, source, false, logged);
+  Leaving made = signal;
+  made.emitted = true;
+  Coupler* coupler = coupler_[index_of(made.channel)];
+  const ChannelLog::Id logged = log_ != nullptr ? log_->appears(made) : ChannelLog::kNone;
+  if (log_ != nullptr && source) speaks(*source, made);
+  if (coupler == nullptr) return spread(made, source, false, logged);
+  if (source) return to_coupler(made, *source, made.start, logged);
+  coupler->disturbed(made);
+  spread(made, source, false, logged);
 }
 
 void FlexRayMedium::spread(const Leaving& signal, std::optional<NodeId> sender, bool regenerated,
@@ -132,7 +134,7 @@ void FlexRayMedium::spread(const Leaving& signal, std::optional<NodeId> sender, 
   for (const Leg& leg : way) {
     if (leg.receiver == sender) continue;
     Arriving last{signal.sender, leg.receiver, signal.channel, signal.signal, signal.start + leg.delay,
-                  signal.end + leg.delay, regenerated, signal.bytes};
+                  signal.end + leg.delay, regenerated, signal.bytes, signal.emitted};
     const bool arrives = disturbance_ == nullptr || disturbance_->arriving(last);
     const bool same_bytes = last.bytes.data() == signal.bytes.data();
     if (flight == nullptr) {
@@ -157,12 +159,12 @@ void FlexRayMedium::spread(const Leaving& signal, std::optional<NodeId> sender, 
 void FlexRayMedium::to_coupler(const Leaving& signal, NodeId sender, TrueTime now, ChannelLog::Id logged) {
   const Duration on_the_way = branch(sender);
   Arriving last{sender, kNoNode, signal.channel, signal.signal, signal.start + on_the_way, signal.end + on_the_way,
-                false, signal.bytes};
+                false, signal.bytes, signal.emitted};
   if (disturbance_ != nullptr && !disturbance_->arriving(last)) {
     if (log_ != nullptr) log_->withheld(logged);
     return;
   }
-  Pending made{{last.start, last.end, 0, signal.channel, last.signal, logged}, next_id_++, sender, false};
+  Pending made{{last.start, last.end, 0, signal.channel, last.signal, logged}, next_id_++, sender, false, signal.emitted};
   if (last.signal == Signal::kFrame) made.arrival.frame = pool_.put_frame(signal.channel, last.bytes, 1);
   to_coupler_.push_back(made);
   MediumEvent event;
@@ -180,11 +182,11 @@ void FlexRayMedium::at_coupler(const MediumEvent& event) {
   const auto found = std::find_if(to_coupler_.begin(), to_coupler_.end(),
                                   [&](const Pending& one) { return one.id == event.frame; });
   TTF_CHECK(found != to_coupler_.end(), "nothing on its way to the coupler is {}", event.frame);
-  const auto [arrived, id, sender, merged] = *found;
+  const auto [arrived, id, sender, merged, emitted] = *found;
   *found = to_coupler_.back();
   to_coupler_.pop_back();
   const bool is_frame = arrived.signal == Signal::kFrame;
-  Leaving signal{sender, arrived.channel, arrived.signal, arrived.start, arrived.end, {}};
+  Leaving signal{sender, arrived.channel, arrived.signal, arrived.start, arrived.end, {}, emitted};
   if (is_frame) signal.bytes = pool_.bytes(arrived.frame);
   const Leaving as_it_came = signal;
   const bool passes =

@@ -107,6 +107,7 @@ class FlexRayMedium {
     std::uint32_t id = 0;             // a stop of a flight has it
     NodeId sender{};
     bool merged = false;              // of several signals
+    bool emitted = false;             // on its way to a coupler: by a fault
   };
   // Those on their way to one node on one channel, in no order, no two of them at once: hardly ever more than one, but for
   // what a fault makes late.

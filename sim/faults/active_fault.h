@@ -46,9 +46,9 @@ class ActiveFault {
   ActiveFault(const ActiveFault&) = delete;
   ActiveFault& operator=(const ActiveFault&) = delete;
 
-  // As in Disturbance. `emitted`: no controller sent it, but a fault.
+  // As in Disturbance.
   virtual bool leaving(Leaving& signal) { return (void)signal, true; }
-  virtual bool arriving(Arriving& signal, bool emitted) { return (void)signal, (void)emitted, true; }
+  virtual bool arriving(Arriving& signal) { return (void)signal, true; }
   virtual TrueTime next() const { return Disturbance::kNever; }
   virtual void act(TrueTime now) { (void)now; }
 

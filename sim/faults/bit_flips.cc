@@ -28,8 +28,8 @@ class BitFlips final : public FrameFault {
           letter(signal.channel), flips == 1 ? "is" : "are");
     return true;
   }
-  bool arriving(Arriving& signal, bool emitted) override {
-    if (!fault().receivers.empty() && befallen(signal, emitted) && at_receiver(signal.receiver))
+  bool arriving(Arriving& signal) override {
+    if (!fault().receivers.empty() && befallen(signal) && at_receiver(signal.receiver))
       signal.bytes = frames_[index_of(signal.channel)].whole();
     return true;
   }

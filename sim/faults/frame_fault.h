@@ -26,16 +26,12 @@ class FrameFault : public ActiveFault {
   }
   // The same of what arrives of it. A guardian's coupler sends on what it has heard after a while, but before the node
   // sends anything else on that channel.
-  bool befallen(const Arriving& signal, bool emitted) {
-    if (signal.sender != fault().node) return false;
-    bool& befallen = befallen_[index_of(signal.channel)];
-    if (emitted) befallen = false;
-    return befallen && signal.signal == bus::Signal::kFrame;
+  bool befallen(const Arriving& signal) const {
+    return signal.sender == fault().node && !signal.emitted && signal.signal == bus::Signal::kFrame &&
+           befallen_[index_of(signal.channel)];
   }
   // And of what is marginal about it, which ends at the coupler: that makes it out one way or the other.
-  bool befallen_as_sent(const Arriving& signal, bool emitted) {
-    return !signal.regenerated && befallen(signal, emitted);
-  }
+  bool befallen_as_sent(const Arriving& signal) const { return !signal.regenerated && befallen(signal); }
   bool at_receiver(NodeId node) const {
     const auto& receivers = fault().receivers;
     return receivers.empty() || std::find(receivers.begin(), receivers.end(), node) != receivers.end();

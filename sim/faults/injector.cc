@@ -36,7 +36,7 @@ bool Injector::leaving(Leaving& signal) {
 
 bool Injector::arriving(Arriving& signal) {
   for (Entry& entry : entries_)
-    if (!entry.fault->arriving(signal, emitting_)) return false;
+    if (!entry.fault->arriving(signal)) return false;
   return true;
 }
 
@@ -67,11 +67,7 @@ void Injector::acted(std::uint32_t fault, TrueTime at, std::string_view text) {
   report(fault, records::kFaultActs, at, text);
 }
 
-void Injector::emit(const Leaving& signal, std::optional<NodeId> source) {
-  emitting_ = true;
-  plant_.emit(signal, source);
-  emitting_ = false;
-}
+void Injector::emit(const Leaving& signal, std::optional<NodeId> source) { plant_.emit(signal, source); }
 
 void Injector::report(std::size_t fault, std::uint8_t what, TrueTime at, std::string_view text) {
   const nodes::Fault& one = plan_.faults[fault];

@@ -64,7 +64,6 @@ class Injector final : public Disturbance, private FaultLog {
   records::Sink& sink_;
   std::vector<Entry> entries_;               // by index in the plan, as what follows
   std::vector<Activation> activations_;
-  bool emitting_ = false;
   TrueTime next_ = kNever;
 };
 

@@ -35,8 +35,8 @@ class SosTiming final : public FrameFault {
     if (fault().receivers.empty()) shift_by(signal, fault().shift, plant().now());
     return true;
   }
-  bool arriving(Arriving& signal, bool emitted) override {
-    if (!fault().receivers.empty() && befallen_as_sent(signal, emitted) && at_receiver(signal.receiver))
+  bool arriving(Arriving& signal) override {
+    if (!fault().receivers.empty() && befallen_as_sent(signal) && at_receiver(signal.receiver))
       shift_by(signal, fault().shift, plant().now());
     return true;
   }
@@ -52,8 +52,8 @@ class SosValue final : public FrameFault {
             letter(signal.channel));
     return true;
   }
-  bool arriving(Arriving& signal, bool emitted) override {
-    if (!befallen_as_sent(signal, emitted)) return true;
+  bool arriving(Arriving& signal) override {
+    if (!befallen_as_sent(signal)) return true;
     const bool lost =
         fault().receivers.empty() ? frame_draws(part(signal)).uniform() < 0.5 : at_receiver(signal.receiver);
     if (lost) signal.signal = bus::Signal::kUndecodable;
@@ -73,8 +73,8 @@ class ByzantineClock final : public FrameFault {
           letter(signal.channel));
     return true;
   }
-  bool arriving(Arriving& signal, bool emitted) override {
-    if (befallen_as_sent(signal, emitted)) shift_by(signal, lie(signal), plant().now());
+  bool arriving(Arriving& signal) override {
+    if (befallen_as_sent(signal)) shift_by(signal, lie(signal), plant().now());
     return true;
   }
 

@@ -19,8 +19,7 @@ class Omission final : public ActiveFault {
     acted("what {} sends on {} does not leave it", name(signal.sender), letter(signal.channel));
     return false;
   }
-  bool arriving(Arriving& signal, bool emitted) override {
-    (void)emitted;   // a receiver that is deaf is deaf to whatever there is
+  bool arriving(Arriving& signal) override {
     if (fault().direction == FaultDirection::kSend || signal.receiver != fault().node ||
         !befalls(signal.channel, signal.start, signal.sender))
       return true;

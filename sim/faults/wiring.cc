@@ -33,8 +33,7 @@ class Transient final : public ActiveFault {
  public:
   using ActiveFault::ActiveFault;
 
-  bool arriving(Arriving& signal, bool emitted) override {
-    (void)emitted;   // whoever sent it
+  bool arriving(Arriving& signal) override {
     if (!on(signal.channel) || signal.start >= until() || signal.end <= from()) return true;
     signal.signal = bus::Signal::kUndecodable;
     // Once for all its receivers.

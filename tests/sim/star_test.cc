@@ -197,5 +197,24 @@ TEST(Star, ADisturbanceIsAskedOnTheWayToTheCouplerAndOnTheWayFromIt) {
   EXPECT_EQ(bench.coupler.heard.at(0).start, TrueTime{47'000} + bench.medium.branch(NodeId{1}));
 }
 
+TEST(Star, BothLegsSayWhetherAFaultSentIt) {
+  struct Asked final : Disturbance {
+    std::vector<bool> emitted;
+    bool arriving(Arriving& signal) override { return emitted.push_back(signal.emitted), true; }
+  };
+  for (const bool emitted : {false, true}) {
+    Asked asked;
+    Bench bench;
+    bench.medium.set_disturbance(&asked);
+    const Leaving noise{NodeId{1}, Channel::kA, Signal::kCas, TrueTime{50'000}, TrueTime{54'000}, {}};
+    if (emitted)
+      bench.medium.emit(noise, noise.sender);
+    else
+      bench.send(1, noise.signal, noise.start, noise.end);
+    EXPECT_EQ(bench.run().size(), laws::kNodes - 1);
+    EXPECT_EQ(asked.emitted, std::vector<bool>(1 + laws::kNodes - 1, emitted)) << "to the coupler, then to all others";
+  }
+}
+
 }  // namespace
 }  // namespace ttf::sim

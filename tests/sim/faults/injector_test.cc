@@ -246,6 +246,25 @@ TEST_F(Bytes, AnothersFrameIdHasARightCrc) {
   EXPECT_TRUE(std::equal(decoded.payload.begin(), decoded.payload.end(), frame().begin() + wire::kHeaderBytes));
 }
 
+// The frame is on its way to the coupler when the same node babbles: behind the coupler it is still the frame befallen.
+TEST_F(Bytes, WhatAFaultSendsIsNotTakenForTheNodesFrame) {
+  nodes::Fault fault = fault_of(FaultKind::kBitFlipTrailer, 2, 0);
+  fault.bits = {5};
+  fault.receivers = {NodeId{1}};
+  Injector injector(plan(fault), cluster_, plant_, 1, 0, nobody_);
+  EXPECT_TRUE(flipped(left(injector)).empty()) << "at the sender it is in order";
+  const auto arrives = [&](NodeId receiver, bool emitted) {
+    Arriving signal{NodeId{2}, receiver, Channel::kB, bus::Signal::kFrame, plant_.time, plant_.time + Duration{26'300},
+                    receiver != kNoNode, frame(), emitted};
+    EXPECT_TRUE(injector.arriving(signal));
+    return flipped({signal.bytes.begin(), signal.bytes.end()});
+  };
+  EXPECT_TRUE(arrives(kNoNode, true).empty());
+  EXPECT_TRUE(arrives(NodeId{1}, true).empty()) << "what a fault sends is as it made it";
+  EXPECT_TRUE(arrives(NodeId{0}, false).empty());
+  EXPECT_EQ(arrives(NodeId{1}, false).size(), 1U);
+}
+
 TEST_F(Bytes, TimesCountFromTheOrigin) {
   nodes::Fault fault = fault_of(FaultKind::kCrash, 2, 0);
   fault.from = Duration{500};
