@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -22,7 +21,10 @@ namespace ttf::sim {
 // What a fault leads to, to be counted and recorded; and the signals that it makes.
 class FaultLog {
  public:
+  static constexpr std::size_t kMostText = 200;
+
   virtual ~FaultLog() = default;
+  // `at`: now. Of what befalls a signal once the fault has begun, it may be before that.
   virtual void acted(std::uint32_t fault, TrueTime at, std::string_view text) = 0;
   virtual void emit(const Leaving& signal, std::optional<NodeId> source) = 0;
 };
@@ -78,11 +80,9 @@ class ActiveFault {
   // Counts and records that the fault does something, now, with one sentence about it. Allocates nothing.
   template <class... Args>
   void acted(fmt::format_string<Args...> sentence, Args&&... args) {
-    std::array<char, 200> text;
+    std::array<char, FaultLog::kMostText> text;
     const auto end = fmt::format_to_n(text.begin(), text.size(), sentence, std::forward<Args>(args)...).out;
-    // Of a signal that is under way when the fault begins, it is known when it leaves.
-    const TrueTime at = std::max(setting_.plant.now(), setting_.from);
-    setting_.log.acted(setting_.index, at, {text.data(), static_cast<std::size_t>(end - text.begin())});
+    setting_.log.acted(setting_.index, setting_.plant.now(), {text.data(), static_cast<std::size_t>(end - text.begin())});
   }
 
  private:

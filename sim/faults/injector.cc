@@ -11,6 +11,7 @@ namespace ttf::sim {
 Injector::Injector(nodes::FaultPlan plan, const schedules::Cluster& cluster, Plant& plant, std::uint64_t seed,
                    std::uint32_t replication, records::Sink& sink, TrueTime origin)
     : plan_(std::move(plan)), cluster_(cluster), plant_(plant), sink_(sink), activations_(plan_.faults.size()) {
+  foreseen_.reserve(kForeseen);
   for (std::size_t i = 0; i < plan_.faults.size(); ++i) {
     const nodes::Fault& fault = plan_.faults[i];
     TTF_CHECK(!nodes::has_node(fault.kind) || fault.node != kNoNode, "{} of a node that was not looked up: {}",
@@ -56,11 +57,22 @@ void Injector::act(TrueTime now) {
 void Injector::begin(std::size_t fault, TrueTime at) {
   entries_[fault].begins = kNever;
   report(fault, records::kFaultBegins, at, "it begins");
+  for (const Foreseen& one : foreseen_)
+    if (one.fault == fault) acted(one.fault, at, {one.text.data(), one.size});
+  std::erase_if(foreseen_, [&](const Foreseen& one) { return one.fault == fault; });
 }
 
 void Injector::acted(std::uint32_t fault, TrueTime at, std::string_view text) {
-  // What a transient will destroy may have left before it.
-  if (entries_[fault].begins != kNever) begin(fault, at);
+  const TrueTime begins = entries_[fault].begins;
+  if (begins != kNever && at < begins) {
+    // What it will do to a signal that is still under way when it begins is known when that leaves. It is told then.
+    Foreseen& foreseen = foreseen_.emplace_back();
+    foreseen.fault = fault;
+    foreseen.size = std::min(text.size(), foreseen.text.size());
+    std::copy_n(text.begin(), foreseen.size, foreseen.text.begin());
+    return;
+  }
+  if (begins != kNever) begin(fault, at);   // what leaves at that very instant, before the faults act
   Activation& activation = activations_[fault];
   if (activation.times++ == 0) activation.first = at;
   activation.last = at;

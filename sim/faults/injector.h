@@ -10,6 +10,7 @@
 // signals.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -52,6 +53,13 @@ class Injector final : public Disturbance, private FaultLog {
     std::unique_ptr<ActiveFault> fault;
     TrueTime begins, ends;
   };
+  // What a fault is told to have done when it begins.
+  struct Foreseen {
+    std::uint32_t fault = 0;
+    std::array<char, kMostText> text{};
+    std::size_t size = 0;
+  };
+  static constexpr std::size_t kForeseen = 64;   // room for: some signals of one propagation delay
   void acted(std::uint32_t fault, TrueTime at, std::string_view text) override;
   void emit(const Leaving& signal, std::optional<NodeId> source) override;
   void report(std::size_t fault, std::uint8_t what, TrueTime at, std::string_view text);
@@ -64,6 +72,7 @@ class Injector final : public Disturbance, private FaultLog {
   records::Sink& sink_;
   std::vector<Entry> entries_;               // by index in the plan, as what follows
   std::vector<Activation> activations_;
+  std::vector<Foreseen> foreseen_;
   TrueTime next_ = kNever;
 };
 

@@ -290,6 +290,43 @@ TEST_F(Bytes, NothingIsShiftedToBeforeItIsSent) {
   EXPECT_EQ(signal.end - signal.start, Duration{26'300});
 }
 
+// A transient that begins in the middle of a frame, and a deaf receiver from when it would begin to hear one that has left: it is
+// known when the frame leaves, and told when the fault begins.
+TEST(Injector, NothingIsToldBeforeItIsSo) {
+  const TrueTime slot_three{1'000'000 + 10 * kCycleNs + 2 * 43'000 + 7'000};
+  for (const FaultKind kind : {FaultKind::kTransient, FaultKind::kOmission}) {
+    nodes::Fault fault = fault_of(kind, 0, 10, 1);
+    fault.direction = nodes::FaultDirection::kReceive;
+    FaultBusConfig config = six({});
+    config.most_drift_ppb = 0;
+    // The first instant at which node 2's frame has left and is not at node 0 yet, or is half over.
+    FaultBus undisturbed(config);
+    undisturbed.simulation().run_until(slot_three - Duration{1'000});
+    const FlexRayMedium& medium = undisturbed.simulation().medium();
+    const auto carrier = [&] { return medium.carrier(NodeId{0}, Channel::kA, undisturbed.simulation().now()); };
+    while (!carrier()) undisturbed.simulation().run_until(undisturbed.simulation().now() + Duration{1});
+    const TrueTime heard = undisturbed.simulation().now();
+    ASSERT_LT(heard - slot_three, Duration{10'000});
+    ASSERT_GT(medium.delay(NodeId{2}, NodeId{0}), Duration{1});
+    const TrueTime from = kind == FaultKind::kOmission ? heard : heard + Duration{10'000};
+    fault.from = from - TrueTime{1'000'000};
+    config.faults = {fault};
+    FaultBus bus(config);
+    bus.simulation().run_until(from - Duration{1});
+    EXPECT_TRUE(bus.activities().empty()) << nodes::name_of(kind);
+    EXPECT_EQ(bus.acts(), 0U);
+    bus.simulation().run_until(from);
+    ASSERT_EQ(bus.activities().size(), 3U) << nodes::name_of(kind);
+    EXPECT_EQ(bus.activities()[0].what, records::kFaultBegins);
+    for (const FaultBus::Activity& activity : bus.activities()) EXPECT_EQ(activity.at, from);
+    EXPECT_NE(bus.activities()[1].text, bus.activities()[2].text) << "on A and on B";
+    EXPECT_EQ(bus.acts(), 2U);
+    EXPECT_EQ(bus.injector().activations()[0].first, from);
+    bus.run(5 * 20);
+    EXPECT_EQ(bus.said(0).count(3, bus::kSyntaxError | bus::kNoFrame), 2) << "once on each channel";
+  }
+}
+
 TEST(Injector, L4NothingIsAllocatedWhileItRuns) {
   // Not crash and lone coldstart: a controller that is powered on is made anew.
   std::vector<nodes::Fault> faults;
