@@ -110,6 +110,8 @@ void DriveMeasures::on(const records::TruthState& truth) {
     }
     truth_.clear();
   }
+  // Once for every node that recorded it at that instant: the same truth, on other clocks.
+  if (!truth_.empty() && truth_.front().node != truth.node) return;
   truth_.push_back(truth);
 }
 

@@ -77,7 +77,9 @@ void PositionPlots::on(const records::ReferenceFix& r) {
          {}});
 }
 void PositionPlots::on(const records::TruthState& r) {
-  if (r.object == options_.object) truth_.push_back({seconds(r.at), r.x, r.y, {}});
+  // Several nodes may have recorded it at one instant.
+  if (r.object != options_.object || (!truth_.empty() && truth_.back().t == seconds(r.at))) return;
+  truth_.push_back({seconds(r.at), r.x, r.y, {}});
 }
 
 bool PositionPlots::Selection::empty() const {

@@ -6,83 +6,58 @@
 #include "nodes/catalog.h"
 #include "nodes/recorded.h"
 #include "recording/records/tee.h"
+#include "sim/observer.h"
 #include "sim/world/reference.h"
 
 namespace ttf::sim {
 namespace {
 
-// Adds what nobody in the cluster knows to the records of the run.
-class Observer final : public records::Sink {
- public:
-  Observer(const nodes::Scene& scene, records::Sink& out) : scene_(scene), out_(out) {
-    states_.reserve(scene.objects());
-  }
-
-  // `integrated`: cycle 0 starts at kFirstCycle.
-  void follow(const world::Reference* reference, const world::World* world, TrueTime start, bool integrated) {
-    reference_ = reference;
-    world_ = world;
-    start_ = start;
-    integrated_ = integrated;
-  }
-
-  using records::Sink::on;
-  void on(const records::Measured& measured) override { truth(measured.stamp); }
-  void on(const records::FeatureUsed& used) override { truth(used.stamp); }
-  void on(const records::FusionStep& step) override {
-    if (reference_ == nullptr) return;
-    while (true) {
-      const world::Fix fix = reference_->fix(next_fix_, *world_);
-      const Duration since_start = start_ - TrueTime{};
-      if (fix.available + since_start > step.stamp.true_time) return;
-      records::ReferenceFix record;
-      record.measured_true = fix.measured + since_start;
-      record.measured_local = LocalTime{record.measured_true.ns};
-      record.measured = global_of(record.measured_true, step.stamp);
-      record.available = global_of(fix.available + since_start, step.stamp);
-      record.object = fix.object;
-      record.x = fix.x;
-      record.y = fix.y;
-      record.sigma = reference_->sigma();
-      record.vx = fix.vx;
-      record.vy = fix.vy;
-      record.sigma_velocity = reference_->velocity_sigma();
-      out_.on(record);
-      ++next_fix_;
-    }
-  }
-
- private:
-  // GPS time is the reference's own. It is on the cluster's scale by its offset to cycle 0, known after the drive;
-  // where nobody knows beforehand when that is, and at which rate the cluster will count, by the reading of the fusion
-  // node's clock when it took the fix in.
-  GlobalTime global_of(TrueTime at, const records::Stamp& fused) const {
-    return integrated_ ? GlobalTime{} + (at - kFirstCycle) : fused.global + (at - fused.true_time);
-  }
-
-  void truth(const records::Stamp& stamp) {
-    const TrueTime at = stamp.true_time;
-    if (last_truth_ && *last_truth_ == at) return;
-    last_truth_ = at;
-    scene_.states_at(at, states_);
-    for (const world::ObjectState& state : states_)
-      out_.on(records::TruthState{at, state.id, state.x, state.y, state.heading, state.speed, state.acceleration,
-                                  state.yaw_rate, state.length, state.width, stamp.local, stamp.global, stamp.node});
-  }
-
-  const nodes::Scene& scene_;
-  records::Sink& out_;
-  const world::Reference* reference_ = nullptr;
-  const world::World* world_ = nullptr;
-  TrueTime start_{};
-  bool integrated_ = true;
-  std::uint32_t next_fix_ = 0;
-  std::vector<world::ObjectState> states_;
-  std::optional<TrueTime> last_truth_;
+// What the cluster drives through, and the reference beside it.
+struct Surroundings {
+  std::shared_ptr<const nodes::Scene> scene;
+  std::shared_ptr<const nodes::WorldScene> world;   // the same, unless it is recorded
+  std::optional<world::Reference> reference;        // in a world, of the first object that has one
 };
 
-}  // namespace
+Surroundings surroundings_of(const DriveConfig& config) {
+  const nodes::Scenario& scenario = *config.scenario;
+  const TrueTime start = drive_start(*config.cluster);
+  Surroundings around;
+  if (nodes::is_recorded(*config.cluster)) {
+    around.scene = std::make_shared<nodes::RecordedScene>(*config.recorded, start);
+    return around;
+  }
+  around.world = std::make_shared<nodes::WorldScene>(scenario.world, config.seed, config.replication, start);
+  around.scene = around.world;
+  for (const world::ObjectConfig& object : scenario.world.objects)
+    if (object.reference && !around.reference)
+      around.reference.emplace(scenario.reference, scenario.world, config.seed, config.replication);
+  return around;
+}
 
+// Who sleeps has its supply from the start on.
+void start_cold(SimulationConfig& config, const std::vector<nodes::NodeStart>& starts) {
+  config.power_on = [starts](NodeId node) -> std::optional<TrueTime> {
+    const nodes::NodeStart& cold = starts[index_of(node)];
+    return cold.how == nodes::ColdStart::kSleeps ? kFirstCycle : kFirstCycle + cold.after;
+  };
+  config.cold = [starts](NodeId node) { return starts[index_of(node)]; };
+}
+
+DriveOutcome outcome_of(const ClusterSimulation& simulation, const schedules::Cluster& cluster, Duration elapsed,
+                        const Injector* injector) {
+  DriveOutcome outcome;
+  outcome.precision = simulation.precision();
+  outcome.counts = simulation.counts();
+  outcome.frames_sent = simulation.frames_sent();
+  if (injector != nullptr) outcome.faults.assign(injector->activations().begin(), injector->activations().end());
+  outcome.flexray_load = simulation.flexray_busy().seconds() / elapsed.seconds();
+  for (std::size_t b = 0; b < cluster.can_buses.size(); ++b)
+    outcome.can_load.push_back(simulation.can_busy(b).seconds() / elapsed.seconds());
+  return outcome;
+}
+
+}  // namespace
 TrueTime drive_start(const schedules::Cluster& cluster) {
   if (!nodes::is_recorded(cluster)) return kFirstCycle;
   // Row 0 of the recording is the first measurement of the first sensor.
@@ -118,44 +93,22 @@ void check_fits(const nodes::Scenario& scenario, const schedules::Cluster& clust
 DriveOutcome run_drive(const DriveConfig& config, records::Sink& sink) {
   const schedules::Cluster& cluster = *config.cluster;
   const nodes::Scenario& scenario = *config.scenario;
-  const bool recorded = nodes::is_recorded(cluster);
-  const TrueTime start = drive_start(cluster);
   check_recording(scenario, cluster, config.recorded != nullptr);
-
-  std::shared_ptr<const nodes::Scene> scene;
-  std::shared_ptr<const nodes::WorldScene> world;
-  std::optional<world::Reference> reference;
-  if (recorded) {
-    scene = std::make_shared<nodes::RecordedScene>(*config.recorded, start);
-  } else {
-    world = std::make_shared<nodes::WorldScene>(scenario.world, config.seed, config.replication, start);
-    scene = world;
-    for (const world::ObjectConfig& object : scenario.world.objects)
-      if (object.reference && !reference)
-        reference.emplace(scenario.reference, scenario.world, config.seed, config.replication);
-  }
-
-  Observer observer(*scene, sink);
-  if (reference) observer.follow(&*reference, &world->world(), start, !scenario.startup.cold);
+  const Surroundings around = surroundings_of(config);
+  Observer observer(*around.scene, cluster.nodes.size(), sink);
+  if (around.reference)
+    observer.follow(*around.reference, around.world->world(), drive_start(cluster), !scenario.startup.cold);
   records::Tee tee({&sink, &observer});
 
-  const nodes::NodeSetConfig nodes{&scenario, &cluster, config.strategy, config.seed, config.replication, scene,
+  const nodes::NodeSetConfig nodes{&scenario, &cluster, config.strategy, config.seed, config.replication, around.scene,
                                    config.recorded};
   SimulationConfig simulation_config;
   simulation_config.cluster = &cluster;
   simulation_config.seed = config.seed;
   simulation_config.replication = config.replication;
   simulation_config.make_steps = [&](NodeId node) { return nodes::make_steps(nodes, node); };
-  std::vector<nodes::NodeStart> starts;
-  if (scenario.startup.cold) {
-    starts = nodes::node_starts(scenario.startup, cluster, config.seed, config.replication);
-    // Who sleeps has its supply from the start on.
-    simulation_config.power_on = [&](NodeId node) -> std::optional<TrueTime> {
-      const nodes::NodeStart& cold = starts[index_of(node)];
-      return cold.how == nodes::ColdStart::kSleeps ? kFirstCycle : kFirstCycle + cold.after;
-    };
-    simulation_config.cold = [&](NodeId node) { return starts[index_of(node)]; };
-  }
+  if (scenario.startup.cold)
+    start_cold(simulation_config, nodes::node_starts(scenario.startup, cluster, config.seed, config.replication));
   const nodes::FaultPlan faults = nodes::resolve(scenario.faults, cluster);
   const nodes::BelievedSchedules believed(faults, cluster);
   simulation_config.view = [&](NodeId node) { return believed.of(node); };
@@ -166,17 +119,7 @@ DriveOutcome run_drive(const DriveConfig& config, records::Sink& sink) {
     simulation.set_disturbance(&*injector);
   }
   simulation.run_until(drive_end(scenario));
-
-  DriveOutcome outcome;
-  outcome.precision = simulation.precision();
-  outcome.counts = simulation.counts();
-  outcome.frames_sent = simulation.frames_sent();
-  if (injector) outcome.faults.assign(injector->activations().begin(), injector->activations().end());
-  const double elapsed = scenario.duration.seconds();
-  outcome.flexray_load = simulation.flexray_busy().seconds() / elapsed;
-  for (std::size_t b = 0; b < cluster.can_buses.size(); ++b)
-    outcome.can_load.push_back(simulation.can_busy(b).seconds() / elapsed);
-  return outcome;
+  return outcome_of(simulation, cluster, scenario.duration, injector ? &*injector : nullptr);
 }
 
 }  // namespace ttf::sim

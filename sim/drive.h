@@ -1,7 +1,6 @@
 // One drive of a scenario with one strategy: the cluster, the world it drives through, and the reference beside it.
 //
-// Truth and reference fixes are recorded here, not by any node: the truth whenever a sensor measures and whenever the
-// feature service uses an image, a fix when it becomes available.
+// Truth and reference fixes are recorded here, not by any node (sim/observer.h).
 #pragma once
 
 #include <cstdint>

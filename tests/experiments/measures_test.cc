@@ -39,10 +39,17 @@ TEST(Measures, ErrorsAreOfThePairsAtTheUse) {
   use_image(measures, 0, at(40), {{10.3, 0.4}, {20, 1}});
   truth_at(measures, at(40), 0, 20, 0);
   truth_at(measures, at(40), 1, 10, 0);
+  // Another node has recorded the same truth at that instant.
+  for (const int object : {0, 1}) {
+    records::TruthState again{at(40), static_cast<ObjectId>(object), object == 0 ? 20.0 : 10.0, 0};
+    again.node = NodeId{3};
+    measures.on(again);
+  }
   // Truth of another instant is not for this use.
   truth_at(measures, at(41), 0, 50, 0);
   const DriveSummary summary = measures.finish();
   EXPECT_EQ(summary.matched, 2u);
+  EXPECT_EQ(summary.missed, 0u);
   EXPECT_NEAR(summary.rmse_truth[0], std::sqrt(0.09 / 2), 1e-12);
   EXPECT_NEAR(summary.rmse_truth[1], std::sqrt((0.16 + 1.0) / 2), 1e-12);
   EXPECT_NEAR(summary.position_rmse_truth, std::sqrt((0.25 + 1.0) / 2), 1e-12);

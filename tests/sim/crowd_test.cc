@@ -53,6 +53,7 @@ class Coverage final : public records::Sink {
       judge();
       truth_.clear();
     }
+    if (!truth_.empty() && truth_.front().node != truth.node) return;
     truth_.push_back(truth);
   }
   void finish() { judge(); }
