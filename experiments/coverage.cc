@@ -121,7 +121,7 @@ std::string fault_text(const DrawnFault& drawn, const schedules::Cluster& cluste
   const nodes::Fault& fault = drawn.fault;
   return fmt::format("{}{}{} in {}: {}", nodes::name_of(fault.kind), fault.node == kNoNode ? "" : " of ",
                      fault.node == kNoNode ? "" : cluster.node(fault.node).name,
-                     drawn.starts_up ? "a start-up" : "a running cluster", parameters_text(fault, cluster));
+                     drawn.starts_up ? "a start-up" : "a running cluster", nodes::entry_of(fault, cluster));
 }
 
 }  // namespace ttf::experiments

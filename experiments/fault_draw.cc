@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/check.h"
 #include "core/random.h"
 #include "schedules/limits.h"
 
@@ -167,7 +168,10 @@ class Drawing {
     fault.channels = channels();
   }
   void bursts(Fault& fault) {
-    fault.length = between(Duration::microseconds(1), Duration::microseconds(300));
+    const Duration length = between(Duration::microseconds(1), Duration::microseconds(300));
+    const bool noise = fault.kind == FaultKind::kNoise ||
+                       (fault.kind == FaultKind::kBabblingIdiot && fault.signal == nodes::FaultSignal::kNoise);
+    if (noise) fault.length = length;   // frames and symbols are as long as they are
     // From back to back to once in some cycles, evenly in the logarithm.
     const double ns = 1e4 * std::pow(static_cast<double>(cycle_.ns) * 3e-4, draw_.uniform());
     fault.interval = Duration{static_cast<std::int64_t>(ns)};
@@ -207,28 +211,6 @@ class Drawing {
   RandomStream draw_;
 };
 
-std::string_view text(Channels channels) { return schedules::channels_text(channels); }
-
-std::string_view text(nodes::DuplicateMode mode) {
-  switch (mode) {
-    case nodes::DuplicateMode::kCas: return "cas";
-    case nodes::DuplicateMode::kStartupFrames: return "startup_frames";
-    case nodes::DuplicateMode::kSameKeySlot: return "same_key_slot";
-  }
-  return "";
-}
-
-std::string_view text(nodes::WrongSchedule wrong) {
-  switch (wrong) {
-    case nodes::WrongSchedule::kShiftedSlots: return "shifted_slots";
-    case nodes::WrongSchedule::kCycleLength: return "cycle_length";
-    case nodes::WrongSchedule::kStaticSlot: return "static_slot";
-    case nodes::WrongSchedule::kPayloadLength: return "payload_length";
-    case nodes::WrongSchedule::kKeySlot: return "key_slot";
-  }
-  return "";
-}
-
 }  // namespace
 
 bool in_hypothesis(const Fault& fault) {
@@ -241,54 +223,13 @@ DrawnFault draw_fault(const CampaignFile& campaign, const schedules::Cluster& cl
 }
 
 std::string parameters_text(const Fault& fault, const schedules::Cluster& cluster) {
-  std::string out = fmt::format("from={}us", fault.from.ns / 1000);
-  const auto add = [&out](std::string_view key, const auto& value) { out += fmt::format(" {}={}", key, value); };
-  if (fault.duration != Fault::kToTheEnd) out += fmt::format(" duration={}us", fault.duration.ns / 1000);
-  switch (fault.kind) {
-    case FaultKind::kOmission:
-      add("direction", fault.direction == nodes::FaultDirection::kSend      ? "send"
-                       : fault.direction == nodes::FaultDirection::kReceive ? "receive"
-                                                                            : "both");
-      break;
-    case FaultKind::kBabblingIdiot: add("signal", fault.signal == nodes::FaultSignal::kNoise ? "noise" : "frame"); break;
-    case FaultKind::kMasquerading:
-      add("mode", fault.masquerade == nodes::MasqueradeMode::kInSlot ? "in_slot" : "own_slot");
-      break;
-    case FaultKind::kByzantineClock:
-      add("pattern", fault.pattern == nodes::ByzantinePattern::kRandom      ? "random"
-                     : fault.pattern == nodes::ByzantinePattern::kPullApart ? "pull_apart"
-                                                                            : "pull_rates");
-      break;
-    case FaultKind::kBitFlipHeader:
-    case FaultKind::kBitFlipPayload:
-    case FaultKind::kBitFlipTrailer: add("flips", fault.flips); break;
-    case FaultKind::kLoneColdstart: add("others", fault.all_others ? "all" : "coldstart"); break;
-    case FaultKind::kDuplicateColdstart: add("mode", text(fault.duplicate)); break;
-    case FaultKind::kWrongSchedule: add("mode", text(fault.wrong)); break;
-    case FaultKind::kCrash:
-    case FaultKind::kSosTiming:
-    case FaultKind::kSosValue:
-    case FaultKind::kChannelSwap:
-    case FaultKind::kDrift:
-    case FaultKind::kNoise:
-    case FaultKind::kTransient: break;
+  std::string out;
+  for (const auto& [key, value] : nodes::keys_of(fault, cluster)) {
+    if (!out.empty()) out += "; ";
+    std::string cell = value;   // a list's commas would be the table's
+    for (std::size_t at = 0; (at = cell.find(", ", at)) != std::string::npos;) cell.replace(at, 2, "+");
+    out += fmt::format("{}: {}", key, cell);
   }
-  const bool bursts = fault.kind == FaultKind::kBabblingIdiot || fault.kind == FaultKind::kNoise ||
-                      (fault.kind == FaultKind::kDuplicateColdstart && fault.duplicate == nodes::DuplicateMode::kCas);
-  if (bursts)
-    out += fmt::format(" length={}ns interval={}ns jitter={}ns", fault.length.ns, fault.interval.ns, fault.jitter.ns);
-  if (fault.slot != 0) add("slot", fault.slot);
-  if (fault.by != 0) add("by", fault.by);
-  if (fault.shift.ns != 0) out += fmt::format(" shift={}ns", fault.shift.ns);
-  if (fault.drift_ppb != 0) out += fmt::format(" drift={}ppb", fault.drift_ppb);
-  if (fault.probability < 1.0) out += fmt::format(" probability={:.3f}", fault.probability);
-  if (fault.every != 1) add("every", fault.every);
-  if (!fault.receivers.empty()) {
-    out += " receivers=";
-    for (std::size_t r = 0; r < fault.receivers.size(); ++r)
-      out += fmt::format("{}{}", r == 0 ? "" : "+", cluster.node(fault.receivers[r]).name);
-  }
-  add("channels", text(fault.channels));
   return out;
 }
 

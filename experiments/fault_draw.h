@@ -24,7 +24,7 @@ bool in_hypothesis(const nodes::Fault& fault);
 // `cluster`: with both channels, whichever variant it is injected in.
 DrawnFault draw_fault(const CampaignFile& campaign, const schedules::Cluster& cluster, std::uint32_t index);
 
-// Its parameters as in a fault plan, separated by spaces: "every=2 probability=0.5".
+// Its keys as in a fault plan, but for kind and node, in one cell of a table: "from: 5 ns; receivers: [fusion+laser]".
 std::string parameters_text(const nodes::Fault& fault, const schedules::Cluster& cluster);
 
 }  // namespace ttf::experiments

@@ -1,5 +1,6 @@
 // Reads faults: which keys a kind has, and what they may be. Whatever else is in an entry is unknown.
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "core/check.h"
@@ -13,6 +14,13 @@ using schedules::Channels;
 constexpr Range<Duration> kDurations{Duration::nanoseconds(1), Duration::milliseconds(3'600'000)};
 // Not earlier than the shortest frame is long (frame_bits() of no payload), so that nothing arrives before it leaves.
 constexpr Duration kMostEarly = Duration::microseconds(9);
+
+template <class Value, std::size_t N>
+Choices<Value> choices(const std::array<Named<Value>, N>& names) {
+  Choices<Value> all;
+  for (const Named<Value>& one : names) all.emplace_back(one.name, one.value);
+  return all;
+}
 
 void read_window(YamlMap& yaml, Fault& fault, Duration latest) {
   fault.from = yaml.duration_or("from", fault.from, {Duration{}, latest});
@@ -61,16 +69,12 @@ void read_flips(YamlMap& yaml, Fault& fault, int region) {
 int read_slot(YamlMap& yaml) { return static_cast<int>(yaml.integer("slot", {1, 1023})); }
 
 void read_masquerading(YamlMap& yaml, Fault& fault) {
-  fault.masquerade = yaml.choice_or<MasqueradeMode>(
-      "mode", fault.masquerade, {{"in_slot", MasqueradeMode::kInSlot}, {"own_slot", MasqueradeMode::kOwnSlot}});
+  fault.masquerade = yaml.choice_or("mode", fault.masquerade, choices(kMasqueradeNames));
   fault.slot = read_slot(yaml);
 }
 
 void read_duplicate(YamlMap& yaml, Fault& fault, Duration latest) {
-  fault.duplicate = yaml.choice_or<DuplicateMode>("mode", fault.duplicate,
-                                                  {{"cas", DuplicateMode::kCas},
-                                                   {"startup_frames", DuplicateMode::kStartupFrames},
-                                                   {"same_key_slot", DuplicateMode::kSameKeySlot}});
+  fault.duplicate = yaml.choice_or("mode", fault.duplicate, choices(kDuplicateNames));
   // A schedule is believed in from the beginning to the end.
   if (fault.duplicate == DuplicateMode::kSameKeySlot) {
     if (yaml.has("slot")) fault.slot = read_slot(yaml);
@@ -82,11 +86,7 @@ void read_duplicate(YamlMap& yaml, Fault& fault, Duration latest) {
 }
 
 void read_wrong_schedule(YamlMap& yaml, Fault& fault) {
-  fault.wrong = yaml.choice<WrongSchedule>("mode", {{"shifted_slots", WrongSchedule::kShiftedSlots},
-                                                    {"cycle_length", WrongSchedule::kCycleLength},
-                                                    {"static_slot", WrongSchedule::kStaticSlot},
-                                                    {"payload_length", WrongSchedule::kPayloadLength},
-                                                    {"key_slot", WrongSchedule::kKeySlot}});
+  fault.wrong = yaml.choice("mode", choices(kWrongScheduleNames));
   switch (fault.wrong) {
     case WrongSchedule::kShiftedSlots: fault.by = static_cast<int>(yaml.integer("by", {1, 1022}, "slots")); return;
     case WrongSchedule::kCycleLength: fault.by = static_cast<int>(yaml.integer("by", {1, 1000}, "macroticks")); return;
@@ -100,14 +100,10 @@ void read_parameters(YamlMap& yaml, Fault& fault, Duration latest) {
   switch (fault.kind) {
     case FaultKind::kCrash: return read_window(yaml, fault, latest);
     case FaultKind::kOmission:
-      fault.direction = yaml.choice_or<FaultDirection>("direction", fault.direction,
-                                                       {{"send", FaultDirection::kSend},
-                                                        {"receive", FaultDirection::kReceive},
-                                                        {"both", FaultDirection::kBoth}});
+      fault.direction = yaml.choice_or("direction", fault.direction, choices(kDirectionNames));
       break;
     case FaultKind::kBabblingIdiot:
-      fault.signal = yaml.choice_or<FaultSignal>("signal", fault.signal,
-                                                 {{"noise", FaultSignal::kNoise}, {"frame", FaultSignal::kFrame}});
+      fault.signal = yaml.choice_or("signal", fault.signal, choices(kSignalNames));
       if (fault.signal == FaultSignal::kNoise) read_length(yaml, fault);
       read_bursts(yaml, fault);
       read_channels(yaml, fault);
@@ -136,10 +132,7 @@ void read_parameters(YamlMap& yaml, Fault& fault, Duration latest) {
       return read_window(yaml, fault, latest);
     case FaultKind::kByzantineClock:
       fault.shift = yaml.duration("shift", {Duration::nanoseconds(1), kMostEarly});
-      fault.pattern = yaml.choice_or<ByzantinePattern>("pattern", fault.pattern,
-                                                       {{"random", ByzantinePattern::kRandom},
-                                                        {"pull_apart", ByzantinePattern::kPullApart},
-                                                        {"pull_rates", ByzantinePattern::kPullRates}});
+      fault.pattern = yaml.choice_or("pattern", fault.pattern, choices(kPatternNames));
       return read_window(yaml, fault, latest);
     case FaultKind::kDrift:
       // In ppm, to the ppb.
@@ -147,7 +140,7 @@ void read_parameters(YamlMap& yaml, Fault& fault, Duration latest) {
       fault.from = yaml.duration_or("from", fault.from, {Duration{}, latest});
       return;
     case FaultKind::kLoneColdstart:
-      fault.all_others = yaml.choice_or<bool>("others", fault.all_others, {{"coldstart", false}, {"all", true}});
+      fault.all_others = yaml.choice_or("others", fault.all_others, choices(kAllOthersNames));
       return read_window(yaml, fault, latest);
     case FaultKind::kDuplicateColdstart: return read_duplicate(yaml, fault, latest);
     case FaultKind::kWrongSchedule: return read_wrong_schedule(yaml, fault);

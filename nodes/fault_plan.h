@@ -13,6 +13,7 @@
 #include <limits>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/ids.h"
@@ -78,6 +79,34 @@ enum class WrongSchedule : std::uint8_t {
   kKeySlot,        // the key slot is `slot`
 };
 
+// What these are called in YAML, under `direction`, `signal`, `mode`, `pattern` and `others`.
+template <class Value>
+struct Named {
+  std::string_view name;
+  Value value;
+};
+inline constexpr std::array<Named<FaultDirection>, 3> kDirectionNames{{{"send", FaultDirection::kSend},
+                                                                       {"receive", FaultDirection::kReceive},
+                                                                       {"both", FaultDirection::kBoth}}};
+inline constexpr std::array<Named<FaultSignal>, 2> kSignalNames{
+    {{"noise", FaultSignal::kNoise}, {"frame", FaultSignal::kFrame}}};
+inline constexpr std::array<Named<MasqueradeMode>, 2> kMasqueradeNames{
+    {{"in_slot", MasqueradeMode::kInSlot}, {"own_slot", MasqueradeMode::kOwnSlot}}};
+inline constexpr std::array<Named<ByzantinePattern>, 3> kPatternNames{{{"random", ByzantinePattern::kRandom},
+                                                                       {"pull_apart", ByzantinePattern::kPullApart},
+                                                                       {"pull_rates", ByzantinePattern::kPullRates}}};
+inline constexpr std::array<Named<DuplicateMode>, 3> kDuplicateNames{
+    {{"cas", DuplicateMode::kCas},
+     {"startup_frames", DuplicateMode::kStartupFrames},
+     {"same_key_slot", DuplicateMode::kSameKeySlot}}};
+inline constexpr std::array<Named<WrongSchedule>, 5> kWrongScheduleNames{
+    {{"shifted_slots", WrongSchedule::kShiftedSlots},
+     {"cycle_length", WrongSchedule::kCycleLength},
+     {"static_slot", WrongSchedule::kStaticSlot},
+     {"payload_length", WrongSchedule::kPayloadLength},
+     {"key_slot", WrongSchedule::kKeySlot}}};
+inline constexpr std::array<Named<bool>, 2> kAllOthersNames{{{"coldstart", false}, {"all", true}}};
+
 // One fault. Times count from the start of cycle 0; in a cold run from its time zero. Which members a kind has is
 // what its keys in docs/faults.md say; the others are left as they are here.
 struct Fault {
@@ -136,6 +165,13 @@ struct FaultPlan {
 FaultPlan load_fault_plan(YamlMap& yaml, Duration latest);
 // One entry of such a list.
 Fault load_fault(YamlMap& yaml, Duration latest);
+
+// A fault's keys beside `kind` and `node`: those that its kind and mode have, with their values as in YAML, so that they are
+// read again as they are. Left out: `duration` of what lasts to the end, `receivers` that are all, `slot` that is the next
+// coldstart node's. The fault is resolved for the cluster.
+std::vector<std::pair<std::string_view, std::string>> keys_of(const Fault& fault, const schedules::Cluster& cluster);
+// The whole entry in one line: "{kind: crash, node: fusion, from: 0 ns}".
+std::string entry_of(const Fault& fault, const schedules::Cluster& cluster);
 
 // The same plan with its names looked up, and slots and bits within what the cluster has. Throws InputError with every
 // finding: names nobody has, nodes that are off FlexRay, slots and bits beyond the end.

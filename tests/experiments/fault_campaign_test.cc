@@ -72,6 +72,40 @@ TEST(FaultCampaign, EveryClassIsDrawnAndEveryFaultCanBeInjected) {
   EXPECT_EQ(kinds.size(), nodes::kAllFaultKinds.size());
 }
 
+// What is printed of a fault is an entry of a fault plan, and the same fault when it is read again.
+TEST(FaultCampaign, WhatIsPrintedOfAFaultIsReadAgain) {
+  const CampaignFile campaign = small_campaign(1);
+  const CampaignClusters clusters(campaign);
+  const auto read_again = [&](const nodes::Fault& fault) {
+    const StrictYaml yaml = StrictYaml::parse("faults:\n  - " + nodes::entry_of(fault, clusters.base) + "\n", "printed.yaml");
+    Findings findings;
+    YamlMap root = yaml.root(findings);
+    nodes::FaultPlan plan = nodes::load_fault_plan(root, Duration::milliseconds(3'600'000));
+    root.finish();
+    findings.throw_if_any();
+    plan = nodes::resolve(plan, clusters.base);
+    nodes::Fault again = plan.faults.at(0);
+    again.node_name.clear();
+    again.receiver_names.clear();
+    again.line = 0;
+    return again;
+  };
+  for (std::uint32_t index = 0; index < 4000; ++index) {
+    const nodes::Fault fault = draw_fault(campaign, clusters.base, index).fault;
+    EXPECT_EQ(read_again(fault), fault) << nodes::entry_of(fault, clusters.base);
+  }
+  nodes::Fault bits;
+  bits.kind = nodes::FaultKind::kBitFlipPayload;
+  bits.node = NodeId{0};
+  bits.bits = {0, 7, 15};
+  bits.receivers = {NodeId{1}, NodeId{2}};
+  bits.probability = 1.0 / 3.0;
+  EXPECT_EQ(read_again(bits), bits);
+  EXPECT_EQ(parameters_text(bits, clusters.base),
+            "bits: [0+7+15]; receivers: [" + clusters.base.nodes[1].name + "+" + clusters.base.nodes[2].name +
+                "]; probability: 0.3333333333333333; every: 1; channels: AB; from: 0 ns");
+}
+
 TEST(FaultCampaign, DrawsNoFaultThatTheClusterHasNoRoomFor) {
   const CampaignFile campaign = small_campaign(1, "classes: {wrong_schedule: 1, duplicate_coldstart: 1}\n");
   schedules::Cluster cluster = CampaignClusters(campaign).base;
