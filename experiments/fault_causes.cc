@@ -1,6 +1,7 @@
 #include "experiments/fault_causes.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "bus/wire/flexray_frame.h"
 #include "experiments/fault_judge.h"
@@ -100,15 +101,15 @@ bool FaultCauses::disturbs(const Suspect& suspect, const Signal& signal) const {
   return first != suspect.acts.end() && *first <= signal.until + kRounded;
 }
 
+// One that has never acted is it only where no other fits: what it does may be seen a moment before it is said.
 template <class Fits>
 FaultCauses::Cause FaultCauses::latest(TrueTime until, Fits fits) const {
   Cause cause;
-  TrueTime newest{};
+  std::pair<bool, TrueTime> newest;
   for (std::size_t f = 0; f < suspects_.size(); ++f) {
     const Suspect& suspect = suspects_[f];
-    // What has never acted has done nothing.
-    if (!begun(suspect, until) || suspect.acts.empty() || !fits(suspect)) continue;
-    const TrueTime act = last_act(suspect, until);
+    if (!begun(suspect, until) || !fits(suspect)) continue;
+    const std::pair act(!suspect.acts.empty(), last_act(suspect, until));
     if (cause && act < newest) continue;
     cause = f;
     newest = act;

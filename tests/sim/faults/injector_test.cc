@@ -310,6 +310,7 @@ TEST(Injector, NothingIsToldBeforeItIsSo) {
     ASSERT_GT(medium.delay(NodeId{2}, NodeId{0}), Duration{1});
     const TrueTime from = kind == FaultKind::kOmission ? heard : heard + Duration{10'000};
     fault.from = from - TrueTime{1'000'000};
+    fault.duration = Duration{kCycleNs / 2};
     config.faults = {fault};
     FaultBus bus(config);
     bus.simulation().run_until(from - Duration{1});
