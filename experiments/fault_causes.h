@@ -8,8 +8,8 @@
 //   the clocks    where nothing of the above fits: what the cluster's common time suffers, every slot of everybody suffers
 //   the cluster   the state and the clock of a fault-free node hang on all others: any fault
 // The last two while the fault acts, and after it as long as a controller puts up with missing sync frames.
-// Where several fit, it is the one that acted last, or began last where none has acted. Nodes say when in their own microticks, so a fault may seem to come a little
-// after what it did.
+// Where several fit, it is the one that acted last, or began last where none has acted. Nodes say when in their own
+// microticks, so a fault may seem to come a little after what it did.
 #pragma once
 
 #include <cstddef>

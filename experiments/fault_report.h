@@ -7,9 +7,9 @@
 //   - a node is without a fault until a fault that names it begins
 //   - H3 is told from when frames begin (experiments/frame_clocks.h), H4 and H5 from who reports which slot
 //     (experiments/slot_ledger.h), in the static segment
-// Of a node that has to start, the steps on its way are nobody's doing, only those back are, and all once a fault took its supply.
-// What is seen or harmed belongs to the fault that it fits (experiments/fault_causes.h), or is unattributed. Nothing counts before
-// the first fault has begun.
+// Of a node that has to start, the steps on its way are nobody's doing, only those back are, and all once a fault took
+// its supply. What is seen or harmed belongs to the fault that it fits (experiments/fault_causes.h), or is
+// unattributed. Nothing counts before the first fault has begun.
 #pragma once
 
 #include <array>

@@ -166,9 +166,9 @@ FaultPlan load_fault_plan(YamlMap& yaml, Duration latest);
 // One entry of such a list.
 Fault load_fault(YamlMap& yaml, Duration latest);
 
-// A fault's keys beside `kind` and `node`: those that its kind and mode have, with their values as in YAML, so that they are
-// read again as they are. Left out: `duration` of what lasts to the end, `receivers` that are all, `slot` that is the next
-// coldstart node's. The fault is resolved for the cluster.
+// A fault's keys beside `kind` and `node`: those that its kind and mode have, with their values as in YAML, so that
+// they are read again as they are. Left out: `duration` of what lasts to the end, `receivers` that are all, `slot`
+// that is the next coldstart node's. The fault is resolved for the cluster.
 std::vector<std::pair<std::string_view, std::string>> keys_of(const Fault& fault, const schedules::Cluster& cluster);
 // The whole entry in one line: "{kind: crash, node: fusion, from: 0 ns}".
 std::string entry_of(const Fault& fault, const schedules::Cluster& cluster);

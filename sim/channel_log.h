@@ -3,9 +3,10 @@
 // controller sent it, it becomes a records::ChannelFrame once it has arrived everywhere.
 //
 // The medium tells it of each signal's way and asks nothing: a run is the same with and without it. Only frames and
-// activity that nobody can make out have a way here; symbols have none. A frame counts as what the best-placed receiver
-// had: as one that nobody can make out only if that befell it at all who hear it (who sends at the same time does not make
-// it out), as changed only if all who can make it out have the same other bytes. Nothing here allocates after construction, while there is room.
+// activity that nobody can make out have a way here; symbols have none. A frame counts as what the best-placed
+// receiver had: as one that nobody can make out only if that befell it at all who hear it (who sends at the same time
+// does not make it out), as changed only if all who can make it out have the same other bytes. Nothing here allocates
+// after construction, while there is room.
 #pragma once
 
 #include <array>

@@ -34,11 +34,12 @@ namespace ttf::sim {
 
 class FlexRayMedium {
  public:
-  // Signals on their way at once that there is room for from the beginning, beside those that have not reached a coupler
-  // yet. A signal is one until it has ended at its last receiver, and no longer: what it is drawn into, or what is drawn
-  // into it, arrives with the one of them that ends last. So there are, on either channel, at most one that a node sends,
-  // what is left of one that broke off, one that each fault makes of nothing, and what a fault makes late: a slot's frame
-  // for each slot in that time. Where a plan of faults makes more of it than this, there is more room.
+  // Signals on their way at once that there is room for from the beginning, beside those that have not reached a
+  // coupler yet. A signal is one until it has ended at its last receiver, and no longer: what it is drawn into, or
+  // what is drawn into it, arrives with the one of them that ends last. So there are, on either channel, at most one
+  // that a node sends, what is left of one that broke off, one that each fault makes of nothing, and what a fault
+  // makes late: a slot's frame for each slot in that time. Where a plan of faults makes more of it than this, there is
+  // more room.
   static constexpr std::size_t kFlights = 512;
   // The frames and the events of the queue that it may need.
   static constexpr std::size_t kMostPending = kFlights + 64;
@@ -109,8 +110,8 @@ class FlexRayMedium {
     bool merged = false;              // of several signals
     bool emitted = false;             // on its way to a coupler: by a fault
   };
-  // Those on their way to one node on one channel, in no order, no two of them at once: hardly ever more than one, but for
-  // what a fault makes late.
+  // Those on their way to one node on one channel, in no order, no two of them at once: hardly ever more than one, but
+  // for what a fault makes late.
   static constexpr std::size_t kLaneRoom = 64;
   class Lane {
    public:
@@ -220,7 +221,7 @@ class FlexRayMedium {
   std::vector<Ways> ways_;                        // by sender
   Ways from_nowhere_, from_coupler_;
   std::vector<Stop> stops_;                       // most_stops_ for each flight
-  std::size_t most_stops_;                        // a node each
+  std::size_t most_stops_ = 0;                    // a node each
   std::vector<Flight> flights_;
   std::vector<std::uint32_t> free_flights_;
   std::array<Flight*, 2> clear_{};                // by channel; null where there is none

@@ -1,7 +1,8 @@
-// Adds what nobody in the cluster knows to the records of a drive: the truth, whenever a sensor measures and whenever the
-// feature service uses an image; a fix of the reference, when the fusion node first could have it.
+// Adds what nobody in the cluster knows to the records of a drive: the truth, whenever a sensor measures and whenever
+// the feature service uses an image; a fix of the reference, when the fusion node first could have it.
 //
-// The truth says on whose clock it was when (records::TruthState): nodes that measure at one instant each record it, once.
+// The truth says on whose clock it was when (records::TruthState): nodes that measure at one instant each record it,
+// once.
 #pragma once
 
 #include <cstdint>

@@ -82,7 +82,8 @@ class ActiveFault {
   void acted(fmt::format_string<Args...> sentence, Args&&... args) {
     std::array<char, FaultLog::kMostText> text;
     const auto end = fmt::format_to_n(text.begin(), text.size(), sentence, std::forward<Args>(args)...).out;
-    setting_.log.acted(setting_.index, setting_.plant.now(), {text.data(), static_cast<std::size_t>(end - text.begin())});
+    setting_.log.acted(setting_.index, setting_.plant.now(),
+                       {text.data(), static_cast<std::size_t>(end - text.begin())});
   }
 
  private:

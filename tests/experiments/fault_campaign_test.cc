@@ -77,7 +77,8 @@ TEST(FaultCampaign, WhatIsPrintedOfAFaultIsReadAgain) {
   const CampaignFile campaign = small_campaign(1);
   const CampaignClusters clusters(campaign);
   const auto read_again = [&](const nodes::Fault& fault) {
-    const StrictYaml yaml = StrictYaml::parse("faults:\n  - " + nodes::entry_of(fault, clusters.base) + "\n", "printed.yaml");
+    const std::string entry = nodes::entry_of(fault, clusters.base);
+    const StrictYaml yaml = StrictYaml::parse("faults:\n  - " + entry + "\n", "printed.yaml");
     Findings findings;
     YamlMap root = yaml.root(findings);
     nodes::FaultPlan plan = nodes::load_fault_plan(root, Duration::milliseconds(3'600'000));

@@ -177,7 +177,8 @@ TEST_P(ClearFlights, WhatArrivesIsWhatDelaysAndOverlapsSay) {
   EXPECT_GT(drawn_together, 1000);
 }
 
-// A noise of 100 ms, and in it 10 us bursts and frames, one behind the other: more of them than there is room for at once.
+// A noise of 100 ms, and in it 10 us bursts and frames, one behind the other: more of them than there is room for at
+// once.
 TEST_P(ClearFlights, WhatIsDrawnIntoALongNoiseIsOverWhenItEnds) {
   Line line(std::get<0>(GetParam()), std::get<1>(GetParam()));
   const TrueTime begins{1'000}, ends = begins + Duration::milliseconds(100);
@@ -187,10 +188,10 @@ TEST_P(ClearFlights, WhatIsDrawnIntoALongNoiseIsOverWhenItEnds) {
     line.run(now);
     const auto sender = static_cast<NodeId>(1 + sent % 4);
     const bool frame = sent % 2 != 0;
+    const TrueTime end = now + Duration::microseconds(10);
     for (const Channel channel : {Channel::kA, Channel::kB})
       if (line.attached(index_of(sender), channel))
-        line.send({sender, channel, frame ? Signal::kFrame : Signal::kUndecodable, now, now + Duration::microseconds(10),
-                   frame ? 1 + sent % 100 : 0});
+        line.send({sender, channel, frame ? Signal::kFrame : Signal::kUndecodable, now, end, frame ? 7 : 0});
   }
   ASSERT_GT(sent, 2 * static_cast<int>(FlexRayMedium::kFlights));
   line.run(ends + Duration{100'000});

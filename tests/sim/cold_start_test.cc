@@ -204,7 +204,8 @@ TEST(ColdStart, AWakeupPatternPowersTheOthersOn) {
     EXPECT_TRUE(node.active.has_value()) << drive.cluster.node(node.node).name;
 }
 
-// Two lose their supply before anybody wakes them. One gets it back, when nobody is woken any more: it starts up at once.
+// Two lose their supply before anybody wakes them. One gets it back, when nobody is woken any more: it starts up at
+// once.
 TEST(ColdStart, OfASleepersSupplyNobodyIsToldBeforeItIsAwake) {
   struct Supplies final : records::Sink {
     using records::Sink::on;

@@ -72,8 +72,9 @@ TEST(FaultReport, TheStepsOfAStartUpAreNobodysDoing) {
   const FaultFindings& found = run.run();
   const FaultSeen& fault = found.faults.at(0);
   for (const auto& state : fault.states) EXPECT_EQ(state.node, run.node("camera")) << state.from << " to " << state.to;
-  EXPECT_TRUE(std::any_of(fault.states.begin(), fault.states.end(), [](const auto& state) { return state.to == "with supply"; }));
-  EXPECT_TRUE(std::any_of(fault.states.begin(), fault.states.end(), [](const auto& state) { return state.to == "normal active"; }));
+  for (const char* to : {"with supply", "normal active"})
+    EXPECT_TRUE(std::any_of(fault.states.begin(), fault.states.end(), [&](const auto& one) { return one.to == to; }))
+        << to;
   EXPECT_TRUE(found.unattributed.states.empty());
 }
 

@@ -151,7 +151,8 @@ TEST(Plant, AHostCommandsItsController) {
   Plant4 plant(5);
   plant.run_to(Duration{20 * kCycle_ns});
   const auto command = [&](NodeId node, bus::PocEventKind what) {
-    plant.simulation->controller(node).command(what, plant.simulation->oscillator(node).ticks_at(plant.simulation->now()));
+    const TrueTime now = plant.simulation->now();
+    plant.simulation->controller(node).command(what, plant.simulation->oscillator(node).ticks_at(now));
   };
   command(NodeId{3}, bus::PocEventKind::kHalt);
   EXPECT_EQ(plant.kind(3), PocKind::kNormalActive);   // at the end of the cycle

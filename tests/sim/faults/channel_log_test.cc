@@ -282,7 +282,7 @@ TEST(ChannelLog, WhatIsDrawnIntoALongNoiseIsToldWhenItIsOver) {
   EXPECT_EQ(logged.heard.count(records::kChannelCoding), logged.frames().size()) << "nobody can make any of it out";
   for (std::size_t f = 1; f < logged.frames().size(); ++f)
     EXPECT_LE(logged.frames()[f - 1].record.end, logged.frames()[f].record.end + Duration::microseconds(3)) << "delays";
-  for (int n = 0; n < 4; ++n) EXPECT_EQ(logged.bus.state(n), bus::PocKind::kNormalActive) << "there is a second channel";
+  for (int n = 0; n < 4; ++n) EXPECT_EQ(logged.bus.state(n), bus::PocKind::kNormalActive) << "on the other channel";
 }
 
 TEST(ChannelLog, WhatIsDrawnIntoALongNoiseMayBreakOff) {

@@ -290,8 +290,8 @@ TEST_F(Bytes, NothingIsShiftedToBeforeItIsSent) {
   EXPECT_EQ(signal.end - signal.start, Duration{26'300});
 }
 
-// A transient that begins in the middle of a frame, and a deaf receiver from when it would begin to hear one that has left: it is
-// known when the frame leaves, and told when the fault begins.
+// A transient that begins in the middle of a frame, and a deaf receiver from when it would begin to hear one that has
+// left: it is known when the frame leaves, and told when the fault begins.
 TEST(Injector, NothingIsToldBeforeItIsSo) {
   const TrueTime slot_three{1'000'000 + 10 * kCycleNs + 2 * 43'000 + 7'000};
   for (const FaultKind kind : {FaultKind::kTransient, FaultKind::kOmission}) {
@@ -400,7 +400,8 @@ TEST(ChannelSwap, ANodeWithOneWireIsRefused) {
     ADD_FAILURE() << "not refused";
   } catch (const InputError& error) {
     ASSERT_EQ(error.findings().size(), 1U);
-    EXPECT_EQ(error.findings()[0].sentence(), "drive.yaml:7: faults[1].node = node3: must be on both channels of 4 nodes");
+    EXPECT_EQ(error.findings()[0].sentence(),
+              "drive.yaml:7: faults[1].node = node3: must be on both channels of 4 nodes");
   }
 }
 
