@@ -15,21 +15,6 @@ using schedules::Channel;
 constexpr std::array kChannels = {Channel::kA, Channel::kB};
 constexpr int kCyclesUntilOverdue = 2;
 
-std::span<const std::byte> payload_of(std::span<const std::byte> frame) {
-  return frame.subspan(wire::kHeaderBytes, frame.size() - wire::kHeaderBytes - wire::kTrailerBytes);
-}
-
-// In all that a frame says; length and CRCs follow from it.
-bool same_frame(std::span<const std::byte> sent, const wire::DecodedFrame& received) {
-  if (sent.size() < wire::kHeaderBytes + wire::kTrailerBytes) return false;
-  const wire::FrameHeader there = wire::parse_header(sent.first<wire::kHeaderBytes>());
-  const wire::FrameHeader& header = received.header;
-  return header.frame_id == there.frame_id && header.cycle == there.cycle &&
-         header.payload_preamble == there.payload_preamble && header.null_frame == there.null_frame &&
-         header.sync == there.sync && header.startup == there.startup &&
-         std::ranges::equal(payload_of(sent), received.payload);
-}
-
 }  // namespace
 
 std::string_view name_of(Check check) {
@@ -99,6 +84,13 @@ FaultJudge::FaultJudge(const schedules::Cluster& cluster, JudgeSettings settings
   for (const schedules::FrameSlot& frame : cluster.frames) slots = std::max(slots, frame.slot);
   owed_.resize(static_cast<std::size_t>(slots) + 1);
   for (Owed& owed : owed_) owed.receivers.resize(nodes_.size(), false);
+}
+
+bool FaultJudge::Sent::says(const wire::DecodedFrame& frame) const {
+  const wire::FrameHeader& other = frame.header;
+  return any && other.frame_id == header.frame_id && other.cycle == header.cycle &&
+         other.payload_preamble == header.payload_preamble && other.null_frame == header.null_frame &&
+         other.sync == header.sync && other.startup == header.startup && std::ranges::equal(payload(), frame.payload);
 }
 
 void FaultJudge::notice(Check check, NodeId by, TrueTime when) {
@@ -174,16 +166,13 @@ void FaultJudge::collect(Owed& owed, int slot) {
   }
 }
 
-void FaultJudge::frame_sent(NodeId id, int slot, Channel channel, std::span<const std::byte> bytes, TrueTime when) {
+void FaultJudge::frame_sent(NodeId id, int slot, Channel channel, const wire::DecodedFrame& frame, TrueTime when) {
   const Node& sender = nodes_[index_of(id)];
-  if (sender.faulty || slot < 0 || static_cast<std::size_t>(slot) >= owed_.size() ||
-      bytes.size() > wire::kMaxFrameBytes)
-    return;
+  if (sender.faulty || slot < 0 || static_cast<std::size_t>(slot) >= owed_.size()) return;
   Owed& owed = owed_[static_cast<std::size_t>(slot)];
   // The other channel's copy: at the same instant in the static segment, maybe a cycle later in the dynamic one.
-  const std::size_t other = 1 - index_of(channel);
-  const std::span<const std::byte> others = std::span<const std::byte>(owed.bytes[other]).first(owed.size[other]);
-  const bool same_content = !others.empty() && std::ranges::equal(payload_of(others), payload_of(bytes));
+  const Sent& other = owed.as_sent[1 - index_of(channel)];
+  const bool same_content = other.any && std::ranges::equal(other.payload(), frame.payload);
   const bool dynamic = slot > cluster_.flexray.gNumberOfStaticSlots;
   const bool copy = owed.sender == id &&
                     (dynamic ? same_content && when - owed.sent <= cluster_.cycle() * kCyclesUntilOverdue : owed.sent == when);
@@ -191,22 +180,24 @@ void FaultJudge::frame_sent(NodeId id, int slot, Channel channel, std::span<cons
     collect(owed, slot);
     owed.sender = id;
     owed.sent = when;
-    for (const schedules::FrameSlot& frame : cluster_.frames) {
-      if (frame.slot != slot || frame.sender != id || sender.state != PocKind::kNormalActive) continue;
+    for (const schedules::FrameSlot& own : cluster_.frames) {
+      if (own.slot != slot || own.sender != id || sender.state != PocKind::kNormalActive) continue;
       for (std::size_t n = 0; n < nodes_.size(); ++n) {
         const Node& node = nodes_[n];
         const bool shares = std::any_of(kChannels.begin(), kChannels.end(), [&](Channel one) {
-          return includes(frame.channels, one) && includes(sender.channels, one) && includes(node.channels, one);
+          return includes(own.channels, one) && includes(sender.channels, one) && includes(node.channels, one);
         });
         if (static_cast<NodeId>(n) != id && !node.faulty && node.state == PocKind::kNormalActive && shares)
           owed.receivers[n] = true;
       }
     }
   }
-  const auto c = index_of(channel);
-  std::ranges::copy(bytes, owed.bytes[c].begin());
-  owed.size[c] = bytes.size();
-  owed.left[c] = when;
+  Sent& sent = owed.as_sent[index_of(channel)];
+  sent.any = true;
+  sent.at = when;
+  sent.header = frame.header;
+  std::ranges::copy(frame.payload, sent.bytes.begin());
+  sent.size = frame.payload.size();
 }
 
 void FaultJudge::frame_received(NodeId id, int slot, Channel channel, const wire::DecodedFrame& frame, TrueTime when) {
@@ -214,10 +205,8 @@ void FaultJudge::frame_received(NodeId id, int slot, Channel channel, const wire
   const NodeId sender = owner_of(cluster_, slot, channel, frame.header.cycle);
   if (sender == kNoNode || faulty(sender) || sender == id) return;
   Owed& owed = owed_[static_cast<std::size_t>(slot)];
-  const auto c = index_of(channel);
-  const bool sent = owed.sender == sender && owed.size[c] > 0 && when - owed.left[c] < cluster_.cycle() &&
-                    same_frame(std::span<const std::byte>(owed.bytes[c]).first(owed.size[c]), frame);
-  if (sent)
+  const Sent& sent = owed.as_sent[index_of(channel)];
+  if (owed.sender == sender && when - sent.at < cluster_.cycle() && sent.says(frame))
     owed.receivers[index_of(id)] = false;
   else
     harm(Harm::kFrameForged, when, id, sender, slot);

@@ -107,8 +107,8 @@ class FaultJudge {
   void lost_supply(NodeId node, TrueTime at);
   void slot_problem(NodeId node, bus::SlotStatus status, TrueTime at);
   void clock_corrected(NodeId node, bool missing, bool limit_reached, TrueTime at);
-  // `bytes`: the whole frame.
-  void frame_sent(NodeId node, int slot, schedules::Channel channel, std::span<const std::byte> bytes, TrueTime at);
+  // `frame` only during the call.
+  void frame_sent(NodeId node, int slot, schedules::Channel channel, const wire::DecodedFrame& frame, TrueTime at);
   void frame_received(NodeId node, int slot, schedules::Channel channel, const wire::DecodedFrame& frame, TrueTime at);
   void guardian_intervened(TrueTime at) { notice(Check::kGuardian, kNoNode, at); }
   // Among the fault-free nodes that are synchronised.
@@ -126,14 +126,22 @@ class FaultJudge {
     bool was_active = false;
     std::optional<TrueTime> out_since;    // lost normal active, or its supply
   };
+  // A frame as its controller sent it.
+  struct Sent {
+    bool any = false;
+    TrueTime at{};
+    wire::FrameHeader header;
+    std::array<std::byte, wire::kMaxPayloadBytes> bytes;
+    std::size_t size = 0;
+    std::span<const std::byte> payload() const { return std::span<const std::byte>(bytes).first(size); }
+    bool says(const wire::DecodedFrame& frame) const;
+  };
   // The newest frame of a slot, and which fault-free nodes still have to receive it.
   struct Owed {
     NodeId sender = kNoNode;
     TrueTime sent{};
     std::vector<bool> receivers;          // by NodeId
-    std::array<std::array<std::byte, wire::kMaxFrameBytes>, 2> bytes;   // by channel
-    std::array<std::size_t, 2> size{};
-    std::array<TrueTime, 2> left{};       // of what is in `bytes`
+    std::array<Sent, 2> as_sent;          // by channel
   };
   bool faulty(NodeId node) const { return node != kNoNode && nodes_[index_of(node)].faulty; }
   bool counts(TrueTime at) const { return at >= settings_.from; }

@@ -109,6 +109,7 @@ class Trial final : public sim::Disturbance, public sim::Plant, public records::
     simulation_ = std::make_unique<sim::BusSimulation>(cluster, std::move(nodes), std::move(events), guardians);
     injector_ = std::make_unique<sim::Injector>(plan_, cluster, *this, campaign.seed, index, *this, origin);
     simulation_->set_disturbance(this);
+    simulation_->medium().set_transparent(true);
     for (const Channel channel : {Channel::kA, Channel::kB})
       if (sim::StarCoupler* coupler = simulation_->coupler(channel))
         coupler->on_intervention([this](const sim::StarCoupler::Intervention& intervention) {
@@ -150,8 +151,9 @@ class Trial final : public sim::Disturbance, public sim::Plant, public records::
       trial.judge_.slot_problem(node, status, now());
     }
     void frame_sent(const bus::Transmission& transmission, std::int64_t, bool, PduId, std::uint32_t, int, bool) override {
-      trial.judge_.frame_sent(node, transmission.slot, transmission.channel, transmission.bytes, now());
+      trial.judge_.frame_sent(node, transmission.slot, transmission.channel, transmission.content, now());
     }
+    bool wants_bytes() const override { return false; }
     void frame_received(std::int64_t, int slot, Channel channel, const wire::DecodedFrame& frame, Microticks) override {
       trial.judge_.frame_received(node, slot, channel, frame, now());
     }
@@ -198,6 +200,7 @@ class Trial final : public sim::Disturbance, public sim::Plant, public records::
   }
 
   // --- the disturbance: the fault, and hosts that restart halted controllers
+  bool touches(NodeId sender, Channel channel) const override { return injector_->touches(sender, channel); }
   bool leaving(sim::Leaving& signal) override { return injector_->leaving(signal); }
   bool arriving(sim::Arriving& signal) override { return injector_->arriving(signal); }
   TrueTime next() const override {

@@ -48,7 +48,8 @@ class ActiveFault {
   ActiveFault(const ActiveFault&) = delete;
   ActiveFault& operator=(const ActiveFault&) = delete;
 
-  // As in Disturbance.
+  // As in Disturbance. `touches`: of what a controller sends; what faults emit has bytes anyway.
+  virtual bool touches(NodeId sender, schedules::Channel channel) const { return (void)sender, (void)channel, false; }
   virtual bool leaving(Leaving& signal) { return (void)signal, true; }
   virtual bool arriving(Arriving& signal) { return (void)signal, true; }
   virtual TrueTime next() const { return Disturbance::kNever; }

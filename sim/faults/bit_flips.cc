@@ -16,6 +16,9 @@ class BitFlips final : public FrameFault {
  public:
   using FrameFault::FrameFault;
 
+  bool touches(NodeId sender, schedules::Channel channel) const override {
+    return sender == fault().node && on(channel);
+  }
   bool leaving(Leaving& signal) override {
     if (!befalls(signal)) return true;
     Frame& frame = frames_[index_of(signal.channel)];

@@ -96,6 +96,8 @@ class BabblingIdiot final : public NodeBursts {
     }
   }
 
+  // The frame it sent last.
+  bool touches(NodeId sender, Channel) const override { return sender == fault().node; }
   bool leaving(Leaving& signal) override {
     if (signal.sender != fault().node || signal.signal != Signal::kFrame) return true;
     Frame& frame = last_[index_of(signal.channel)];

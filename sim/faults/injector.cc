@@ -28,6 +28,11 @@ Injector::Injector(nodes::FaultPlan plan, const schedules::Cluster& cluster, Pla
 
 Injector::~Injector() = default;
 
+bool Injector::touches(NodeId sender, schedules::Channel channel) const {
+  return std::any_of(entries_.begin(), entries_.end(),
+                     [&](const Entry& entry) { return entry.fault->touches(sender, channel); });
+}
+
 bool Injector::leaving(Leaving& signal) {
   bool leaves = true;
   for (std::size_t i = 0; leaves && i < entries_.size(); ++i) leaves = entries_[i].fault->leaving(signal);

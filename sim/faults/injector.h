@@ -42,6 +42,7 @@ class Injector final : public Disturbance, private FaultLog {
   };
   std::span<const Activation> activations() const { return activations_; }
 
+  bool touches(NodeId sender, schedules::Channel channel) const override;
   bool leaving(Leaving& signal) override;
   bool arriving(Arriving& signal) override;
   TrueTime next() const override { return next_; }

@@ -16,6 +16,7 @@ class WrongFrameId final : public FrameFault {
  public:
   using FrameFault::FrameFault;
 
+  bool touches(NodeId sender, Channel) const override { return sender == fault().node; }
   bool leaving(Leaving& signal) override {
     if (!befalls(signal)) return true;
     const wire::DecodedFrame decoded = wire::decode_frame(signal.channel, signal.bytes);
@@ -41,6 +42,7 @@ class InAnothersSlot final : public FrameFault {
   explicit InAnothersSlot(const FaultSetting& setting) : FrameFault(setting) {}
 
   TrueTime next() const override { return due_; }
+  bool touches(NodeId sender, Channel) const override { return sender == fault().node; }
 
   bool leaving(Leaving& signal) override {
     const schedules::NodeParameters& p = *cluster().node(fault().node).flexray;

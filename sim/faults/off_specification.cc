@@ -65,6 +65,8 @@ class ByzantineClock final : public FrameFault {
  public:
   using FrameFault::FrameFault;
 
+  // The cycle's counter.
+  bool touches(NodeId sender, schedules::Channel) const override { return sender == fault().node; }
   bool leaving(Leaving& signal) override {
     if (!befalls(signal)) return true;
     // The cycle's counter is the frame's last six bits of header.

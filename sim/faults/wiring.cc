@@ -14,6 +14,8 @@ class ChannelSwap final : public ActiveFault {
   explicit ChannelSwap(const FaultSetting& setting)
       : ActiveFault(setting), occasions_(setting.fault.every, setting.fault.probability) {}
 
+  // It changes the channel.
+  bool touches(NodeId sender, Channel) const override { return sender == fault().node; }
   bool leaving(Leaving& signal) override {
     const Channel other = signal.channel == Channel::kA ? Channel::kB : Channel::kA;
     if (signal.sender != fault().node || !active(signal.start) || !can_send(other) ||

@@ -42,9 +42,12 @@ class Story : public testing::Test {
     bytes.resize(wire::encode_frame(header, channel, payload, bytes));
     return bytes;
   }
+  void sends(NodeId node, int slot, Channel channel, const std::vector<std::byte>& bytes, TrueTime at) {
+    judge_.frame_sent(node, slot, channel, wire::decode_frame(channel, bytes), at);
+  }
   void alice_sends(int cycle, unsigned content = 7) {
     for (const Channel channel : {Channel::kA, Channel::kB})
-      judge_.frame_sent(kAlice, 2, channel, frame(channel, cycle, content), in_cycle(cycle, 50));
+      sends(kAlice, 2, channel, frame(channel, cycle, content), in_cycle(cycle, 50));
   }
   void bob_receives(int cycle, Channel channel, unsigned content = 7) {
     const auto bytes = frame(channel, cycle, content);
@@ -141,7 +144,7 @@ TEST_F(Story, H4WhoIsNotNormalActiveIsOwedNothing) {
 
 TEST_F(Story, H4WhatTheFaultyNodeSendsIsOwedToNobody) {
   for (const Channel channel : {Channel::kA, Channel::kB})
-    judge_.frame_sent(kFaulty, 1, channel, frame(channel, 5, 7), in_cycle(5));
+    sends(kFaulty, 1, channel, frame(channel, 5, 7), in_cycle(5));
   EXPECT_FALSE(end().harmed());
 }
 
