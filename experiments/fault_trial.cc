@@ -72,7 +72,7 @@ class Trial final : public sim::Disturbance, public sim::Plant, public records::
  public:
   // `drawn` null: the same start-up without the fault.
   Trial(const CampaignFile& campaign, const schedules::Cluster& cluster, const DrawnFault* drawn, bool starts_up,
-        std::uint32_t index, const JudgeSettings& settings, TrialStory* story)
+        std::uint32_t index, const JudgeSettings& settings, TrialStory* story, bool bit_true)
       : campaign_(campaign),
         cluster_(cluster),
         plan_{campaign.file, drawn != nullptr ? std::vector{drawn->fault} : std::vector<nodes::Fault>{}},
@@ -109,7 +109,7 @@ class Trial final : public sim::Disturbance, public sim::Plant, public records::
     simulation_ = std::make_unique<sim::BusSimulation>(cluster, std::move(nodes), std::move(events), guardians);
     injector_ = std::make_unique<sim::Injector>(plan_, cluster, *this, campaign.seed, index, *this, origin);
     simulation_->set_disturbance(this);
-    simulation_->medium().set_transparent(true);
+    simulation_->medium().set_transparent(!bit_true);
     for (const Channel channel : {Channel::kA, Channel::kB})
       if (sim::StarCoupler* coupler = simulation_->coupler(channel))
         coupler->on_intervention([this](const sim::StarCoupler::Intervention& intervention) {
@@ -284,7 +284,7 @@ FaultOutcome outcome_of(const Judgement& judgement, const sim::Injector::Activat
 }  // namespace
 
 FaultOutcome run_trial(const CampaignFile& campaign, const schedules::Cluster& cluster, const DrawnFault& drawn,
-                       std::uint32_t index, TrialStory* story) {
+                       std::uint32_t index, TrialStory* story, bool bit_true) {
   const bool starts_up = drawn.starts_up;
   const TrueTime end = TrueTime{} + cluster.cycle() * (starts_up ? campaign.startup_cycles : campaign.steady_cycles);
   JudgeSettings settings;
@@ -294,7 +294,7 @@ FaultOutcome run_trial(const CampaignFile& campaign, const schedules::Cluster& c
   if (starts_up) {
     // The same start-up without the fault: when it is over, and which checks it shows until then.
     settings.faulty.assign(cluster.nodes.size(), false);
-    Trial without(campaign, cluster, nullptr, true, index, settings, nullptr);
+    Trial without(campaign, cluster, nullptr, true, index, settings, nullptr, bit_true);
     const auto settled = without.run_until_all_active(end);
     starts_without = settled.has_value();
     settings.settled = settled.value_or(end) + cluster.cycle() * kCyclesToSettle;
@@ -306,7 +306,7 @@ FaultOutcome run_trial(const CampaignFile& campaign, const schedules::Cluster& c
   settings.faulty = named_by(fault, cluster);
   settings.from = nodes::changes_schedule(fault) ? TrueTime{} : origin + fault.from;
   settings.until = fault.duration == nodes::Fault::kToTheEnd ? sim::Disturbance::kNever : origin + fault.from + fault.duration;
-  Trial trial(campaign, cluster, &drawn, starts_up, index, settings, story);
+  Trial trial(campaign, cluster, &drawn, starts_up, index, settings, story, bit_true);
   trial.run(end);
   const Judgement& judgement = trial.finish();
   if (story != nullptr) story->judged(judgement);

@@ -42,8 +42,9 @@ class TrialStory {
   virtual void judged(const Judgement& judgement) = 0;
 };
 
-// `cluster`: as wired (cluster_of()). `story` may be null.
+// `cluster`: as wired (cluster_of()). `story` may be null. `bit_true`: on a medium that encodes and decodes every frame; the
+// outcome is the same.
 FaultOutcome run_trial(const CampaignFile& campaign, const schedules::Cluster& cluster, const DrawnFault& drawn,
-                       std::uint32_t index, TrialStory* story = nullptr);
+                       std::uint32_t index, TrialStory* story = nullptr, bool bit_true = false);
 
 }  // namespace ttf::experiments

@@ -111,5 +111,20 @@ TEST_F(FaultTrial, NoiseOnOneChannelLeavesTheOther) {
   EXPECT_FALSE(in_hypothesis(noise));
 }
 
+// Campaigns run on the transparent medium. What comes of any fault is what comes of it where every frame is encoded.
+TEST_F(FaultTrial, OnATransparentMediumEveryFaultHasTheSameOutcome) {
+  int activated = 0;
+  for (std::uint32_t index = 0; index < 400; ++index) {
+    const DrawnFault drawn = draw_fault(campaign_, clusters_.base, index);
+    for (const schedules::Cluster& cluster : clusters_.variants) {
+      const FaultOutcome outcome = run_trial(campaign_, cluster, drawn, index);
+      EXPECT_EQ(outcome, run_trial(campaign_, cluster, drawn, index, nullptr, true))
+          << "fault " << index << ": " << nodes::entry_of(drawn.fault, clusters_.base);
+      activated += outcome.activated ? 1 : 0;
+    }
+  }
+  EXPECT_GT(activated, 600);
+}
+
 }  // namespace
 }  // namespace ttf::experiments
