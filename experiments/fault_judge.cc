@@ -1,6 +1,7 @@
 #include "experiments/fault_judge.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "bus/slot_table.h"
 #include "core/check.h"
@@ -14,6 +15,10 @@ using schedules::Channel;
 
 constexpr std::array kChannels = {Channel::kA, Channel::kB};
 constexpr int kCyclesUntilOverdue = 2;
+
+bool same_bytes(std::span<const std::byte> a, std::span<const std::byte> b) {
+  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size()) == 0);
+}
 
 }  // namespace
 
@@ -90,7 +95,7 @@ bool FaultJudge::Sent::says(const wire::DecodedFrame& frame) const {
   const wire::FrameHeader& other = frame.header;
   return any && other.frame_id == header.frame_id && other.cycle == header.cycle &&
          other.payload_preamble == header.payload_preamble && other.null_frame == header.null_frame &&
-         other.sync == header.sync && other.startup == header.startup && std::ranges::equal(payload(), frame.payload);
+         other.sync == header.sync && other.startup == header.startup && same_bytes(payload(), frame.payload);
 }
 
 void FaultJudge::notice(Check check, NodeId by, TrueTime when) {
@@ -172,7 +177,7 @@ void FaultJudge::frame_sent(NodeId id, int slot, Channel channel, const wire::De
   Owed& owed = owed_[static_cast<std::size_t>(slot)];
   // The other channel's copy: at the same instant in the static segment, maybe a cycle later in the dynamic one.
   const Sent& other = owed.as_sent[1 - index_of(channel)];
-  const bool same_content = other.any && std::ranges::equal(other.payload(), frame.payload);
+  const bool same_content = other.any && same_bytes(other.payload(), frame.payload);
   const bool dynamic = slot > cluster_.flexray.gNumberOfStaticSlots;
   const bool copy = owed.sender == id &&
                     (dynamic ? same_content && when - owed.sent <= cluster_.cycle() * kCyclesUntilOverdue : owed.sent == when);
