@@ -29,6 +29,7 @@ bool falls_back(const records::StateChanged& change) {
   const auto from = static_cast<PocKind>(change.from);
   switch (static_cast<PocKind>(change.to)) {
     case PocKind::kHalt:
+    case PocKind::kWakeupDetect:   // somebody else is on the channel
     case PocKind::kColdstartGap: return true;
     case PocKind::kColdstartListen:
     case PocKind::kIntegrationListen:
@@ -40,7 +41,6 @@ bool falls_back(const records::StateChanged& change) {
     case PocKind::kConfig:
     case PocKind::kWakeupListen:
     case PocKind::kWakeupSend:
-    case PocKind::kWakeupDetect:
     case PocKind::kColdstartCollisionResolution:
     case PocKind::kColdstartConsistencyCheck:
     case PocKind::kInitialiseSchedule:
