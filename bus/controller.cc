@@ -111,8 +111,9 @@ void FlexRayController::State::handle(Microticks at) {
   }
   if (listen_timer == at) {
     listen_timer = kNever;
-    // What is arriving has stopped the timer; it starts anew when the channels are idle again.
-    return busy() ? tell({PocEventKind::kChannelActive}, at) : tell({PocEventKind::kListenTimeout}, at);
+    // What is arriving may have stopped the timer, which then starts anew when the channels are idle again.
+    const bool stopped = listen_timer_follows_channels(poc.kind) && busy();
+    return tell({stopped ? PocEventKind::kChannelActive : PocEventKind::kListenTimeout}, at);
   }
   if (wakeup_sent == at) {
     wakeup_sent = kNever;

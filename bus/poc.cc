@@ -5,9 +5,7 @@
 namespace ttf::bus {
 namespace {
 
-bool runs_timers(PocKind kind) {
-  return kind == PocKind::kWakeupListen || kind == PocKind::kWakeupDetect || kind == PocKind::kColdstartListen;
-}
+bool runs_timers(PocKind kind) { return listen_timer_follows_channels(kind) || kind == PocKind::kWakeupDetect; }
 
 }  // namespace
 
@@ -65,6 +63,10 @@ MacMode mac_mode(const PocState& state) {
 bool has_schedule(PocKind kind) {
   return kind == PocKind::kNormalActive || kind == PocKind::kNormalPassive ||
          (in_startup(kind) && kind != PocKind::kColdstartListen && kind != PocKind::kIntegrationListen);
+}
+
+bool listen_timer_follows_channels(PocKind kind) {
+  return kind == PocKind::kWakeupListen || kind == PocKind::kColdstartListen;
 }
 
 bool corrects_clock(PocKind kind) {

@@ -178,6 +178,9 @@ constexpr bool in_startup(PocKind kind) {
 }
 // Whether a schedule is derived or runs, that is whether cycle starts can come.
 bool has_schedule(PocKind kind);
+// Whether the listen timer runs only while all channels are idle, and begins anew whenever they are so again: elsewhere
+// it runs on, whatever is heard.
+bool listen_timer_follows_channels(PocKind kind);
 // Whether computed corrections are applied: not while the own frame is the only one on the bus.
 bool corrects_clock(PocKind kind);
 

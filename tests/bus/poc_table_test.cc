@@ -249,6 +249,7 @@ TEST(PocTable, OnlyTheListenTimersFollowTheChannel) {
     const auto actions = [&](Event kind) {
       return poc_step(script.parameters, script.state, PocEvent{kind}).actions;
     };
+    EXPECT_EQ(listen_timer_follows_channels(script.state.kind), listens) << row.start;
     EXPECT_EQ(actions(Event::kChannelActive), listens ? PocActions(PocAction::kStopListenTimer) : PocActions())
         << row.start;
     EXPECT_EQ(actions(Event::kChannelsIdle), listens ? PocActions(PocAction::kRestartListenTimer) : PocActions())

@@ -1,0 +1,112 @@
+// Wake-up as a controller goes through it: when its timers run, and that it always ends.
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "tests/bus/alone.h"
+#include "tests/bus/startup_cluster.h"
+
+namespace ttf::bus {
+namespace {
+
+// A coldstart node whose host has commanded WAKEUP at 0. Its listen time-out is over after two cycles of silence; then
+// it sends its pattern on channel A.
+struct Waking {
+  schedules::Cluster cluster = patient_cluster();
+  NoPort port;
+  Heard heard;
+  FlexRayController controller{cluster, NodeId{0}, port, heard};
+
+  Waking() {
+    for (const auto command : {PocEventKind::kConfig, PocEventKind::kConfigComplete, PocEventKind::kWakeup})
+      controller.command(command, {});
+  }
+  // The noise timer is not what ends things here.
+  static schedules::Cluster patient_cluster() {
+    schedules::Cluster cluster = startup_cluster(2);
+    cluster.flexray.gListenNoise = 16;
+    return cluster;
+  }
+  Microticks timeout() const { return {cluster.nodes[0].flexray->pdListenTimeout}; }
+  PocKind kind() const { return controller.state().kind; }
+  WakeupStatus status() const { return controller.state().wakeup_status; }
+  void hear_noise(Microticks start, Microticks end) {
+    controller.advance(end - Microticks{1});
+    controller.receive({Channel::kA, Signal::kUndecodable, start, end, {}});
+  }
+  // Noise into the pattern: a collision, heard until the end of that noise.
+  Microticks collide() {
+    controller.advance(timeout());
+    EXPECT_EQ(kind(), PocKind::kWakeupSend);
+    const Microticks end = timeout() + Microticks{500};
+    hear_noise(timeout() + Microticks{100}, end);
+    EXPECT_EQ(kind(), PocKind::kWakeupDetect);
+    return end;
+  }
+};
+
+TEST(Wakeup, AfterSilenceThePatternIsSentAndTheNodeIsReady) {
+  Waking node;
+  node.controller.advance(node.timeout() - Microticks{1});
+  EXPECT_EQ(node.kind(), PocKind::kWakeupListen);
+  node.controller.advance(node.timeout());
+  ASSERT_EQ(node.port.sent.size(), 1u);
+  EXPECT_EQ(node.port.sent[0].signal, Signal::kWakeup);
+  node.controller.advance(node.port.sent[0].end);
+  EXPECT_EQ(node.kind(), PocKind::kReady);
+  EXPECT_EQ(node.status(), WakeupStatus::kTransmitted);
+}
+
+// What keeps a channel busy when the timer expires has stopped it: the node listens anew behind it.
+TEST(Wakeup, WhileListeningTheTimerFollowsTheChannels) {
+  Waking node;
+  node.port.busy[0] = true;
+  node.controller.advance(node.timeout());
+  EXPECT_EQ(node.kind(), PocKind::kWakeupListen);
+  node.port.busy[0] = false;
+  const Microticks end = node.timeout() + Microticks{300};
+  node.hear_noise(node.timeout() - Microticks{100}, end);
+  node.controller.advance(end + node.timeout());
+  EXPECT_EQ(node.kind(), PocKind::kWakeupListen);   // since channel idle was recognised: some bits later
+  node.controller.advance(end + node.timeout() + Microticks{11 * 4});
+  EXPECT_EQ(node.kind(), PocKind::kWakeupSend);
+}
+
+TEST(Wakeup, ACollisionThatNothingExplainsEndsWithTheListenTimer) {
+  Waking node;
+  const Microticks collision = node.collide();
+  node.controller.advance(collision + node.timeout() - Microticks{1});
+  EXPECT_EQ(node.kind(), PocKind::kWakeupDetect);
+  node.controller.advance(collision + node.timeout());
+  EXPECT_EQ(node.kind(), PocKind::kReady);
+  EXPECT_EQ(node.status(), WakeupStatus::kCollisionUnknown);
+}
+
+// Whoever looks for what collided with the pattern has no other bound than that timer: it runs whatever is heard.
+TEST(Wakeup, ABusyChannelDoesNotKeepTheCollisionUnexplainedForEver) {
+  Waking node;
+  const Microticks collision = node.collide();
+  node.port.busy[0] = true;
+  node.controller.advance(collision + node.timeout());
+  EXPECT_EQ(node.kind(), PocKind::kReady);
+  EXPECT_EQ(node.status(), WakeupStatus::kCollisionUnknown);
+}
+
+// Back to back, as the timer expires in the middle of one of them.
+TEST(Wakeup, NoiseUponNoiseDoesNotEither) {
+  Waking node;
+  Microticks at = node.collide();
+  const Microticks expires = at + node.timeout();
+  for (; at < expires + Microticks{5'000}; at = at + Microticks{2'400}) {
+    node.controller.advance(at);
+    node.port.busy[0] = true;
+    node.controller.advance(at + Microticks{2'319});
+    node.port.busy[0] = false;
+    node.hear_noise(at, at + Microticks{2'320});
+  }
+  EXPECT_EQ(node.kind(), PocKind::kReady);
+  EXPECT_EQ(node.status(), WakeupStatus::kCollisionUnknown);
+}
+
+}  // namespace
+}  // namespace ttf::bus
