@@ -32,8 +32,7 @@ FlexRayController::State::State(const schedules::Cluster& c, NodeId n, FlexRayPo
       network_management(c.flexray.gNetworkManagementVectorLength),
       sync(c.flexray.gSyncNodeMax),
       initialisation(c.flexray, parameters(c, n)),
-      seen(static_cast<std::size_t>(g.gNumberOfStaticSlots)),
-      seen_last(seen.size()),
+      board(g.gNumberOfStaticSlots),
       dynamic{Dynamic{DynamicSlotCounter(c.flexray)}, Dynamic{DynamicSlotCounter(c.flexray)}} {}
 
 Microticks FlexRayController::State::bits(int count) const {
@@ -77,7 +76,8 @@ void FlexRayController::State::begin_schedule(Microticks start, int rate, std::i
   slot_at = {0, clock->cycle_start(), clock->cycle_start(), 0, {}};
   sync.reset();
   sync_status = {};
-  std::fill(seen_last.begin(), seen_last.end(), Seen{});
+  board.clear();
+  going_on = {};
   window_last = {};
   network_management.reset();
 }
@@ -145,7 +145,7 @@ void FlexRayController::State::handle(Microticks at) {
 }
 
 void FlexRayController::State::start_cycle() {
-  std::fill(seen.begin(), seen.end(), Seen{});
+  board.begin_segment();
   slot_at = {0, clock->cycle_start(), clock->cycle_start(), 0, {}};
   sync.start_cycle(counter());
   segment = Segment::kStatic;
@@ -161,10 +161,25 @@ void FlexRayController::State::enter_cycle(const StartupFramesSeen& ended, Micro
   events.cycle_started(clock->cycle(), at);
 }
 
+// What has not ended has not been judged: its beginning is not known but to have been behind all that was heard.
+void FlexRayController::State::note_what_goes_on() {
+  for (const schedules::Channel channel : kChannels) {
+    bool& goes_on = going_on[index_of(channel)];
+    const bool whole_cycle = goes_on;
+    goes_on = port.carrier(channel);
+    if (!goes_on) continue;
+    const int last = board.slots();
+    if (whole_cycle) board.crossed(channel, 1, last);
+    for (int slot = board.last_heard(channel) + 1; slot < last; ++slot)
+      if (slots.expected(slot, counter(), channel) != nullptr) board.crossed(channel, slot, slot);
+    board.crossed(channel, last, last);
+  }
+}
+
 void FlexRayController::State::tell_slot_problems(Microticks at) {
   const int now = counter();
   for (int slot = 1; slot <= g.gNumberOfStaticSlots; ++slot) {
-    const Seen& status = seen[static_cast<std::size_t>(slot - 1)];
+    const SlotBoard::Seen& status = board.at(slot);
     const bool both_valid = status.valid[0] && status.valid[1];
     if ((status.errors[0] | status.errors[1]) == 0 && (both_valid || !slots.others_send_in(slot))) continue;
     const auto expected = slots.expected(slot, now);
@@ -182,8 +197,9 @@ void FlexRayController::State::tell_slot_problems(Microticks at) {
 // computed.
 void FlexRayController::State::close_static_segment(Microticks at) {
   const std::int64_t cycle = clock->cycle();
+  note_what_goes_on();
   if (!in_startup(poc.kind)) tell_slot_problems(at);
-  seen.swap(seen_last);
+  board.end_segment();
   const int valid_a = sync.valid(schedules::Channel::kA), valid_b = sync.valid(schedules::Channel::kB);
   (cycle % 2 == 0 ? sync_status.VSAE : sync_status.VSAO) = valid_a;
   (cycle % 2 == 0 ? sync_status.VSBE : sync_status.VSBO) = valid_b;
@@ -265,7 +281,7 @@ bool FlexRayController::synchronised() const {
 SlotSeen FlexRayController::slot_status(int slot, schedules::Channel channel) const {
   const State& s = *state_;
   TTF_CHECK(slot >= 1 && slot <= s.g.gNumberOfStaticSlots, "static slot {} of {}", slot, s.g.gNumberOfStaticSlots);
-  const State::Seen& seen = s.seen_last[static_cast<std::size_t>(slot - 1)];
+  const SlotBoard::Seen& seen = s.board.kept(slot);
   const std::uint8_t errors = seen.errors[index_of(channel)];
   return {seen.valid[index_of(channel)], (errors & kSyntaxError) != 0, (errors & kContentError) != 0,
           (errors & kBoundaryViolation) != 0, (errors & kTransmissionConflict) != 0};

@@ -13,9 +13,12 @@
 //   L4  nothing here allocates after construction
 //
 // Readings taken where the sources leave room: a startup frame sent before normal operation is a null frame. A second
-// communication element in a static slot is a syntax error of that slot, also where the first was a valid frame. Signals outside
-// every slot are reported under slot 0. A node alone with its own sync frame misses no term of clock correction. Cycle 0
-// of a leading coldstart node starts one macrotick after the end of its CAS.
+// communication element in a static slot is a syntax error of that slot, also where the first was a valid frame. What
+// began outside every slot is reported under slot 0. What crosses slots' boundaries violates those of every slot it
+// touches (bus/slot_board.h); of what goes on when the static segment ends, that is said then of the segment's last
+// slot, and of the empty slots in front of it behind all that was heard on the channel, instead of "no frame". A node
+// alone with its own sync frame misses no term of clock correction. Cycle 0 of a leading coldstart node starts one
+// macrotick after the end of its CAS.
 #pragma once
 
 #include <cstdint>
@@ -153,7 +156,7 @@ class FlexRayController {
   // Whether the clock is the cluster's, which the host may rely on.
   bool synchronised() const;
   // What was seen in a static slot (1..gNumberOfStaticSlots) of the cycle whose static segment ended last, until the
-  // next one ends. A frame that outlasts the segment is added when it is over.
+  // next one ends. What outlasts the segment has violated boundaries; the rest is added when it is over.
   SlotSeen slot_status(int slot, schedules::Channel channel) const;
   SyncStatus sync_status() const;
   // Of the last symbol window that is over; nothing during start-up. Nothing is heard of the own symbol.

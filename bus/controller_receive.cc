@@ -132,6 +132,13 @@ int FlexRayController::State::look_up_static_slot(Microticks at) {
   return slot;
 }
 
+// What began in `slot`, 0 being before the cycle, went on to slot `last` of it or beyond the segment.
+void FlexRayController::State::cross_slots(const Reception& reception, int slot, int last) {
+  board.crossed(reception.channel, slot + 1, std::min(last, board.slots()));
+  if (last <= board.slots()) return;
+  going_on[index_of(reception.channel)] = false;
+}
+
 // Before or behind the static segment, as `slot` says.
 void FlexRayController::State::judge_elsewhere(const Reception& reception, int slot, std::uint8_t errors,
                                                bool conflict) {
@@ -139,6 +146,10 @@ void FlexRayController::State::judge_elsewhere(const Reception& reception, int s
   if (minislot >= 1 && minislot <= minislots.count()) return judge_dynamic(reception, errors);
 
   // Between the segments, in the symbol window, in the NIT, or from the cycle before.
+  if (slot == 0) {
+    going_on[index_of(reception.channel)] = false;
+    cross_slots(reception, slot, last_static_slot_of(reception));
+  }
   const Macroticks window = window_start();
   const bool in_window = g.gdSymbolWindow > 0 && slot != 0 && reception.start >= clock->start_of(window) &&
                          reception.end <= clock->start_of(window + Macroticks{g.gdSymbolWindow});
@@ -153,14 +164,10 @@ void FlexRayController::State::judge_static(const Reception& reception, int slot
   const wire::FrameHeader& header = reception.frame.header;
   const FrameSlot* expected = slot_at.expected[c];   // `slot` has just been looked up
   const int cycle = slot_at.counter;
-  // A frame that outlasts the segment is judged when that has been closed without it.
-  std::vector<Seen>& slots_seen = segment == Segment::kStatic ? seen : seen_last;
-  Seen& status = slots_seen[static_cast<std::size_t>(slot - 1)];
-  // What ends in the microtick it began in lies in one slot.
-  const int last = static_slot_at(std::max(reception.start, reception.end - Microticks{1}));
-  if (last != slot) {
+  SlotBoard::Seen& status = board.at(slot);
+  if (const int last = last_static_slot_of(reception); last != slot) {
+    cross_slots(reception, slot, last);
     errors |= kBoundaryViolation;
-    if (last <= g.gNumberOfStaticSlots) slots_seen[static_cast<std::size_t>(last - 1)].errors[c] |= kBoundaryViolation;
   }
   if (status.element[c]) errors |= kSyntaxError;   // a second communication element
   status.element[c] = true;
@@ -170,7 +177,8 @@ void FlexRayController::State::judge_static(const Reception& reception, int slot
     errors |= kContentError;
   status.errors[c] |= errors;
   if (errors != 0) {
-    if (segment != Segment::kStatic && !in_startup(poc.kind))
+    // Of one that outlasts the segment this comes when that has been closed.
+    if (!board.under_way() && !in_startup(poc.kind))
       events.slot_problem(clock->cycle(), slot, reception.channel, static_cast<SlotStatus>(errors), reception.end);
     return;
   }

@@ -10,6 +10,7 @@
 #include "bus/dynamic_segment.h"
 #include "bus/network_management.h"
 #include "bus/schedule_initialisation.h"
+#include "bus/slot_board.h"
 #include "bus/slot_table.h"
 #include "bus/sync_collector.h"
 
@@ -47,13 +48,8 @@ struct FlexRayController::State {
   Microticks partner_overdue = kNever;     // while a schedule is being derived
   std::array<Microticks, 2> sending_from{kNever, kNever}, sending_to{};   // by channel: this node's last transmission
 
-  // What was seen in one static slot of a cycle, per channel.
-  struct Seen {
-    std::array<bool, 2> valid{}, element{};
-    std::array<std::uint8_t, 2> errors{};
-  };
-  std::vector<Seen> seen;                  // by slot - 1: in the segment under way
-  std::vector<Seen> seen_last;             // ... in the one that is over
+  SlotBoard board;
+  std::array<bool, 2> going_on{};          // by channel: what went on there when the last static segment ended still does
   SyncStatus sync_status;                  // without its counter, which is protocol operation control's
 
   // The static slot of this cycle that was looked up last: the other channel's frame of it comes next, then that of the
@@ -101,6 +97,7 @@ struct FlexRayController::State {
   void start_cycle();
   void enter_cycle(const StartupFramesSeen& ended, Microticks at);
   void close_static_segment(Microticks at);
+  void note_what_goes_on();
   void tell_slot_problems(Microticks at);
   int counter() const {
     const int round = g.gCycleCountMax + 1;   // 64 but for schedules made by hand: no division is needed
@@ -142,11 +139,17 @@ struct FlexRayController::State {
   void judge(const Reception& reception, bool conflict);   // within the schedule
   void judge_static(const Reception& reception, int slot, std::uint8_t errors);
   void judge_elsewhere(const Reception& reception, int slot, std::uint8_t errors, bool conflict);
+  void cross_slots(const Reception& reception, int slot, int last);
   void judge_dynamic(const Reception& reception, std::uint8_t errors);
   bool store(const schedules::FrameSlot& slot, const Reception& reception);
   // 0 before, gNumberOfStaticSlots + 1 after the segment; else it is in slot_at then.
   int static_slot_at(Microticks at) {
     return at >= slot_at.from && at < slot_at.to ? slot_at.slot : look_up_static_slot(at);
+  }
+  // What ends in the microtick it began in lies in one slot.
+  int last_static_slot_of(const Reception& reception) {
+    const Microticks last = reception.end - Microticks{1};
+    return static_slot_at(last > reception.start ? last : reception.start);
   }
   int look_up_static_slot(Microticks at);
 };
