@@ -137,18 +137,21 @@ void FlexRayController::State::cross_slots(const Reception& reception, int slot,
   board.crossed(reception.channel, slot + 1, std::min(last, board.slots()));
   if (last <= board.slots()) return;
   going_on[index_of(reception.channel)] = false;
+  count_minislots(reception);
 }
 
 // Before or behind the static segment, as `slot` says.
 void FlexRayController::State::judge_elsewhere(const Reception& reception, int slot, std::uint8_t errors,
                                                bool conflict) {
   const int minislot = slot == 0 ? 0 : minislots.minislot_at(*clock, reception.start);
-  if (minislot >= 1 && minislot <= minislots.count()) return judge_dynamic(reception, errors);
+  if (minislot >= 1 && minislot <= minislots.count()) return judge_dynamic(reception, minislot, errors);
 
   // Between the segments, in the symbol window, in the NIT, or from the cycle before.
   if (slot == 0) {
     going_on[index_of(reception.channel)] = false;
     cross_slots(reception, slot, last_static_slot_of(reception));
+  } else if (minislot == 0) {
+    count_minislots(reception);
   }
   const Macroticks window = window_start();
   const bool in_window = g.gdSymbolWindow > 0 && slot != 0 && reception.start >= clock->start_of(window) &&
@@ -198,18 +201,23 @@ void FlexRayController::State::judge_static(const Reception& reception, int slot
     status.errors[c] |= kContentError;   // a frame, but not of this slot's list
 }
 
-void FlexRayController::State::judge_dynamic(const Reception& reception, std::uint8_t errors) {
-  const auto c = index_of(reception.channel);
+// The minislots that a reception took, from the first one on if it began before that: the slot counter goes on behind
+// them. The last of them; 0 if it ended before the segment.
+int FlexRayController::State::count_minislots(const Reception& reception) {
   const int compensation = reception.channel == Channel::kA ? p.pDelayCompensationA : p.pDelayCompensationB;
-  const wire::FrameHeader& header = reception.frame.header;
-  Dynamic& d = dynamic[c];
   const int first = minislots.minislot_at(*clock, reception.start);
-  const int last = minislots.minislot_at(*clock, reception.end - Microticks{compensation});
-  const int slot = d.counter.slot_in(first);
-  if (last > minislots.count()) errors |= kBoundaryViolation;
-  d.counter.occupied(first, last < first ? first : last);
+  const int last = std::max(first, minislots.minislot_at(*clock, reception.end - Microticks{compensation}));
+  if (last == 0 || segment != Segment::kDynamic) return last;
+  dynamic[index_of(reception.channel)].counter.occupied(std::max(first, 1), last);
   plan_dynamic(reception.channel, reception.end);
   due = next_event();
+  return last;
+}
+
+void FlexRayController::State::judge_dynamic(const Reception& reception, int minislot, std::uint8_t errors) {
+  const wire::FrameHeader& header = reception.frame.header;
+  const int slot = dynamic[index_of(reception.channel)].counter.slot_in(minislot);
+  if (count_minislots(reception) > minislots.count()) errors |= kBoundaryViolation;
 
   const FrameSlot* expected = slots.expected(slot, counter(), reception.channel, wire::message_id(reception.frame));
   if (errors == 0 && (header.frame_id != slot || header.cycle != counter() || header.sync || header.startup ||

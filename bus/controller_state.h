@@ -140,7 +140,8 @@ struct FlexRayController::State {
   void judge_static(const Reception& reception, int slot, std::uint8_t errors);
   void judge_elsewhere(const Reception& reception, int slot, std::uint8_t errors, bool conflict);
   void cross_slots(const Reception& reception, int slot, int last);
-  void judge_dynamic(const Reception& reception, std::uint8_t errors);
+  void judge_dynamic(const Reception& reception, int minislot, std::uint8_t errors);
+  int count_minislots(const Reception& reception);
   bool store(const schedules::FrameSlot& slot, const Reception& reception);
   // 0 before, gNumberOfStaticSlots + 1 after the segment; else it is in slot_at then.
   int static_slot_at(Microticks at) {

@@ -6,6 +6,10 @@
 // and gdDynamicSlotIdlePhase idle minislots follow. So the counters of two channels may diverge within a
 // cycle, but every node on a channel counts alike.
 //
+// Reading taken of what is on the channel already when the segment begins, which FlexRay has nothing of its own for:
+// it takes the first slot, as if it had begun in minislot 1. Nobody sends while it lasts, and whoever hears it end
+// counts on from there, as behind any transmission.
+//
 // clang-format off
 //   minislot   1   2   3   4   5   6   7   8     slot 42 is sent in minislots 2..5 (its DTS ends at the action
 //   slot      41  42  42  42  42  42  43  44     point of 5), minislot 6 is idle (gdDynamicSlotIdlePhase 1)

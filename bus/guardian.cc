@@ -168,10 +168,10 @@ bool Guardian::header_fits(const FrameSlot& frame, int counter, const wire::Fram
 
 void Guardian::count(const timebase::CycleClock& clock, DynamicSlotCounter& counter, Microticks start,
                      Microticks end) const {
-  if (minislots_.count() == 0 || start < clock.cycle_start()) return;
   const int first = minislots_.minislot_at(clock, start);
-  if (first < 1 || first > minislots_.count()) return;
-  counter.occupied(first, std::max(first, minislots_.minislot_at(clock, end - compensation_)));
+  const int last = std::max(first, minislots_.minislot_at(clock, end - compensation_));
+  if (last < 1 || first > minislots_.count()) return;
+  counter.occupied(std::max(first, 1), last);
 }
 
 }  // namespace ttf::bus

@@ -121,7 +121,7 @@ class Guardian {
   // its answer) and is ended by its sender at `end`: `end` where nothing is done about it. G7, and in the dynamic segment
   // G9; all three instants are the coupler's.
   Microticks end_of(const timebase::CycleClock& clock, Microticks start, Microticks end, Microticks until) const;
-  // Counts what was received in the dynamic segment.
+  // Counts what was received in the dynamic segment, in whole or in part (bus/dynamic_segment.h).
   void count(const timebase::CycleClock& clock, DynamicSlotCounter& counter, Microticks start, Microticks end) const;
 
  private:

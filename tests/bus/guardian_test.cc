@@ -198,6 +198,28 @@ TEST(Guardian, G3_DynamicSlotsAreCountedAndBelongToTheirNodes) {
         << minislot;
 }
 
+// What went on when the segment began has slot 9; whatever began before it and ended before it has none.
+TEST(Guardian, G3_CountsWhatBeganBeforeTheSegmentAsNodesDo) {
+  const Bench bench;
+  const MinislotGrid grid(bench.g());
+  const auto count = [&](int cycle, Microticks start, Microticks end) {
+    DynamicSlotCounter counter(bench.g());
+    bench.guardian[0]->count(Bench::clock(cycle), counter, start, end);
+    return counter;
+  };
+  const auto in = [&](int minislot) { return Bench::at(1, grid.action_point(minislot).value); };
+  const std::int64_t static_end = 8 * 43;
+  ASSERT_GT(grid.start_of(1).value, static_end);   // something may begin between the two
+  for (const Microticks start : {Bench::at(1, static_end - 20), Bench::at(1, static_end + 1), Bench::at(0, 990)}) {
+    EXPECT_EQ(count(1, start, in(5)).slot_in(7), 10) << start.value;
+    EXPECT_EQ(count(1, start, in(5)).slot_in(6), 0) << start.value;
+    EXPECT_EQ(count(1, start, Bench::at(1, static_end + 2)).slot_in(1), 9) << start.value;
+  }
+  // From the cycle before, and over before this one's segment; and behind the segment.
+  EXPECT_EQ(count(1, Bench::at(0, 990), Bench::at(1, 10)).slot_in(1), 9);
+  EXPECT_EQ(count(1, in(20) + Microticks{400}, in(20) + Microticks{800}).slot_in(20), 28);
+}
+
 TEST(Guardian, G3_NotLaterThanPLatestTxNotLongerThanItsPduNotBeyondTheSegment) {
   Bench bench;
   const MinislotGrid grid(bench.g());
