@@ -6,13 +6,9 @@
 #include "core/check.h"
 
 namespace ttf::bus {
-namespace {
 
 using schedules::Channel;
 using schedules::FrameSlot;
-
-
-}  // namespace
 
 std::string_view to_text(GuardianReason reason) {
   switch (reason) {

@@ -3,10 +3,6 @@
 #include <algorithm>
 
 namespace ttf::bus {
-namespace {
-
-
-}  // namespace
 
 StartupTurns::StartupTurns(const schedules::Cluster& cluster, schedules::Channel channel,
                            const schedules::NodeParameters& clock)
