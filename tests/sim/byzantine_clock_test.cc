@@ -103,7 +103,7 @@ TEST_P(Tolerated, ByzantineClocksDoNoHarm) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(SyncNodes, Tolerated, testing::Values(4, 5, 6, 7, 8, 9, 11, 15));
+INSTANTIATE_TEST_SUITE_P(SyncNodes, Tolerated, testing::Range(4, 16));
 
 TEST(ClockSynchronisation, OneOfThreeAndTwoOfSevenBreakThePrecision) {
   for (const auto& [sync, traitors] : {std::pair{3, 1}, std::pair{7, 2}}) {
