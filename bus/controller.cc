@@ -13,6 +13,14 @@ const schedules::NodeParameters& parameters(const schedules::Cluster& cluster, N
   return *cluster.node(node).flexray;
 }
 
+// A static slot's microticks. Parameters that come from nowhere but a test's hand have been through no checker.
+timebase::Divisor nominal_slot(const schedules::GlobalParameters& g, const schedules::NodeParameters& p) {
+  TTF_CHECK(g.gMacroPerCycle >= 1 && g.gdStaticSlot >= 1 && p.pMicroPerCycle >= g.gMacroPerCycle,
+            "static slots of {} macroticks, {} macroticks and {} microticks per cycle", g.gdStaticSlot, g.gMacroPerCycle,
+            p.pMicroPerCycle);
+  return timebase::Divisor(static_cast<std::int64_t>(g.gdStaticSlot) * p.pMicroPerCycle / g.gMacroPerCycle);
+}
+
 }  // namespace
 
 FlexRayController::State::State(const schedules::Cluster& c, NodeId n, FlexRayPort& medium, ControllerEvents& host)
@@ -26,7 +34,7 @@ FlexRayController::State::State(const schedules::Cluster& c, NodeId n, FlexRayPo
       slots(c, n),
       minislots(c.flexray),
       geometry{g.gMacroPerCycle, g.gdMacrotick_ps, p.pMicroPerCycle, g.gOffsetCorrectionStart},
-      nominal_slot(static_cast<std::int64_t>(g.gdStaticSlot) * p.pMicroPerCycle / g.gMacroPerCycle),
+      nominal_slot(bus::nominal_slot(g, p)),
       poc(poc_power_on(poc_parameters)),
       cni(c, n),
       network_management(c.flexray.gNetworkManagementVectorLength),

@@ -1,24 +1,29 @@
 #include "timebase/cycle_clock.h"
 
-#include <algorithm>
-
 #include "core/check.h"
 #include "core/int128.h"
 #include "timebase/floor_div.h"
 
 namespace ttf::timebase {
+namespace {
 
-CycleClock::CycleClock(CycleGeometry geometry, Microticks start, int rate, std::int64_t first)
-    : geometry_(geometry),
-      macroticks_(std::max(geometry.macro_per_cycle, 1)),   // what is wrong is said below
-      late_macroticks_(std::max(geometry.macro_per_cycle - geometry.offset_correction_start, 1)),
-      first_(first),
-      cycle_(first),
-      start_(start) {
+const CycleGeometry& checked(const CycleGeometry& geometry) {
   TTF_CHECK(geometry.macro_per_cycle > 0 && geometry.micro_per_cycle > 2 * geometry.macro_per_cycle,
             "{} macroticks, {} microticks", geometry.macro_per_cycle, geometry.micro_per_cycle);
   TTF_CHECK(geometry.offset_correction_start > 0 && geometry.offset_correction_start < geometry.macro_per_cycle,
             "offset correction starts at {}", geometry.offset_correction_start);
+  return geometry;
+}
+
+}  // namespace
+
+CycleClock::CycleClock(CycleGeometry geometry, Microticks start, int rate, std::int64_t first)
+    : geometry_(checked(geometry)),
+      macroticks_(geometry.macro_per_cycle),
+      late_macroticks_(geometry.macro_per_cycle - geometry.offset_correction_start),
+      first_(first),
+      cycle_(first),
+      start_(start) {
   set_rate(rate);
 }
 

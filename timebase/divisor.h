@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "core/check.h"
 #include "core/int128.h"
 
 namespace ttf::timebase {
@@ -11,7 +12,7 @@ class Divisor {
  public:
   // 1 or more.
   explicit constexpr Divisor(std::int64_t divisor)
-      : divisor_(static_cast<std::uint64_t>(divisor)), reciprocal_(~std::uint64_t{0} / divisor_) {}
+      : divisor_(checked(divisor)), reciprocal_(~std::uint64_t{0} / divisor_) {}
 
   // floor(x / divisor) for x >= 0.
   // With r = 2^64 / d - e, 0 < e <= 1, the product x r / 2^64 is more than x / d - 1: its whole part is the quotient or
@@ -26,6 +27,10 @@ class Divisor {
   constexpr std::int64_t ceil(std::int64_t x) const { return floor(x + static_cast<std::int64_t>(divisor_) - 1); }
 
  private:
+  static constexpr std::uint64_t checked(std::int64_t divisor) {
+    TTF_CHECK(divisor >= 1, "divisor {}", divisor);
+    return static_cast<std::uint64_t>(divisor);
+  }
   std::uint64_t divisor_, reciprocal_;
 };
 

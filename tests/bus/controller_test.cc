@@ -217,5 +217,13 @@ TEST(ControllerReceives, ListsFromBothChannels) {
   EXPECT_TRUE(rig.controller(0).incoming(kOddList).latest().has_value());
 }
 
+TEST(ControllerDeathTest, SlotsWithoutMicroticksAreOurBug) {
+  schedules::Cluster without_slots = small_cluster(2), without_cycle = small_cluster(2);
+  without_slots.flexray.gdStaticSlot = 0;
+  without_cycle.flexray.gMacroPerCycle = 0;
+  EXPECT_DEATH(Alone(0, without_slots), "static slots of 0 macroticks");
+  EXPECT_DEATH(Alone(0, without_cycle), "static slots of 84 macroticks, 0 macroticks and 40000 microticks per cycle");
+}
+
 }  // namespace
 }  // namespace ttf::bus

@@ -93,6 +93,16 @@ TEST(CycleClock, ACorrectionMustLeaveSomethingOfItsPhase) {
   EXPECT_DEATH(clock.global_time({195'413}), "leaves 0 of 199399");
 }
 
+TEST(CycleClockDeathTest, AGeometryThatNoCycleHasIsOurBug) {
+  const auto with = [](int macroticks, int microticks, int correction_start) {
+    return CycleClock({macroticks, 1'000'000, microticks, correction_start}, {0}, 0);
+  };
+  EXPECT_DEATH(with(0, 200'000, 1), "0 macroticks, 200000 microticks");
+  EXPECT_DEATH(with(5000, 10'000, 4900), "5000 macroticks, 10000 microticks");
+  EXPECT_DEATH(with(5000, 200'000, 0), "offset correction starts at 0");
+  EXPECT_DEATH(with(5000, 200'000, 5000), "offset correction starts at 5000");
+}
+
 TEST(CycleClock, GlobalTimeIsMonotoneAcrossTheCyclesCorners) {
   for_drawn_cycles(3, [](const CycleGeometry& g, const CycleClock& clock, RandomStream&) {
     for (const std::int64_t corner : {clock.start_of({1}).value, clock.start_of({g.offset_correction_start}).value,

@@ -33,6 +33,12 @@ TEST(Divisor, IsTheDivisionAtEveryEdge) {
   }
 }
 
+TEST(DivisorDeathTest, IsOneOrMore) {
+  static_assert(Divisor(1).floor(7) == 7);
+  EXPECT_DEATH(Divisor(0), "divisor 0");
+  EXPECT_DEATH(Divisor(-3), "divisor -3");
+}
+
 TEST(FloorDiv, RoundsDownOnBothSidesOfZeroAndOf64Bits) {
   EXPECT_EQ(static_cast<int>(floor_div(7, 2)), 3);
   EXPECT_EQ(static_cast<int>(floor_div(-7, 2)), -4);
