@@ -16,8 +16,8 @@ const schedules::NodeParameters& parameters(const schedules::Cluster& cluster, N
 // A static slot's microticks. Parameters that come from nowhere but a test's hand have been through no checker.
 timebase::Divisor nominal_slot(const schedules::GlobalParameters& g, const schedules::NodeParameters& p) {
   TTF_CHECK(g.gMacroPerCycle >= 1 && g.gdStaticSlot >= 1 && p.pMicroPerCycle >= g.gMacroPerCycle,
-            "static slots of {} macroticks, {} macroticks and {} microticks per cycle", g.gdStaticSlot, g.gMacroPerCycle,
-            p.pMicroPerCycle);
+            "static slots of {} macroticks, {} macroticks and {} microticks per cycle", g.gdStaticSlot,
+            g.gMacroPerCycle, p.pMicroPerCycle);
   return timebase::Divisor(static_cast<std::int64_t>(g.gdStaticSlot) * p.pMicroPerCycle / g.gMacroPerCycle);
 }
 
@@ -138,7 +138,7 @@ void FlexRayController::State::handle(Microticks at) {
       if (next_static < slots.own_static().size()) return send_static(at);
       return close_static_segment(at);
     case Segment::kDynamic:
-      for (const schedules::Channel channel : kChannels)
+      for (const schedules::Channel channel : schedules::kBothChannels)
         if (dynamic[index_of(channel)].due == at) return send_dynamic(channel, at);
       if (symbol_point == at) return send_media_test_symbol(at);
       if (g.gdSymbolWindow > 0) return close_symbol_window();
@@ -171,7 +171,7 @@ void FlexRayController::State::enter_cycle(const StartupFramesSeen& ended, Micro
 
 // What has not ended has not been judged: its beginning is not known but to have been behind all that was heard.
 void FlexRayController::State::note_what_goes_on() {
-  for (const schedules::Channel channel : kChannels) {
+  for (const schedules::Channel channel : schedules::kBothChannels) {
     bool& goes_on = going_on[index_of(channel)];
     const bool whole_cycle = goes_on;
     goes_on = port.carrier(channel);
@@ -191,7 +191,7 @@ void FlexRayController::State::tell_slot_problems(Microticks at) {
     const bool both_valid = status.valid[0] && status.valid[1];
     if ((status.errors[0] | status.errors[1]) == 0 && (both_valid || !slots.others_send_in(slot))) continue;
     const auto expected = slots.expected(slot, now);
-    for (const schedules::Channel channel : kChannels) {
+    for (const schedules::Channel channel : schedules::kBothChannels) {
       const auto c = index_of(channel);
       std::uint8_t errors = status.errors[c];
       if (errors == 0 && !status.valid[c] && includes(p.pChannels, channel) && expected[c] != nullptr)
@@ -214,7 +214,7 @@ void FlexRayController::State::close_static_segment(Microticks at) {
   events.static_segment_ended(cycle, at);
   segment = minislots.count() > 0 || g.gdSymbolWindow > 0 ? Segment::kDynamic : Segment::kRest;
   if (g.gdSymbolWindow > 0) plan_symbol_window();
-  for (const schedules::Channel channel : kChannels) {
+  for (const schedules::Channel channel : schedules::kBothChannels) {
     dynamic[index_of(channel)].counter.start();
     dynamic[index_of(channel)].next = 0;
     plan_dynamic(channel, at);

@@ -37,7 +37,7 @@ void FlexRayController::State::send_static(Microticks at) {
   const Channel last_channel = includes(slot.channels, Channel::kB) ? Channel::kB : Channel::kA;
   if (p.pKeySlotUsedForSync && slot.slot == p.pKeySlotId) sync.own(slot.slot, slot.channels);
   if (slot.network_management && !null_frame) network_management.combine(network_management.own());
-  for (const Channel channel : kChannels)
+  for (const Channel channel : schedules::kBothChannels)
     if (includes(slot.channels, channel))
       send_frame(slot, channel, at, end, content, null_frame, content.last && channel == last_channel);
 }
@@ -128,7 +128,7 @@ Microticks FlexRayController::State::cas_length() const { return bits(g.gdTSSTra
 
 void FlexRayController::State::send_cas(Microticks at) {
   const Microticks end = at + cas_length();
-  for (const Channel channel : kChannels)
+  for (const Channel channel : schedules::kBothChannels)
     if (includes(p.pChannels, channel)) send_symbol(Signal::kCas, channel, at, end);
   const Microticks macrotick{(p.pMicroPerCycle + g.gMacroPerCycle - 1) / g.gMacroPerCycle};
   begin_schedule(end + macrotick, 0, 0);

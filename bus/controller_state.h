@@ -17,7 +17,6 @@
 namespace ttf::bus {
 
 inline constexpr Microticks kNever{std::numeric_limits<std::int64_t>::max()};
-inline constexpr std::array kChannels = {schedules::Channel::kA, schedules::Channel::kB};
 
 struct FlexRayController::State {
   State(const schedules::Cluster& cluster, NodeId node, FlexRayPort& port, ControllerEvents& events);
@@ -49,7 +48,7 @@ struct FlexRayController::State {
   std::array<Microticks, 2> sending_from{kNever, kNever}, sending_to{};   // by channel: this node's last transmission
 
   SlotBoard board;
-  std::array<bool, 2> going_on{};          // by channel: what went on there when the last static segment ended still does
+  std::array<bool, 2> going_on{};          // by channel: what went on when the last static segment ended still does
   SyncStatus sync_status;                  // without its counter, which is protocol operation control's
 
   // The static slot of this cycle that was looked up last: the other channel's frame of it comes next, then that of the

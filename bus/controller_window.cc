@@ -33,7 +33,7 @@ void FlexRayController::State::send_media_test_symbol(Microticks at) {
   symbol_request.reset();
   // What was allowed when the host asked for it need not be any more.
   if (mac_mode(poc) != MacMode::kAll) return;
-  for (const Channel channel : kChannels)
+  for (const Channel channel : schedules::kBothChannels)
     if (includes(channels, channel) && includes(p.pChannels, channel))
       send_symbol(Signal::kCas, channel, at, at + cas_length());
 }

@@ -14,7 +14,7 @@ SlotTable::SlotTable(const schedules::Cluster& cluster, NodeId node) {
     } else if (frame.slot <= cluster.flexray.gNumberOfStaticSlots) {
       own_static_.push_back(&frame);
     } else {
-      for (const Channel channel : {Channel::kA, Channel::kB})
+      for (const Channel channel : schedules::kBothChannels)
         if (includes(frame.channels, channel)) own_dynamic_[index_of(channel)].push_back(&frame);
     }
   }
@@ -34,7 +34,7 @@ std::array<const FrameSlot*, 2> SlotTable::expected_by_cycle(int slot, int count
   std::array<const FrameSlot*, 2> found{};
   for (const FrameSlot* frame : others_in(slot)) {
     if (!in_cycle(*frame, counter)) continue;
-    for (const Channel channel : {Channel::kA, Channel::kB})
+    for (const Channel channel : schedules::kBothChannels)
       if (found[index_of(channel)] == nullptr && includes(frame->channels, channel)) found[index_of(channel)] = frame;
   }
   return found;

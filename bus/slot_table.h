@@ -56,11 +56,6 @@ class SlotTable {
   std::vector<Steady> steady_;                                               // by slot - 1
 };
 
-// Whether the frame has its turn in a cycle with this counter.
-constexpr bool in_cycle(const schedules::FrameSlot& frame, int counter) {
-  const int repetition = frame.repetition;   // nearly always a power of two, which needs no division
-  const int turn = (repetition & (repetition - 1)) == 0 ? counter & (repetition - 1) : counter % repetition;
-  return turn == frame.base_cycle;
-}
+using schedules::in_cycle;
 
 }  // namespace ttf::bus

@@ -36,7 +36,7 @@ void SyncCollector::measure(int frame_id, schedules::Channel channel, int deviat
 }
 
 void SyncCollector::own(int frame_id, schedules::Channels channels) {
-  for (const schedules::Channel channel : {schedules::Channel::kA, schedules::Channel::kB})
+  for (const schedules::Channel channel : schedules::kBothChannels)
     if (includes(channels, channel)) measure(frame_id, channel, 0);
 }
 

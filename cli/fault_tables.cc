@@ -53,7 +53,7 @@ std::string injected_text(const FaultFindings& findings, const schedules::Cluste
 
 std::string seers(const CheckSeen& seen, const schedules::Cluster& cluster) {
   std::string names = node_names(seen.nodes, cluster);
-  for (const auto channel : {schedules::Channel::kA, schedules::Channel::kB})
+  for (const auto channel : schedules::kBothChannels)
     if (seen.guardians[index_of(channel)]) names += fmt::format("{}guardian {}", names.empty() ? "" : ", ", letter(channel));
   return names;
 }
@@ -146,7 +146,7 @@ nlohmann::ordered_json checks_json(const FaultEffects& effects, const schedules:
                                     {"first_s", seconds(seen.first)}, {"nodes", names_json(seen.nodes, cluster)}};
       if (check == experiments::Check::kGuardian) {
         one["guardians"] = nlohmann::ordered_json::array();
-        for (const auto channel : {schedules::Channel::kA, schedules::Channel::kB})
+        for (const auto channel : schedules::kBothChannels)
           if (seen.guardians[index_of(channel)]) one["guardians"].push_back(std::string(1, letter(channel)));
       }
       checks.push_back(std::move(one));

@@ -15,10 +15,6 @@ namespace {
 constexpr Microticks kNever{std::numeric_limits<std::int64_t>::max()};
 constexpr std::int64_t kNoCycle = -1;
 
-bool in_cycle(const schedules::CycleInstant& at, std::int64_t cycle) {
-  return cycle % at.repetition == at.base_cycle;
-}
-
 }  // namespace
 
 struct Executive::TaskState {

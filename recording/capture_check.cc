@@ -157,7 +157,7 @@ class CaptureChecker {
       slot = true;
       if (!includes(frame.channels, channel)) continue;
       on_channel = true;
-      if (counter % frame.repetition == frame.base_cycle) return;
+      if (in_cycle(frame, counter)) return;
     }
     if (!slot)
       say(Contradiction::kUnownedSlot, "nobody owns this slot");

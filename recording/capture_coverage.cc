@@ -20,9 +20,9 @@ CaptureCoverage::CaptureCoverage(const schedules::Cluster& cluster, schedules::C
       packets_(kSlots * 2) {
   for (int counter = 0; counter < counters_; ++counter)
     for (const schedules::FrameSlot& frame : cluster.frames)
-      for (const Channel channel : {Channel::kA, Channel::kB})
+      for (const Channel channel : schedules::kBothChannels)
         if (includes(frame.channels, channel) && includes(channels, channel) &&
-            frame.slot <= cluster.flexray.gNumberOfStaticSlots && counter % frame.repetition == frame.base_cycle)
+            frame.slot <= cluster.flexray.gNumberOfStaticSlots && in_cycle(frame, counter))
           owned_[static_cast<std::size_t>(counter)].push_back({frame.slot, channel});
 }
 
@@ -68,7 +68,7 @@ void CaptureCoverage::close_cycle(int before_slot) {
   int slot = 0;
   for (const Owned& owned : owned_[static_cast<std::size_t>(counter_)]) {
     for (; slot < owned.slot; ++slot)
-      for (const Channel channel : {Channel::kA, Channel::kB}) after = std::max(after, packet_of(slot, channel));
+      for (const Channel channel : schedules::kBothChannels) after = std::max(after, packet_of(slot, channel));
     if (owned.slot <= after_slot_ || owned.slot >= before_slot || packet_of(owned.slot, owned.channel) != 0 ||
         was_damaged(owned))
       continue;

@@ -58,7 +58,7 @@ class SchedulePainter {
              {.size = 14, .bold = true});
     draw_legend(svg, {left_, legend_y}, kPlot, legend);
     draw_axis(strip - 6, axis);
-    for (const Channel channel : {Channel::kA, Channel::kB})
+    for (const Channel channel : schedules::kBothChannels)
       draw_channel(channel, strip + (channel == Channel::kA ? 0 : kSlotLane + 6));
     draw_tasks(lanes, tasks);
     for (std::size_t i = 0; i < notes_text.size(); ++i)
@@ -341,7 +341,7 @@ class SchedulePainter {
         const double left = left_ + cell * static_cast<double>(s);
         svg_->rect({left, y, cell, row}, {.fill = "#ffffff"});
         for (const FrameSlot* f : frames_.at(used_[s])) {
-          if (cycle % f->repetition != f->base_cycle) continue;
+          if (!in_cycle(*f, cycle)) continue;
           const bool a = includes(f->channels, Channel::kA), b = includes(f->channels, Channel::kB);
           svg_->rect({left, a ? y : y + row / 2, cell, a && b ? row : row / 2}, {.fill = colour(f->pdu)},
                      frame_text(*f), "cell");

@@ -304,7 +304,7 @@ std::vector<std::int64_t> entries(const Cluster& cluster, const Stage& stage, st
   std::vector<std::int64_t> instants;
   for (const CycleInstant& gate : gates)
     for (std::int64_t cycle = from_cycle; cycle < from_cycle + kCycles; ++cycle)
-      if (cycle % gate.repetition == gate.base_cycle)
+      if (in_cycle(gate, cycle))
         instants.push_back(time_of(cluster.flexray, cycle, gate.offset).ns + (latest ? 1 : 0));
   return instants;
 }

@@ -108,7 +108,7 @@ class Ages {
     std::vector<std::int64_t> starts;
     if (sensor.scheduled) {
       for (std::int64_t cycle = kFromCycle; cycle < kFromCycle + kCycles; ++cycle)
-        if (cycle % sensor.at.repetition == sensor.at.base_cycle)
+        if (in_cycle(sensor.at, cycle))
           starts.push_back(time_of(cluster_.flexray, cycle, sensor.at.offset).ns);
     } else if (gate < last) {
       starts = entries(cluster_, path.stages[gate], kFromCycle, latest);

@@ -51,6 +51,15 @@ struct FrameSlot {
 
 inline constexpr int kMessageIdBytes = 2;
 
+// Whether the instant, or the frame, has its turn in a cycle: its counter, or its number since some cycle 0. Not negative.
+template <class Multiplexed>
+  requires requires(const Multiplexed& one) { one.base_cycle, one.repetition; }
+constexpr bool in_cycle(const Multiplexed& one, std::int64_t cycle) {
+  const std::int64_t repetition = one.repetition;   // nearly always a power of two, which needs no division
+  const std::int64_t turn = (repetition & (repetition - 1)) == 0 ? cycle & (repetition - 1) : cycle % repetition;
+  return turn == one.base_cycle;
+}
+
 constexpr bool is_dynamic(const GlobalParameters& flexray, const FrameSlot& frame) {
   return frame.slot > flexray.gNumberOfStaticSlots;
 }

@@ -11,7 +11,7 @@ namespace ttf::schedules {
 std::vector<DynamicLoad> dynamic_load(const Cluster& cluster) {
   const GlobalParameters& g = cluster.flexray;
   std::vector<DynamicLoad> loads;
-  for (const Channel channel : {Channel::kA, Channel::kB}) {
+  for (const Channel channel : kBothChannels) {
     DynamicLoad load;
     load.channel = channel;
     for (FrameSlot frame : cluster.frames) {

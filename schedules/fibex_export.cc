@@ -15,7 +15,6 @@
 namespace ttf::schedules {
 namespace {
 
-constexpr Channel kChannels[] = {Channel::kA, Channel::kB};
 
 std::string channel_id(Channel channel) { return fmt::format("channel_{}", letter(channel)); }
 std::string controller_id(std::size_t node) { return fmt::format("controller_{}", node); }
@@ -70,7 +69,7 @@ class Exporter {
     put(cluster, "fx:PROTOCOL", "FlexRay").append_attribute("xsi:type") = "flexray:PROTOCOL-TYPE";
     put(cluster, "fx:PROTOCOL-VERSION", "2.1");
     pugi::xml_node channels = cluster.append_child("fx:CHANNEL-REFS");
-    for (const Channel channel : kChannels) put_reference(channels, "fx:CHANNEL-REF", channel_id(channel));
+    for (const Channel channel : kBothChannels) put_reference(channels, "fx:CHANNEL-REF", channel_id(channel));
     put(cluster, "fx:MEDIUM", "ELECTRICAL");
     pugi::xml_node extension = cluster.append_child("fx:MANUFACTURER-EXTENSION");
     for (const FibexParameter& one : kFibexExtension) put_parameter(extension, one, g);
@@ -89,7 +88,7 @@ class Exporter {
   }
 
   void put_channels(pugi::xml_node channels) {
-    for (const Channel channel : kChannels) {
+    for (const Channel channel : kBothChannels) {
       pugi::xml_node one = put_named(channels, "fx:CHANNEL", channel_id(channel),
                                      fmt::format("Channel_{}", letter(channel)), "flexray:CHANNEL-TYPE");
       pugi::xml_node triggerings = one.append_child("fx:FRAME-TRIGGERINGS");
@@ -120,7 +119,7 @@ class Exporter {
       pugi::xml_node ecu = put_named(ecus, "fx:ECU", fmt::format("ecu_{}", i), node.name);
       put_controller(ecu.append_child("fx:CONTROLLERS"), i);
       pugi::xml_node connectors = ecu.append_child("fx:CONNECTORS");
-      for (const Channel channel : kChannels)
+      for (const Channel channel : kBothChannels)
         if (includes(node.flexray->pChannels, channel)) put_connector(connectors, i, channel);
     }
   }

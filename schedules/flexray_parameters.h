@@ -5,11 +5,13 @@
 // picoseconds (a 12.5 ns microtick is 12'500 ps).
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 namespace ttf::schedules {
 
 enum class Channel : std::uint8_t { kA = 0, kB = 1 };
+inline constexpr std::array kBothChannels = {Channel::kA, Channel::kB};
 enum class Channels : std::uint8_t { kA = 1, kB = 2, kAB = 3 };
 constexpr char letter(Channel channel) { return channel == Channel::kA ? 'A' : 'B'; }
 constexpr bool includes(Channels set, Channel one) {

@@ -60,7 +60,7 @@ int earliest_turn(const GlobalParameters& g, const FrameSlot& frame) { return fr
 
 std::int64_t latest_turn(const Cluster& cluster, const FrameSlot& frame) {
   std::int64_t latest = 0;
-  for (const Channel channel : {Channel::kA, Channel::kB})
+  for (const Channel channel : kBothChannels)
     if (includes(frame.channels, channel)) latest = std::max(latest, before(cluster, frame, channel) + 1);
   return latest;
 }

@@ -150,5 +150,21 @@ TEST(Instants, TimeIsRoundedUpToANanosecondThatHasReachedIt) {
   EXPECT_EQ(time_of(g, 1'000'000'000, Macroticks{0}).ns, 10'003'000'000'000);
 }
 
+// Every repetition that FlexRay has or ever had, of instants and of frames, in counters and in cycles counted on.
+TEST(InCycle, IsTheRemainderOfTheRepetition) {
+  for (const int repetition : {1, 2, 4, 5, 8, 10, 16, 20, 32, 40, 50, 64})
+    for (int base = 0; base < repetition; ++base) {
+      const CycleInstant instant{base, repetition, {}};
+      FrameSlot frame;
+      frame.base_cycle = base;
+      frame.repetition = repetition;
+      for (std::int64_t cycle = 0; cycle < 200; ++cycle)
+        for (const std::int64_t round : {std::int64_t{0}, std::int64_t{repetition} << 40}) {
+          ASSERT_EQ(in_cycle(instant, round + cycle), cycle % repetition == base) << base << " of " << repetition;
+          ASSERT_EQ(in_cycle(frame, round + cycle), cycle % repetition == base) << base << " of " << repetition;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace ttf::schedules
