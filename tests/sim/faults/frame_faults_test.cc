@@ -183,9 +183,10 @@ TEST(FrameFaults, SosTimingTowardsOneReceiver) {
   fault.receivers = {NodeId{1}};
   const FaultBus bus(fault, 30);
   EXPECT_TRUE(bus.said(2).problems.empty() && bus.said(3).problems.empty());
-  // Begun before its slot: in the network idle time, where nothing may be.
+  // Begun before its slot: in the network idle time, where nothing may be; its slot is not silent, but has no frame.
   EXPECT_EQ(bus.said(1).count(0, bus::kBoundaryViolation), 20);
-  EXPECT_EQ(bus.said(1).count(1, bus::kNoFrame), 20);
+  EXPECT_EQ(bus.said(1).count(1, bus::kBoundaryViolation), 20);
+  EXPECT_EQ(bus.said(1).count(1, kAnything & ~unsigned{bus::kBoundaryViolation}), 0);
 }
 
 TEST(FrameFaults, SosValueIsLostAtTheNamedReceivers) {
