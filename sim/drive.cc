@@ -1,11 +1,13 @@
 #include "sim/drive.h"
 
 #include <optional>
+#include <utility>
 
 #include "nodes/believed_schedule.h"
 #include "nodes/catalog.h"
 #include "nodes/recorded.h"
 #include "recording/records/tee.h"
+#include "sim/share.h"
 #include "sim/world/reference.h"
 
 namespace ttf::sim {
@@ -62,8 +64,9 @@ class Observer final : public records::Sink {
 
   void truth(const records::Stamp& stamp) {
     const TrueTime at = stamp.true_time;
-    if (last_truth_ && *last_truth_ == at) return;
-    last_truth_ = at;
+    const std::pair<TrueTime, NodeId> instant{at, stamp.node};
+    if (last_truth_ == instant) return;
+    last_truth_ = instant;
     scene_.states_at(at, states_);
     for (const world::ObjectState& state : states_)
       out_.on(records::TruthState{at, state.id, state.x, state.y, state.heading, state.speed, state.acceleration,
@@ -78,7 +81,7 @@ class Observer final : public records::Sink {
   bool integrated_ = true;
   std::uint32_t next_fix_ = 0;
   std::vector<world::ObjectState> states_;
-  std::optional<TrueTime> last_truth_;
+  std::optional<std::pair<TrueTime, NodeId>> last_truth_;
 };
 
 }  // namespace
@@ -115,7 +118,7 @@ void check_fits(const nodes::Scenario& scenario, const schedules::Cluster& clust
   if (scenario.startup.cold) (void)nodes::node_starts(scenario.startup, cluster, scenario.seed, 0);
 }
 
-DriveOutcome run_drive(const DriveConfig& config, records::Sink& sink) {
+DriveOutcome run_drive(const DriveConfig& config, records::Sink& out) {
   const schedules::Cluster& cluster = *config.cluster;
   const nodes::Scenario& scenario = *config.scenario;
   const bool recorded = nodes::is_recorded(cluster);
@@ -135,6 +138,9 @@ DriveOutcome run_drive(const DriveConfig& config, records::Sink& sink) {
         reference.emplace(scenario.reference, scenario.world, config.seed, config.replication);
   }
 
+  std::optional<Share> share;
+  if (config.others != nullptr) share.emplace(config.others->self(), out);
+  records::Sink& sink = share ? static_cast<records::Sink&>(*share) : out;
   Observer observer(*scene, sink);
   if (reference) observer.follow(&*reference, &world->world(), start, !scenario.startup.cold);
   records::Tee tee({&sink, &observer});
@@ -159,6 +165,7 @@ DriveOutcome run_drive(const DriveConfig& config, records::Sink& sink) {
   const nodes::FaultPlan faults = nodes::resolve(scenario.faults, cluster);
   const nodes::BelievedSchedules believed(faults, cluster);
   simulation_config.view = [&](NodeId node) { return believed.of(node); };
+  simulation_config.others = config.others;
   ClusterSimulation simulation(simulation_config, tee);
   std::optional<Injector> injector;
   if (!faults.empty()) {
