@@ -234,34 +234,8 @@ void ClusterSimulation::advance(std::size_t node, Microticks now) {
   watch_cycle(node);
 }
 
-// The own node may have something to do before its turn; nobody else notices it.
-void ClusterSimulation::take_turn(std::size_t node, Microticks now) {
-  const auto id = static_cast<NodeId>(node);
-  if (is_here(node)) {
-    nodes_[node]->advance(now);
-    if (now >= others_->outlook(node).turn())
-      others_->speak(now, nodes_[node]->promise());
-    else
-      TTF_CHECK(others_->silent(), "{} breaks its promise at {} uT", cluster_.node(id).name, now.value);
-    return;
-  }
-  if (now < others_->outlook(node).turn()) return;
-  const auto acts = others_->listen(id, now);
-  if (!acts) return power_off(id);
-  for (const Act& one : *acts) act(node, one);
-}
-
-void ClusterSimulation::act(std::size_t node, const Act& act) {
-  const auto id = static_cast<NodeId>(node);
-  if (const auto* sent = std::get_if<bus::Transmission>(&act)) {
-    if (flexray_taps_[node]) flexray_taps_[node]->happens(*sent);
-  } else if (const auto* can = std::get_if<CanAct>(&act)) {
-    send_can(can->bus, id, can->frame);
-  } else if (const auto* trigger = std::get_if<TriggerAct>(&act)) {
-    pull_trigger(trigger->sensor);
-  } else if (const auto* strobe = std::get_if<StrobeAct>(&act)) {
-    pull_strobe(strobe->sensor, strobe->sequence);
-  }
+void ClusterSimulation::transmit(std::size_t node, const bus::Transmission& transmission) {
+  if (flexray_taps_[node]) flexray_taps_[node]->happens(transmission);
 }
 
 void ClusterSimulation::receive(std::size_t node, const bus::Reception& reception) {
@@ -322,33 +296,6 @@ void ClusterSimulation::happen(const MediumEvent& event) {
     case MediumEvent::Kind::kObservation: return;
   }
   refresh(node);
-}
-
-void ClusterSimulation::trigger(SensorId sensor) {
-  if (others_ != nullptr) others_->does(TriggerAct{sensor});
-  pull_trigger(sensor);
-}
-
-void ClusterSimulation::strobe(SensorId sensor, std::uint32_t sequence) {
-  if (others_ != nullptr) others_->does(StrobeAct{sensor, sequence});
-  pull_strobe(sensor, sequence);
-}
-
-void ClusterSimulation::pull_trigger(SensorId sensor) {
-  MediumEvent event;
-  event.kind = MediumEvent::Kind::kTrigger;
-  event.node = static_cast<std::uint8_t>(cluster_.sensor(sensor).device);
-  event.sensor = static_cast<std::uint8_t>(sensor);
-  queue_.schedule(now(), Phase::kArrival, event.node, event);
-}
-
-void ClusterSimulation::pull_strobe(SensorId sensor, std::uint32_t sequence) {
-  MediumEvent event;
-  event.kind = MediumEvent::Kind::kStrobe;
-  event.node = static_cast<std::uint8_t>(cluster_.sensor(sensor).host);
-  event.sensor = static_cast<std::uint8_t>(sensor);
-  event.identifier = sequence;
-  queue_.schedule(now(), Phase::kArrival, event.node, event);
 }
 
 // Looks at all clocks at the corners of this node's: where its cycle starts, and where its correction starts.

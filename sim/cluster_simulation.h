@@ -89,6 +89,7 @@ class ClusterSimulation final : public Crank, private nodes::SensorLines {
   bool is_here(std::size_t node) const { return others_ == nullptr || others_->self() == static_cast<NodeId>(node); }
   void take_turn(std::size_t node, Microticks now);
   void act(std::size_t node, const Act& act);
+  void transmit(std::size_t node, const bus::Transmission& transmission);
   void send_can(std::size_t bus, NodeId sender, const bus::CanFrame& frame) { cans_[bus]->send(sender, now(), frame); }
   void pull_trigger(SensorId sensor);
   void pull_strobe(SensorId sensor, std::uint32_t sequence);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 #include <type_traits>
 
@@ -39,10 +40,12 @@ class TurnBytes {
     if (value > most) throw std::runtime_error(fmt::format("a turn with {} {}, which must be at most {}", what, value, most));
     return static_cast<Integer>(value);
   }
-  Microticks ticks(const char* what) {
-    const auto value = static_cast<std::int64_t>(take<std::uint64_t>(~std::uint64_t{0}, what));
-    if (value < 0) throw std::runtime_error(fmt::format("a turn with {} {}, which must not be negative", what, value));
-    return {value};
+  // A tick count may be below zero: a node's first tick comes within a tick of the start of the run.
+  Microticks instant(const char* what) {
+    return {static_cast<std::int64_t>(take<std::uint64_t>(~std::uint64_t{0}, what))};
+  }
+  Microticks delay(const char* what) {
+    return {take<std::int64_t>(std::numeric_limits<std::int64_t>::max(), what)};
   }
   std::span<const std::byte> take_bytes(std::size_t size, const char* what) {
     if (size > left_.size()) throw std::runtime_error(fmt::format("a turn that ends in its {}", what));
@@ -56,13 +59,14 @@ class TurnBytes {
   std::span<const std::byte> left_;
 };
 
-bus::Transmission read_signal(TurnBytes& in) {
+bus::Transmission read_signal(TurnBytes& in, const TurnHeader& turn) {
   bus::Transmission sent;
   sent.channel = static_cast<schedules::Channel>(in.take<std::uint8_t>(1, "channel"));
   sent.signal = static_cast<bus::Signal>(
       in.take<std::uint8_t>(static_cast<std::uint64_t>(bus::Signal::kUndecodable), "signal"));
-  sent.start = in.ticks("start of a signal");
-  sent.end = in.ticks("end of a signal");
+  sent.start = in.instant("start of a signal");
+  sent.end = in.instant("end of a signal");
+  if (sent.start < turn.at) throw std::runtime_error("a turn with a signal that began before it");
   if (sent.end < sent.start) throw std::runtime_error("a turn with a signal that ends before it starts");
   sent.slot = in.take<std::uint16_t>(static_cast<std::uint64_t>(schedules::kLastSlot), "slot");
   const auto size = in.take<std::uint16_t>(wire::kMaxFrameBytes, "size of a frame");
@@ -85,19 +89,23 @@ CanAct read_can(TurnBytes& in, const schedules::Cluster& cluster) {
   return act;
 }
 
-SensorId read_sensor(TurnBytes& in, const schedules::Cluster& cluster) {
+// `end`: of the wire that the node must be at.
+SensorId read_sensor(TurnBytes& in, const TurnHeader& turn, const schedules::Cluster& cluster,
+                     NodeId schedules::Sensor::*end) {
   const std::size_t sensors = cluster.sensors.size();
   if (sensors == 0) throw std::runtime_error("a turn with a sensor, of which there are none");
-  return static_cast<SensorId>(in.take<std::uint8_t>(sensors - 1, "sensor"));
+  const auto sensor = static_cast<SensorId>(in.take<std::uint8_t>(sensors - 1, "sensor"));
+  if (cluster.sensor(sensor).*end != turn.node) throw std::runtime_error("a turn with another node's sensor");
+  return sensor;
 }
 
-Act read_act(TurnBytes& in, const schedules::Cluster& cluster) {
+Act read_act(TurnBytes& in, const TurnHeader& turn, const schedules::Cluster& cluster) {
   switch (static_cast<ActKind>(in.take<std::uint8_t>(0xFF, "act"))) {
-    case ActKind::kSignal: return read_signal(in);
+    case ActKind::kSignal: return read_signal(in, turn);
     case ActKind::kCanFrame: return read_can(in, cluster);
-    case ActKind::kTrigger: return TriggerAct{read_sensor(in, cluster)};
+    case ActKind::kTrigger: return TriggerAct{read_sensor(in, turn, cluster, &schedules::Sensor::host)};
     case ActKind::kStrobe: {
-      const SensorId sensor = read_sensor(in, cluster);
+      const SensorId sensor = read_sensor(in, turn, cluster, &schedules::Sensor::device);
       return StrobeAct{sensor, in.take<std::uint32_t>(~std::uint32_t{0}, "sequence")};
     }
   }
@@ -164,14 +172,14 @@ TurnHeader read_turn(const schedules::Cluster& cluster, std::span<const std::byt
   TurnHeader header;
   header.node = static_cast<NodeId>(in.take<std::uint8_t>(cluster.nodes.size() - 1, "node"));
   header.number = in.take<std::uint32_t>(~std::uint32_t{0}, "number");
-  header.at = in.ticks("instant");
-  header.promise.silent_until = in.ticks("silence");
-  header.promise.after_flexray = in.ticks("delay after FlexRay");
-  header.promise.after_can = in.ticks("delay after CAN");
-  header.promise.after_trigger = in.ticks("delay after a trigger");
+  header.at = in.instant("instant");
+  header.promise.silent_until = in.instant("silence");
+  header.promise.after_flexray = in.delay("delay after FlexRay");
+  header.promise.after_can = in.delay("delay after CAN");
+  header.promise.after_trigger = in.delay("delay after a trigger");
   acts.clear();
   for (auto left = in.take<std::uint16_t>(0xFFFF, "number of acts"); left > 0; --left)
-    acts.push_back(read_act(in, cluster));
+    acts.push_back(read_act(in, header, cluster));
   if (!in.done()) throw std::runtime_error("a turn that goes on behind its last act");
   return header;
 }
