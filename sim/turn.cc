@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <stdexcept>
 #include <type_traits>
 
@@ -19,6 +18,8 @@ enum class ActKind : std::uint8_t { kSignal = 1, kCanFrame = 2, kTrigger = 3, kS
 constexpr std::size_t kHeaderSize = 1 + 4 + 5 * 8 + 2;
 constexpr std::size_t kUsualSize = 4096;
 constexpr std::size_t kMostCanBytes = 64;
+constexpr std::int64_t kMostAhead = std::int64_t{1} << 40;   // [uT] hours: nothing in a turn is about what is further off
+constexpr std::int64_t kLastTick = std::int64_t{1} << 60;
 
 template <class Integer>
 void put(std::vector<std::byte>& bytes, Integer value) {
@@ -40,13 +41,24 @@ class TurnBytes {
     if (value > most) throw std::runtime_error(fmt::format("a turn with {} {}, which must be at most {}", what, value, most));
     return static_cast<Integer>(value);
   }
-  // A tick count may be below zero: a node's first tick comes within a tick of the start of the run.
-  Microticks instant(const char* what) {
-    return {static_cast<std::int64_t>(take<std::uint64_t>(~std::uint64_t{0}, what))};
+  // Below zero, too: a node's first tick comes within a tick of the start of the run.
+  Microticks instant(Microticks from, std::int64_t most, const char* what) {
+    const auto value = static_cast<std::int64_t>(take<std::uint64_t>(~std::uint64_t{0}, what));
+    if (value < from.value || value > from.value + most)
+      throw std::runtime_error(fmt::format("a turn with {} {}, which must be {}..{}", what, value, from.value,
+                                           from.value + most));
+    return {value};
   }
-  Microticks delay(const char* what) {
-    return {take<std::int64_t>(std::numeric_limits<std::int64_t>::max(), what)};
+  // Either may be never.
+  Microticks instant_or_never(Microticks from, std::int64_t most, const char* what) {
+    TurnBytes ahead = *this;
+    if (ahead.take<std::uint64_t>(~std::uint64_t{0}, what) == static_cast<std::uint64_t>(nodes::Promise::kNever.value)) {
+      *this = ahead;
+      return nodes::Promise::kNever;
+    }
+    return instant(from, most, what);
   }
+  Microticks delay(const char* what) { return instant_or_never({}, kMostAhead, what); }
   std::span<const std::byte> take_bytes(std::size_t size, const char* what) {
     if (size > left_.size()) throw std::runtime_error(fmt::format("a turn that ends in its {}", what));
     const std::span<const std::byte> taken = left_.first(size);
@@ -64,10 +76,8 @@ bus::Transmission read_signal(TurnBytes& in, const TurnHeader& turn) {
   sent.channel = static_cast<schedules::Channel>(in.take<std::uint8_t>(1, "channel"));
   sent.signal = static_cast<bus::Signal>(
       in.take<std::uint8_t>(static_cast<std::uint64_t>(bus::Signal::kUndecodable), "signal"));
-  sent.start = in.instant("start of a signal");
-  sent.end = in.instant("end of a signal");
-  if (sent.start < turn.at) throw std::runtime_error("a turn with a signal that began before it");
-  if (sent.end < sent.start) throw std::runtime_error("a turn with a signal that ends before it starts");
+  sent.start = in.instant(turn.at, kMostAhead, "start of a signal");
+  sent.end = in.instant(sent.start, kMostAhead, "end of a signal");
   sent.slot = in.take<std::uint16_t>(static_cast<std::uint64_t>(schedules::kLastSlot), "slot");
   const auto size = in.take<std::uint16_t>(wire::kMaxFrameBytes, "size of a frame");
   sent.bytes = in.take_bytes(size, "frame");
@@ -172,8 +182,8 @@ TurnHeader read_turn(const schedules::Cluster& cluster, std::span<const std::byt
   TurnHeader header;
   header.node = static_cast<NodeId>(in.take<std::uint8_t>(cluster.nodes.size() - 1, "node"));
   header.number = in.take<std::uint32_t>(~std::uint32_t{0}, "number");
-  header.at = in.instant("instant");
-  header.promise.silent_until = in.instant("silence");
+  header.at = in.instant({-kLastTick}, 2 * kLastTick, "instant");
+  header.promise.silent_until = in.instant_or_never(header.at + Microticks{1}, kMostAhead, "silence");
   header.promise.after_flexray = in.delay("delay after FlexRay");
   header.promise.after_can = in.delay("delay after CAN");
   header.promise.after_trigger = in.delay("delay after a trigger");

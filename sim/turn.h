@@ -63,8 +63,9 @@ class TurnWriter {
   std::uint16_t acts_ = 0;
 };
 
-// One turn of a node of `cluster`, checked against it as a whole: what was not written by the above throws
-// std::runtime_error with a sentence. `acts` refer into `bytes`.
+// One turn of a node of `cluster`, checked as a whole: that the acts are its node's and none begins before the turn, that the
+// promise goes beyond it, that frames are sound. What is none throws std::runtime_error with a sentence. `acts` refer
+// into `bytes`.
 TurnHeader read_turn(const schedules::Cluster& cluster, std::span<const std::byte> bytes, std::vector<Act>& acts);
 
 }  // namespace ttf::sim

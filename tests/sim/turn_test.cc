@@ -16,6 +16,8 @@ namespace {
 
 using schedules::Channel;
 
+constexpr nodes::Promise kSilent{nodes::Promise::kNever};
+
 class Turn : public testing::Test {
  protected:
   Turn() {
@@ -72,7 +74,7 @@ TEST_F(Turn, IsReadAsItWasWritten) {
   EXPECT_EQ(can.frame.data.size(), 8u);
   EXPECT_EQ(std::get<TriggerAct>(acts[3]).sensor, SensorId{0});
 
-  const std::vector<std::byte> strobe = message({device_, 0, Microticks{-1}, {}}, {StrobeAct{SensorId{0}, 0xFFFF'FFFE}});
+  const std::vector<std::byte> strobe = message({device_, 0, Microticks{-1}, kSilent}, {StrobeAct{SensorId{0}, 0xFFFF'FFFE}});
   EXPECT_EQ(read_turn(cluster_, strobe, acts).at, Microticks{-1});
   EXPECT_EQ(std::get<StrobeAct>(acts[0]).sequence, 0xFFFF'FFFEu);
 }
@@ -81,11 +83,11 @@ TEST_F(Turn, TheWriterBeginsAnewOnceCleared) {
   TurnWriter writer;
   writer.add(TriggerAct{SensorId{0}});
   EXPECT_FALSE(writer.empty());
-  (void)writer.finish({host_, 0, {}, {}});
+  (void)writer.finish({host_, 0, {}, kSilent});
   writer.clear();
   EXPECT_TRUE(writer.empty());
   std::vector<Act> acts;
-  (void)read_turn(cluster_, writer.finish({host_, 1, {}, {}}), acts);
+  (void)read_turn(cluster_, writer.finish({host_, 1, {}, kSilent}), acts);
   EXPECT_TRUE(acts.empty());
 }
 
@@ -104,10 +106,12 @@ TEST_F(Turn, SaysNothingThatItsNodeCannotDo) {
   const auto refuses = [&](const TurnHeader& header, const std::vector<Act>& said) {
     EXPECT_THROW((void)read_turn(cluster_, message(header, said), acts), std::runtime_error);
   };
-  const TurnHeader header{host_, 0, Microticks{4'000}, {}};
-  refuses({static_cast<NodeId>(cluster_.nodes.size()), 0, {}, {}}, {});
-  refuses({host_, 0, {}, {Microticks{}, Microticks{-1}}}, {});
-  refuses({device_, 0, {}, {}}, {TriggerAct{SensorId{0}}});
+  const TurnHeader header{host_, 0, Microticks{4'000}, kSilent};
+  refuses({static_cast<NodeId>(cluster_.nodes.size()), 0, {}, kSilent}, {});
+  refuses({host_, 0, Microticks{9}, {Microticks{9}}}, {});              // its turn would never end
+  refuses({host_, 0, {}, {Microticks{1}, Microticks{-1}}}, {});
+  refuses({host_, 0, {}, {nodes::Promise::kNever - Microticks{1}}}, {});
+  refuses({device_, 0, {}, kSilent}, {TriggerAct{SensorId{0}}});
   refuses(header, {StrobeAct{SensorId{0}, 0}});
   refuses(header, {TriggerAct{static_cast<SensorId>(cluster_.sensors.size())}});
   refuses(header, {CanAct{cluster_.can_buses.size(), {}}});
