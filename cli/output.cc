@@ -1,5 +1,7 @@
 #include "cli/output.h"
 
+#include <fmt/format.h>
+
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -29,6 +31,10 @@ void refuse_overwriting(const std::string& input, const std::string& path, const
   std::error_code none;   // what does not exist yet is nobody's input
   if (std::filesystem::equivalent(input, path, none))
     throw InputError({"command line", 0, flag, path, "must be another file than the input"});
+}
+
+void warn(const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) fmt::print(stderr, "warning: {}\n", warning);
 }
 
 void finish_standard_output() {

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace ttf::cli {
 
@@ -11,6 +12,9 @@ void write_file(const std::string& path, std::string_view text);
 
 // Throws InputError where `path`, given as `flag`, is the very file that is being read.
 void refuse_overwriting(const std::string& input, const std::string& path, const std::string& flag);
+
+// Says what is amiss with an input that is used all the same, on standard error.
+void warn(const std::vector<std::string>& warnings);
 
 // Hands what was printed to the system. Throws std::runtime_error with the reason where it is not taken (disk full, closed).
 void finish_standard_output();

@@ -26,6 +26,12 @@ class ContentHash {
     sum_ += mix(hash);
     ++records_;
   }
+  // All records of another log, too.
+  void add(const ContentHash& other) {
+    sum_ += other.sum_;
+    records_ += other.records_;
+  }
+  std::uint64_t records() const { return records_; }
   std::uint64_t value() const { return mix(sum_ ^ mix(records_)); }
 
   // 16 hex digits.
