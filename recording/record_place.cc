@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
+
+#include "schedules/round.h"
 
 namespace ttf::recording {
 namespace {
@@ -24,6 +27,10 @@ constexpr std::array<std::uint8_t, kRecordKinds> ranks() {
 }
 constexpr std::array<std::uint8_t, kRecordKinds> kRanks = ranks();
 static_assert(std::find(kRanks.begin(), kRanks.end(), kRecordKinds) == kRanks.end(), "every kind has a rank");
+
+// What a fault does is stamped by nodes, in whole microticks of theirs, and may seem to come before it by less than this.
+constexpr std::int64_t kMicroticks_ns = schedules::kGranularity_ns;
+constexpr std::int64_t kEarliest = std::numeric_limits<std::int64_t>::min();
 
 constexpr std::uint8_t rank_of(RecordKind kind) { return kRanks[static_cast<std::size_t>(kind) - 1]; }
 
@@ -59,7 +66,8 @@ void Placing::on(const records::StateChanged& r) { of_node(RecordKind::kStateCha
 void Placing::on(const records::SymbolSent& r) { of_node(RecordKind::kSymbol, r.stamp.true_time, r.stamp.node); }
 void Placing::on(const records::PowerChanged& r) { of_node(RecordKind::kPower, r.stamp.true_time, r.stamp.node); }
 void Placing::on(const records::FaultActivity& r) {
-  of_run(RecordKind::kFault, r.at, std::uint64_t{r.fault} << 8 | r.what);
+  of_run(RecordKind::kFault, TrueTime{std::max(r.at.ns, kEarliest + kMicroticks_ns) - kMicroticks_ns},
+         std::uint64_t{r.fault} << 8 | r.what);
 }
 void Placing::on(const records::GuardianIntervention& r) {
   of_run(RecordKind::kGuardian, r.at, std::uint64_t{r.channel} << 8 | index_of(r.branch));

@@ -107,7 +107,8 @@ TEST(Merge, AMergedLogIsTheSameFileWhateverItIsMergedOf) {
   MessageTimes times;
   walk_mcap(whole, times);
   EXPECT_EQ(times.times.size(), 4000u);
-  EXPECT_TRUE(std::is_sorted(times.times.begin(), times.times.end()));
+  for (std::size_t i = 1; i < times.times.size(); ++i)
+    EXPECT_GE(times.times[i] + 100, times.times[i - 1]) << "faults alone stand before their time";
   records::Sink nobody;
   const LogInfo info = read_log_bytes(whole, "merged.mcap", nobody);
   EXPECT_EQ(info.warning, "");
@@ -118,7 +119,7 @@ constexpr NodeId kA{0}, kB{1};
 records::Stamp at(std::int64_t ns, NodeId node) { return {TrueTime{ns}, LocalTime{ns}, GlobalTime{ns}, node}; }
 
 // All of it in one log, in that one's order, or that of A in one and that of B in the other:
-//   true time        -40        0              100
+//   true time        -40        0              1000 ns
 //   of the run                                 fault 0 ends, fault 1 begins and acts
 //   of node A        power on   three states   power off
 //   of node B                                  use of an image, and the truth then
@@ -126,13 +127,13 @@ TEST(Merge, AtOneInstantCausesStandBeforeEffectsAndANodesReportsInTheirOrder) {
   const auto emission = [](std::vector<records::Sink*>& sinks) {
     records::Sink& a = *sinks.front();
     records::Sink& b = *sinks.back();
-    b.on(records::TruthState{TrueTime{100}, ObjectId{7}, 0, 0, 0, 0, 0, 0, 0, 0, LocalTime{}, GlobalTime{}, kB});
-    b.on(records::TruthState{TrueTime{100}, ObjectId{3}, 0, 0, 0, 0, 0, 0, 0, 0, LocalTime{}, GlobalTime{}, kB});
-    b.on(records::FeatureUsed{at(100, kB), 1, GlobalTime{}, true, {}, false});
-    a.on(records::PowerChanged{at(100, kA), false});
-    a.on(records::FaultActivity{TrueTime{100}, 1, records::kFaultActs, kA, "crash", "it stops"});
-    a.on(records::FaultActivity{TrueTime{100}, 1, records::kFaultBegins, kA, "crash", ""});
-    a.on(records::FaultActivity{TrueTime{100}, 0, records::kFaultEnds, kA, "noise", ""});
+    b.on(records::TruthState{TrueTime{1000}, ObjectId{7}, 0, 0, 0, 0, 0, 0, 0, 0, LocalTime{}, GlobalTime{}, kB});
+    b.on(records::TruthState{TrueTime{1000}, ObjectId{3}, 0, 0, 0, 0, 0, 0, 0, 0, LocalTime{}, GlobalTime{}, kB});
+    b.on(records::FeatureUsed{at(1000, kB), 1, GlobalTime{}, true, {}, false});
+    a.on(records::PowerChanged{at(997, kA), false});
+    a.on(records::FaultActivity{TrueTime{1000}, 1, records::kFaultActs, kA, "crash", "it stops"});
+    a.on(records::FaultActivity{TrueTime{1000}, 1, records::kFaultBegins, kA, "crash", ""});
+    a.on(records::FaultActivity{TrueTime{1000}, 0, records::kFaultEnds, kA, "noise", ""});
     a.on(records::StateChanged{at(0, kA), 15, 1, "config", "ready", "2nd", ""});
     a.on(records::StateChanged{at(0, kA), 1, 33, "ready", "listen", "3rd", ""});
     a.on(records::StateChanged{at(0, kA), 33, 0, "listen", "default", "1st again", ""});
@@ -143,13 +144,13 @@ TEST(Merge, AtOneInstantCausesStandBeforeEffectsAndANodesReportsInTheirOrder) {
   expected.on(records::StateChanged{at(0, kA), 15, 1, "config", "ready", "2nd", ""});
   expected.on(records::StateChanged{at(0, kA), 1, 33, "ready", "listen", "3rd", ""});
   expected.on(records::StateChanged{at(0, kA), 33, 0, "listen", "default", "1st again", ""});
-  expected.on(records::FaultActivity{TrueTime{100}, 0, records::kFaultEnds, kA, "noise", ""});
-  expected.on(records::FaultActivity{TrueTime{100}, 1, records::kFaultBegins, kA, "crash", ""});
-  expected.on(records::FaultActivity{TrueTime{100}, 1, records::kFaultActs, kA, "crash", "it stops"});
-  expected.on(records::PowerChanged{at(100, kA), false});
-  expected.on(records::FeatureUsed{at(100, kB), 1, GlobalTime{}, true, {}, false});
-  expected.on(records::TruthState{TrueTime{100}, ObjectId{7}, 0, 0, 0, 0, 0, 0, 0, 0, LocalTime{}, GlobalTime{}, kB});
-  expected.on(records::TruthState{TrueTime{100}, ObjectId{3}, 0, 0, 0, 0, 0, 0, 0, 0, LocalTime{}, GlobalTime{}, kB});
+  expected.on(records::FaultActivity{TrueTime{1000}, 0, records::kFaultEnds, kA, "noise", ""});
+  expected.on(records::FaultActivity{TrueTime{1000}, 1, records::kFaultBegins, kA, "crash", ""});
+  expected.on(records::FaultActivity{TrueTime{1000}, 1, records::kFaultActs, kA, "crash", "it stops"});
+  expected.on(records::PowerChanged{at(997, kA), false});
+  expected.on(records::FeatureUsed{at(1000, kB), 1, GlobalTime{}, true, {}, false});
+  expected.on(records::TruthState{TrueTime{1000}, ObjectId{7}, 0, 0, 0, 0, 0, 0, 0, 0, LocalTime{}, GlobalTime{}, kB});
+  expected.on(records::TruthState{TrueTime{1000}, ObjectId{3}, 0, 0, 0, 0, 0, 0, 0, 0, LocalTime{}, GlobalTime{}, kB});
   for (const std::size_t count : {1u, 2u}) EXPECT_EQ(lines_of(MergedLogs(logs_of(count, emission))), expected.lines) << count;
 }
 
