@@ -1,9 +1,9 @@
 // The hash by which runs are compared without comparing files.
 //
-// Each record hashes to 64 bits from (log time, kind, payload bytes); a log's hash is the sum of these modulo
-// 2^64, mixed with their number. A record's time, kind, node and sequence numbers are in its payload, and the
-// sum is the same in any order: the logs of separate processes agree with the log of one process, in whatever
-// order things were written (recording/merge.h puts them into one). Equal records count as often as they occur. Not cryptographic: it detects
+// Each record hashes to 64 bits from (log time, kind, payload bytes); a log's hash is the sum of these modulo 2^64,
+// mixed with their number. A record's time, kind, node and sequence numbers are in its payload, and the sum is the same
+// in any order: the logs of separate processes agree with the log of one process, in whatever order things were written
+// (recording/merge.h puts them into one). Equal records count as often as they occur. Not cryptographic: it detects
 // change, not malice.
 #pragma once
 

@@ -46,8 +46,8 @@ struct LogInfo {
 // handed to the sink are valid during the call only.
 LogInfo read_log(const std::string& path, records::Sink& sink);
 
-// The same on bytes in memory; `name` is what errors and warnings call it. `on_chunk` hears of every sound chunk before the
-// sink hears of its records: where in `bytes` its content lies.
+// The same on bytes in memory; `name` is what errors and warnings call it. `on_chunk` hears of every sound chunk before
+// the sink hears of its records: where in `bytes` its content lies.
 using ChunkListener = std::function<void(std::string_view content)>;
 LogInfo read_log_bytes(std::string_view bytes, const std::string& name, records::Sink& sink,
                        const ChunkListener& on_chunk = {});

@@ -1,6 +1,7 @@
 // The records of an MCAP file that matter for reading a log, and its chunks unpacked. Private to the room.
 //
-// Trusts nothing: a record's fields must fill it exactly, a chunk's checksum must match before anything of it is handed on.
+// Trusts nothing: a record's fields must fill it exactly, a chunk's checksum must match before anything of it is handed
+// on.
 #pragma once
 
 #include <zstd.h>
@@ -34,7 +35,8 @@ bool read_chunk(std::string_view content, ChunkFields& out);
 // Decompresses chunks, one after the other.
 class ChunkOpener {
  public:
-  // The records in a chunk record's content; nothing where they are damaged. Valid as long as `buffer` and `content` are.
+  // The records in a chunk record's content; nothing where they are damaged. Valid as long as `buffer` and `content`
+  // are.
   std::optional<std::string_view> open(std::string_view content, std::string& buffer);
 
  private:
@@ -44,8 +46,8 @@ class ChunkOpener {
   std::unique_ptr<ZSTD_DCtx, Free> zstd_{ZSTD_createDCtx()};
 };
 
-// Calls `message(channel, log time, payload)` for every message among a chunk's records, in their order; it returns false
-// where the payload is unreadable. Returns how many were, what is no record included.
+// Calls `message(channel, log time, payload)` for every message among a chunk's records, in their order; it returns
+// false where the payload is unreadable. Returns how many were, what is no record included.
 template <class Message>
 std::uint64_t for_each_message(std::string_view records, Message&& message) {
   std::uint64_t unreadable = 0;

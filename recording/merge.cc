@@ -21,7 +21,7 @@ namespace {
 std::map<std::string, std::string> keys_of(const StoredLog& log) {
   std::map<std::string, std::string> keys;
   for (const auto& [key, value] : manifest_entries(log.info().manifest))
-    if (key != "crc32") keys[key] = value;
+    if (key != "crc32" && key != "host") keys[key] = value;
   return keys;
 }
 
@@ -29,7 +29,7 @@ std::map<std::string, std::string> keys_of(const StoredLog& log) {
 std::optional<Finding> misfit(const StoredLog& log, const StoredLog& first) {
   const auto mine = keys_of(log), others = keys_of(first);
   if (mine == others) return std::nullopt;
-  for (const auto& [key, unused] : manifest_entries(first.info().manifest)) {
+  for (const auto& [key, unused] : manifest_entries(first.info().manifest)) {   // in that order
     const auto value = mine.find(key), expected = others.find(key);
     if (expected == others.end() || (value != mine.end() && value->second == expected->second)) continue;
     return Finding{log.name(), 0, key, value == mine.end() ? "" : value->second,
@@ -77,17 +77,22 @@ MergedLogs::MergedLogs(std::vector<StoredLog> logs) : logs_(std::move(logs)) {
       findings.add(std::move(*finding));
   }
   findings.throw_if_any();
-}
-
-const LogManifest& MergedLogs::manifest() const {
-  static const LogManifest kNone;
-  for (const StoredLog& log : logs_)
-    if (log.info().manifest_sound) return log.info().manifest;
-  return logs_.empty() ? kNone : logs_.front().info().manifest;
+  if (first != nullptr)
+    manifest_ = first->info().manifest;
+  else if (!logs_.empty())
+    manifest_ = logs_.front().info().manifest;
+  times_ = common_times(logs_, warnings_);
+  const auto elsewhere = [&](const StoredLog& log) {
+    return log.info().manifest_sound && log.info().manifest.host != manifest_.host;
+  };
+  if (std::any_of(logs_.begin(), logs_.end(), elsewhere)) manifest_.host.clear();
+  const auto put_on_scale = [](const CommonTime& time) { return !time.changes_nothing(); };
+  if (std::any_of(times_.begin(), times_.end(), put_on_scale)) manifest_.clock = kCommonClock;
 }
 
 std::vector<Attachment> MergedLogs::attachments() const {
-  std::map<std::tuple<std::string, std::string, std::string>, std::size_t> places;   // by what they are: the first in any log
+  // By what they are, the first place in any log.
+  std::map<std::tuple<std::string, std::string, std::string>, std::size_t> places;
   for (const StoredLog& log : logs_) {
     const std::vector<Attachment>& own = log.info().attachments;
     for (std::size_t i = 0; i < own.size(); ++i) {
@@ -114,12 +119,15 @@ std::vector<std::string> MergedLogs::warnings() const {
   std::vector<std::string> warnings;
   for (const StoredLog& log : logs_)
     if (!log.info().warning.empty()) warnings.push_back(log.info().warning);
+  warnings.insert(warnings.end(), warnings_.begin(), warnings_.end());
   return warnings;
 }
 
 void MergedLogs::read(records::Sink& sink) const {
-  MergeWalk walk(logs_);
+  MergeWalk walk(logs_, times_);
   Decoder decoder;
+  std::vector<OnCommonTime> sinks;
+  for (const CommonTime& time : times_) sinks.emplace_back(time, sink);
   while (true) {
     const std::vector<MergeWalk::Message>& instant = walk.next();
     if (instant.empty()) return;
@@ -130,7 +138,8 @@ void MergedLogs::read(records::Sink& sink) const {
         const auto [a, b] = std::minmax(message.log, instant[i - 1].log);
         throw InputError(given_twice(logs_[b], logs_[a]));
       }
-      decoder.decode(message.kind, message.payload, sink);
+      records::Sink& out = times_[message.log].changes_nothing() ? sink : sinks[message.log];
+      decoder.decode(message.kind, message.payload, out);
     }
   }
 }

@@ -34,10 +34,11 @@ void put_in_order(std::vector<MergeWalk::Message>& instant) {
 
 }  // namespace
 
-MergeWalk::MergeWalk(const std::vector<StoredLog>& logs) : logs_(logs) {
+MergeWalk::MergeWalk(const std::vector<StoredLog>& logs, const std::vector<CommonTime>& times)
+    : logs_(logs), times_(times) {
   for (std::size_t log = 0; log < logs.size(); ++log)
     for (std::size_t chunk = 0; chunk < logs[log].chunks().size(); ++chunk)
-      upcoming_.push_back({logs[log].chunks()[chunk].first, static_cast<std::uint32_t>(log),
+      upcoming_.push_back({times[log](logs[log].chunks()[chunk].first), static_cast<std::uint32_t>(log),
                            static_cast<std::uint32_t>(chunk)});
   std::sort(upcoming_.begin(), upcoming_.end(), [](const Upcoming& a, const Upcoming& b) {
     return std::tie(a.first, a.log, a.chunk) > std::tie(b.first, b.log, b.chunk);
@@ -64,6 +65,7 @@ void MergeWalk::open(const Upcoming& upcoming) {
     if (channel < 1 || channel > kRecordKinds) return false;
     const auto kind = static_cast<RecordKind>(channel);
     if (!decoder_.decode(kind, payload, placing)) return false;
+    placing.place.at = times_[upcoming.log](placing.place.at);
     chunk->messages.push_back({placing.place, kind, upcoming.log, 0, in_log++, payload});
     return true;
   });

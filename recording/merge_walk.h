@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "recording/common_time.h"
 #include "recording/log_codec.h"
 #include "recording/mcap_chunk.h"
 #include "recording/record_place.h"
@@ -26,7 +27,8 @@ class MergeWalk {
     std::string_view payload;
   };
 
-  explicit MergeWalk(const std::vector<StoredLog>& logs);
+  // `times`: by log, where its true times are on the common scale. Both must outlive this.
+  MergeWalk(const std::vector<StoredLog>& logs, const std::vector<CommonTime>& times);
 
   // All records of the next instant, in their order; empty at the end. Valid until the next call.
   const std::vector<Message>& next();
@@ -48,6 +50,7 @@ class MergeWalk {
   std::unique_ptr<Open> closed_chunk();
 
   const std::vector<StoredLog>& logs_;
+  const std::vector<CommonTime>& times_;
   std::vector<Upcoming> upcoming_;   // the next one last
   std::vector<std::unique_ptr<Open>> open_;   // a heap, the earliest first
   std::vector<std::unique_ptr<Open>> used_;   // what has been read to its end: for the next instant's call, then again

@@ -28,7 +28,8 @@ constexpr std::array<std::uint8_t, kRecordKinds> ranks() {
 constexpr std::array<std::uint8_t, kRecordKinds> kRanks = ranks();
 static_assert(std::find(kRanks.begin(), kRanks.end(), kRecordKinds) == kRanks.end(), "every kind has a rank");
 
-// What a fault does is stamped by nodes, in whole microticks of theirs, and may seem to come before it by less than this.
+// What a fault does is stamped by nodes, in whole microticks of theirs, and may seem to come before it by less than
+// this.
 constexpr std::int64_t kMicroticks_ns = schedules::kGranularity_ns;
 constexpr std::int64_t kEarliest = std::numeric_limits<std::int64_t>::min();
 

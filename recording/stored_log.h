@@ -1,5 +1,5 @@
-// A log in memory, as its file's bytes, read through once: what it says of itself, and which of its chunks has records of
-// which time. What is damaged is left out here and has its warning; the chunks listed are sound.
+// A log in memory, as its file's bytes, read through once: what it says of itself, and which of its chunks has records
+// of which time. What is damaged is left out here and has its warning; the chunks listed are sound.
 #pragma once
 
 #include <string>
@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/time.h"
+#include "recording/common_time.h"
 #include "recording/log_reader.h"
 
 namespace ttf::recording {
@@ -28,13 +29,18 @@ class StoredLog {
     TrueTime first{}, last{};
   };
   const std::vector<Chunk>& chunks() const { return chunks_; }   // in file order; none without a readable record
-  std::string_view content(const Chunk& chunk) const { return std::string_view(bytes_).substr(chunk.begin, chunk.size); }
+  // How its nodes' global times relate to its true time, where that is a host's clock.
+  const std::vector<SyncStamp>& sync_stamps() const { return sync_stamps_; }
+  std::string_view content(const Chunk& chunk) const {
+    return std::string_view(bytes_).substr(chunk.begin, chunk.size);
+  }
 
  private:
   std::string name_;
   std::string bytes_;
   LogInfo info_;
   std::vector<Chunk> chunks_;
+  std::vector<SyncStamp> sync_stamps_;
 };
 
 }  // namespace ttf::recording

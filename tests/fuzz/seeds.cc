@@ -231,7 +231,7 @@ void drawn_seeds(const fs::path& folder) {
 class Payloads final : public recording::McapHandler {
  public:
   void on_metadata(std::string_view, const std::vector<std::pair<std::string, std::string>>&) override {}
-  void on_attachment(std::string_view, std::string_view) override {}
+  void on_attachment(std::string_view, std::string_view, std::string_view) override {}
   bool on_message(std::uint16_t channel, std::uint64_t, std::string_view payload) override {
     if (payload.size() > 0xffff) return true;
     put(messages, static_cast<std::uint8_t>(channel));

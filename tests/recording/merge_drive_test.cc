@@ -1,5 +1,5 @@
-// Whole drives, recorded by one process or by one per node: merged, everything that is made of the logs is the same, and what
-// it was before anything was merged.
+// Whole drives, recorded by one process or by one per node: merged, everything that is made of the logs is the same,
+// and what it was before anything was merged.
 #include <gtest/gtest.h>
 #include <fmt/format.h>
 
@@ -24,14 +24,17 @@ using fusion::StrategyKind;
 using testing_support::Drive;
 using Read = std::function<void(records::Sink&)>;
 
+constexpr TrueTime kNever{-1};
+
 // What is told of a drive, from its records alone.
 std::string told(const experiments::DriveSummary& s) {
-  std::string text = fmt::format("{} {} {} {} {} | {} {} {} {} {} {} | {} {} {} {}", s.position_rmse_truth,
-                                 s.velocity_rmse_truth, s.position_rmse_reference, s.velocity_rmse_reference,
-                                 s.reference_compared, s.matched, s.missed, s.spurious, s.uses, s.stale_uses, s.warnings,
-                                 s.nees, s.nees_samples, s.nees_low, s.nees_high);
-  text += fmt::format(" | {} {} {} {} {} {} {}", s.received, s.out_of_sequence, s.fused, s.fused_late, s.held, s.dropped,
-                      s.duplicates);
+  std::string text =
+      fmt::format("{} {} {} {} {}", s.position_rmse_truth, s.velocity_rmse_truth, s.position_rmse_reference,
+                  s.velocity_rmse_reference, s.reference_compared);
+  text += fmt::format(" | {} {} {} {} {} {}", s.matched, s.missed, s.spurious, s.uses, s.stale_uses, s.warnings);
+  text += fmt::format(" | {} {} {} {}", s.nees, s.nees_samples, s.nees_low, s.nees_high);
+  text += fmt::format(" | {} {} {} {} {} {} {}", s.received, s.out_of_sequence, s.fused, s.fused_late, s.held,
+                      s.dropped, s.duplicates);
   const auto add = [&text](const experiments::AgeStatistics& ages) {
     text += fmt::format(" | {} {} {}", ages.count, ages.sum.ns, ages.worst.ns);
   };
@@ -45,9 +48,10 @@ std::string told(const experiments::DriveSummary& s) {
 std::string told(const experiments::StartupAccount& account) {
   std::string text;
   for (const experiments::NodeStartup& node : account.nodes()) {
-    text += fmt::format("{} {} {} {}", index_of(node.node), node.powered.value_or(TrueTime{-1}).ns, node.state, node.why);
+    text += fmt::format("{} {} {} {}", index_of(node.node), node.powered.value_or(kNever).ns, node.state, node.why);
     if (node.active)
-      text += fmt::format(" active {} {} {} {}", node.active->at.ns, node.active->cycle, node.active->from, node.active->why);
+      text += fmt::format(" active {} {} {} {}", node.active->at.ns, node.active->cycle, node.active->from,
+                          node.active->why);
     text += '\n';
   }
   return text;
@@ -67,7 +71,8 @@ std::string told(const experiments::FaultEffects& effects) {
                         state.times);
   for (const auto& kind : effects.harms)
     for (const auto& harm : kind)
-      text += fmt::format(" h {} {} {} {} {}", index_of(harm.node), harm.first.ns, index_of(harm.sender), harm.slot, harm.times);
+      text += fmt::format(" h {} {} {} {} {}", index_of(harm.node), harm.first.ns, index_of(harm.sender), harm.slot,
+                          harm.times);
   return text;
 }
 
@@ -75,7 +80,7 @@ std::string told(const experiments::FaultFindings& findings) {
   std::string text;
   for (const experiments::FaultSeen& seen : findings.faults)
     text += fmt::format("{} {} {} {} {} {} {} {}:{}\n", seen.fault, seen.kind, index_of(seen.node), seen.begins.ns,
-                        seen.ends.value_or(TrueTime{-1}).ns, seen.first_act.value_or(TrueTime{-1}).ns, seen.acts, seen.text,
+                        seen.ends.value_or(kNever).ns, seen.first_act.value_or(kNever).ns, seen.acts, seen.text,
                         told(static_cast<const experiments::FaultEffects&>(seen)));
   return text + "unattributed:" + told(findings.unattributed);
 }
@@ -92,7 +97,8 @@ Outcome outcome(const Drive& drive, const LogManifest& manifest, const Read& rea
   const report::Names names = report::names_of(drive.cluster);
   const TrueTime from = sim::evaluation_start(drive.scenario), to = sim::drive_end(drive.scenario);
   report::TimingDiagram timing(names, drive.cluster.cycle(), from, from + Duration::milliseconds(160));
-  report::StartupDiagram startup_picture(names, drive.cluster.cycle(), TrueTime{}, TrueTime{} + Duration::milliseconds(300));
+  report::StartupDiagram startup_picture(names, drive.cluster.cycle(), TrueTime{},
+                                         TrueTime{} + Duration::milliseconds(300));
   report::PositionPlots positions(names, {"", from, to});
   FrameCollector frames;
   records::Tee tee({&measures, &startup, &faults, &timing, &startup_picture, &positions, &frames});

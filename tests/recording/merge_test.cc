@@ -25,7 +25,8 @@ std::vector<std::string> lines_of(const MergedLogs& merged) {
 
 // Logs in memory, by what is emitted into each.
 using Emission = std::function<void(std::vector<records::Sink*>&)>;
-std::vector<StoredLog> logs_of(std::size_t count, const Emission& emission, const LogManifest& manifest = sample_manifest()) {
+std::vector<StoredLog> logs_of(std::size_t count, const Emission& emission,
+                               const LogManifest& manifest = sample_manifest()) {
   std::vector<std::unique_ptr<LogWriter>> writers;
   std::vector<records::Sink*> sinks;
   const auto path = [](std::size_t i) { return scratch("part" + std::to_string(i) + ".mcap"); };
@@ -121,7 +122,7 @@ records::Stamp at(std::int64_t ns, NodeId node) { return {TrueTime{ns}, LocalTim
 // All of it in one log, in that one's order, or that of A in one and that of B in the other:
 //   true time        -40        0              1000 ns
 //   of the run                                 fault 0 ends, fault 1 begins and acts
-//   of node A        power on   three states   power off
+//   of node A        power on   three states   power off: 3 ns earlier by its own clock
 //   of node B                                  use of an image, and the truth then
 TEST(Merge, AtOneInstantCausesStandBeforeEffectsAndANodesReportsInTheirOrder) {
   const auto emission = [](std::vector<records::Sink*>& sinks) {
@@ -151,13 +152,15 @@ TEST(Merge, AtOneInstantCausesStandBeforeEffectsAndANodesReportsInTheirOrder) {
   expected.on(records::FeatureUsed{at(1000, kB), 1, GlobalTime{}, true, {}, false});
   expected.on(records::TruthState{TrueTime{1000}, ObjectId{7}, 0, 0, 0, 0, 0, 0, 0, 0, LocalTime{}, GlobalTime{}, kB});
   expected.on(records::TruthState{TrueTime{1000}, ObjectId{3}, 0, 0, 0, 0, 0, 0, 0, 0, LocalTime{}, GlobalTime{}, kB});
-  for (const std::size_t count : {1u, 2u}) EXPECT_EQ(lines_of(MergedLogs(logs_of(count, emission))), expected.lines) << count;
+  for (const std::size_t count : {1u, 2u})
+    EXPECT_EQ(lines_of(MergedLogs(logs_of(count, emission))), expected.lines) << count;
 }
 
 // A record that was reported 30 s after its time, behind a hundred chunks: no window is too small for it.
 TEST(Merge, WhatWasReportedMuchLaterStandsAtItsTime) {
   const auto emission = [](std::vector<records::Sink*>& sinks) {
-    for (std::int64_t i = 0; i < 300; ++i) sinks.front()->on(records::PowerChanged{at(i * 100'000'000, kA), i % 2 == 0});
+    for (std::int64_t i = 0; i < 300; ++i)
+      sinks.front()->on(records::PowerChanged{at(i * 100'000'000, kA), i % 2 == 0});
     records::ReferenceFix fix;
     fix.measured_true = TrueTime{150'000'000};
     sinks.back()->on(fix);
@@ -243,7 +246,8 @@ TEST(Merge, NoLogIsWrittenOver) {
   std::filesystem::copy_file((logs_of(1, crowd()), scratch("part0.mcap")), path);
   const std::string before = read_file(path);
   const MergedLogs merged(std::vector<std::string>{path});
-  EXPECT_EQ(refused([&] { write_merged(merged, path); }), path + ": must be another file than the logs that are merged");
+  EXPECT_EQ(refused([&] { write_merged(merged, path); }),
+            path + ": must be another file than the logs that are merged");
   EXPECT_TRUE(read_file(path) == before);
   EXPECT_THROW(write_merged(merged, scratch("no/such/folder.mcap")), std::runtime_error);
 }
@@ -304,9 +308,10 @@ TEST(Merge, ALogWithoutManifestBelongsToTheOthers) {
   logs[0] = StoredLog(torn, "part0.mcap");
   const MergedLogs merged(std::move(logs));
   EXPECT_EQ(merged.manifest(), sample_manifest()) << "the sound one";
-  EXPECT_EQ(merged.warnings(), std::vector<std::string>{"part0.mcap: bytes outside the chunks are damaged (checksum of the "
-                                                        "data section); all records are read\npart0.mcap: the manifest is "
-                                                        "damaged: names and seed may be wrong"});
+  EXPECT_EQ(merged.warnings(),
+            std::vector<std::string>{"part0.mcap: bytes outside the chunks are damaged (checksum of the data section); "
+                                     "all records are read\n"
+                                     "part0.mcap: the manifest is damaged: names and seed may be wrong"});
   EXPECT_EQ(lines_of(merged), lines_of(MergedLogs(logs_of(2, crowd()))));
 }
 
