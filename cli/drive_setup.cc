@@ -12,16 +12,12 @@
 #include "schedules/loader.h"
 
 namespace ttf::cli {
-namespace {
 
 std::string hex_hash(const std::string& text) {
-  // FNV-1a, 64 bits: names the exact input a log was made from.
   std::uint64_t hash = 0xcbf29ce484222325u;
   for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
   return fmt::format("{:016x}", hash);
 }
-
-}  // namespace
 
 schedules::Cluster checked_cluster(const std::string& file) {
   schedules::Cluster cluster = schedules::load_cluster(file);
@@ -87,6 +83,12 @@ std::uint64_t seed_of(const std::string& text) {
   if (error != std::errc{} || end != text.data() + text.size() || seed > kMost)
     throw InputError({"command line", 0, "--seed", text, fmt::format("must be a whole number 0..{}", kMost)});
   return seed;
+}
+
+std::string folder_of(const nodes::Scenario& scenario) {
+  if (scenario.name.empty() || scenario.name.find('/') != std::string::npos || scenario.name.front() == '.')
+    throw InputError({scenario.file, 0, "name", scenario.name, "must name a folder under out/, or --out be given"});
+  return "out/" + scenario.name;
 }
 
 DriveJudge::DriveJudge(const nodes::Scenario& scenario, const schedules::Cluster& cluster)

@@ -19,6 +19,9 @@
 
 namespace ttf::cli {
 
+// FNV-1a, 64 bits, in hexadecimal digits: names the exact input that a log was made from.
+std::string hex_hash(const std::string& text);
+
 // A cluster that has passed its check, ready to run. Throws InputError.
 schedules::Cluster checked_cluster(const std::string& file);
 
@@ -40,6 +43,9 @@ std::unique_ptr<recording::LogWriter> begin_log(const std::string& path, const r
 std::vector<fusion::StrategyKind> chosen(const std::string& name);
 // --seed: the same rule as for a scenario's seed, and decimal digits only.
 std::uint64_t seed_of(const std::string& text);
+
+// Where results go without --out; a name that leads elsewhere is no name. Throws InputError.
+std::string folder_of(const nodes::Scenario& scenario);
 
 // Makes of a drive's records what tables and JSON tell of it.
 class DriveJudge {

@@ -18,6 +18,8 @@ int main(int argc, char** argv) {
   ttf::cli::add_export(app, action);
   ttf::cli::add_schedule(app, action);
   ttf::cli::add_experiment(app, action);
+  ttf::cli::add_launch(app, action);
+  ttf::cli::add_node(app, action);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -56,13 +56,6 @@ StrategyResult run_strategy(const RunOptions& options, const nodes::Scenario& sc
   return result;
 }
 
-// Where results go without --out; a name that leads elsewhere is no name.
-std::string folder_of(const nodes::Scenario& scenario) {
-  if (scenario.name.empty() || scenario.name.find('/') != std::string::npos || scenario.name.front() == '.')
-    throw InputError({scenario.file, 0, "name", scenario.name, "must name a folder under out/, or --out be given"});
-  return "out/" + scenario.name;
-}
-
 int run_scenario(const RunOptions& options) {
   const nodes::Scenario scenario = nodes::load_scenario(options.scenario);
   const std::uint64_t seed = options.seed ? seed_of(*options.seed) : scenario.seed;
