@@ -11,6 +11,11 @@
 
 #include "cli/commands.h"
 #include "cli/drive_setup.h"
+#include "cli/fault_tables.h"
+#include "cli/launch_virtual.h"
+#include "cli/output.h"
+#include "cli/run_outputs.h"
+#include "cli/startup_outputs.h"
 #include "cli/launch/preflight.h"
 #include "cli/launch/run_folder.h"
 #include "cli/launch/shell_text.h"
@@ -26,6 +31,8 @@ struct LaunchArguments {
   std::vector<std::string> policies;
   bool dry_run = false;
   bool json = false;
+  bool no_pictures = false;
+  bool session_given = false;
 };
 
 // What is going to be started: one process per node of the cluster, in its order.
@@ -66,9 +73,16 @@ void set_policies(const std::vector<std::string>& texts, const schedules::Cluste
   }
 }
 
+// Of this launch alone, whatever else is launched on this machine or in this folder.
+std::string new_session() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return fmt::format("launch-{}-{}", getpid(), std::chrono::duration_cast<std::chrono::microseconds>(now).count());
+}
+
 LaunchPlan plan_of(const LaunchArguments& arguments) {
   LaunchPlan plan;
   plan.set = read_node_set(arguments.set);
+  if (!arguments.session_given) plan.set.session = new_session();
   const std::string program = this_program();
   for (const schedules::Node& node : plan.set.cluster.nodes) {
     launch::NodeSpec spec;
@@ -112,16 +126,41 @@ int show_plan(const LaunchPlan& plan, bool as_json) {
   return 0;
 }
 
-int run_plan(LaunchPlan plan, bool as_json) {
+// What came of the drive, from the logs of those who got to its end; nothing where nobody has a log.
+void tell_result(const NodeSet& set, const VirtualLaunch& drive, const launch::RunFolder& folder,
+                 const LaunchArguments& arguments) {
+  std::vector<std::string> logs;
+  for (const schedules::Node& node : set.cluster.nodes) {
+    const std::string log = folder.log_path(node.name);
+    if (std::filesystem::exists(log)) logs.push_back(log);
+  }
+  if (logs.empty()) return;
+  const std::vector<StrategyResult> results{drive.result(logs)};
+  if (!arguments.no_pictures) write_pictures(set.scenario, results, set.folder);
+  const nlohmann::ordered_json json = to_json(set.scenario, set.seed, results);
+  write_file(set.folder + "/summary.json", json.dump(2) + '\n');
+  if (arguments.json) {
+    fmt::print("{}\n", json.dump(2));
+    return;
+  }
+  fmt::print("{}\n{}{}", set.scenario.description, startup_text(results), comparison_table(results));
+  if (!set.scenario.faults.empty())
+    fmt::print("\n{}", faults_text(nodes::name_of(set.strategy), results.front().faults, set.cluster));
+}
+
+int run_plan(LaunchPlan plan, const LaunchArguments& arguments) {
   nlohmann::ordered_json facts{{"command", command_line()}};
   facts.update(facts_of(plan.set));
   launch::RunFolder folder(plan.set.folder, std::move(facts), std::chrono::system_clock::now());
+  for (const launch::NodeSpec& node : plan.nodes) std::filesystem::remove(folder.log_path(node.name));   // an earlier launch's
+  VirtualLaunch drive(plan.set);
   launch::SupervisorConfig config;
   config.nodes = std::move(plan.nodes);
   config.screen = STDERR_FILENO;
   config.folder = &folder;
-  const launch::Outcome outcome = launch::Supervisor(std::move(config), {}).run();
-  if (as_json) fmt::print("{}\n", folder.json().dump(2));
+  const launch::Outcome outcome = launch::Supervisor(std::move(config), drive.hooks()).run();
+  tell_result(plan.set, drive, folder, arguments);
+  std::fflush(stdout);   // both may go to one file
   fmt::print(stderr, "written to {}\n", plan.set.folder);
   return outcome.exit_code;
 }
@@ -135,7 +174,11 @@ int run_launch(const LaunchArguments& arguments) {
     fmt::print(stderr, "{}", launch::text_of(plan.preflight));
     return 1;
   }
-  return run_plan(std::move(plan), arguments.json);
+  for (const launch::NodeSpec& node : plan.nodes)
+    if (node.policy == launch::Policy::kRestart)
+      throw InputError({"command line", 0, "--policy", node.name + "=restart",
+                        "must not be given with --virtual-time: nobody would wait for the node to catch up"});
+  return run_plan(std::move(plan), arguments);
 }
 
 }  // namespace
@@ -153,8 +196,12 @@ void add_launch(CLI::App& app, Action& action) {
   command->add_flag("--dry-run", arguments->dry_run, "Only say what would be started, and whether the bus is there");
   command->add_option("--out", arguments->set.out,
                       "Folder of the run: logs, output, manifest (default: out/<scenario>/launch)");
-  command->add_flag("--json", arguments->json, "The manifest, or with --dry-run the plan, as JSON on standard output");
-  command->callback([arguments, &action] { action = [arguments] { return run_launch(*arguments); }; });
+  command->add_flag("--json", arguments->json, "Summary, or with --dry-run the plan, as JSON on standard output");
+  command->add_flag("--no-pictures", arguments->no_pictures, "Leave logs and tables only");
+  command->callback([arguments, command, &action] {
+    arguments->session_given = command->count("--session") > 0;
+    action = [arguments] { return run_launch(*arguments); };
+  });
 }
 
 }  // namespace ttf::cli

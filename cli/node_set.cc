@@ -92,6 +92,8 @@ void add_node_set_options(CLI::App& command, NodeSetArguments& arguments) {
   command.add_option("--seed", arguments.seed, "Seed of every random stream, instead of the scenario's");
   command.add_option("--bus", arguments.bus,
                      "dds (default), or socketcan:IF[,IF] with the interfaces of channels A and B");
+  command.add_option("--session", arguments.session,
+                     "Name that all nodes of one drive share on dds, and no others (default: ttfusion; launch: its own)");
   command.add_flag("--virtual-time", arguments.virtual_time, "As fast as the processes can, instead of in real time");
   command.add_option("--time-scale", arguments.time_scale, "Stretch the schedule in real time, 0.1..1000");
   command.add_option("--duration", arguments.duration, "Seconds to drive, instead of the scenario's");
@@ -102,6 +104,7 @@ NodeSet read_node_set(const NodeSetArguments& arguments) {
   set.file = arguments.scenario;
   set.strategy = strategy_of(arguments.strategy);
   set.bus = launch::Bus::parse(arguments.bus);
+  set.session = arguments.session;
   set.virtual_time = arguments.virtual_time;
   if (arguments.time_scale)
     set.time_scale_ppm = decimal_option("--time-scale", *arguments.time_scale, kPpm, kTimeScales, "");
@@ -131,7 +134,7 @@ NodeSet read_node_set(const NodeSetArguments& arguments) {
 
 std::vector<std::string> NodeSet::options() const {
   std::vector<std::string> list{file,    "--strategy", std::string(nodes::name_of(strategy)),
-                                "--seed", fmt::to_string(seed), "--bus", bus.text(),
+                                "--seed", fmt::to_string(seed), "--bus", bus.text(), "--session", session,
                                 "--duration", scaled_text(scenario.duration.ns, kNsPerSecond)};
   if (virtual_time)
     list.emplace_back("--virtual-time");

@@ -22,6 +22,7 @@ struct NodeSetArguments {
   std::string strategy = "tt";
   std::optional<std::string> seed, time_scale, duration;
   std::string bus = "dds";
+  std::string session = "ttfusion";
   std::string out;
   bool virtual_time = false;
 };
@@ -35,6 +36,7 @@ struct NodeSet {
   fusion::StrategyKind strategy{};
   std::uint64_t seed = 0;
   launch::Bus bus;
+  std::string session;              // who is in another one is not heard
   bool virtual_time = false;
   std::int64_t time_scale_ppm = 1'000'000;   // the schedule lasts so much longer in real time; in virtual time always 1
   std::string folder;               // where the nodes' logs go: NAME.mcap (launch::file_stem)
