@@ -1,9 +1,13 @@
 // Policies, barrier, output and exit codes. How a launch is stopped: supervisor_stop_test.cc.
 #include "cli/launch/supervisor.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <stdlib.h>
+#include <sys/ioctl.h>
+#include <termios.h>
 
 #include <algorithm>
 #include <ctime>
@@ -306,6 +310,27 @@ TEST_F(Supervising, WhatAHookThrowsEndsTheLaunch) {
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_EQ(outcome.why, "the medium is lost");
   EXPECT_THAT(shown(), Not(HasSubstr("a      | start")));
+}
+
+// On a terminal that wants it: colours, and the table now and then, not only at the end.
+TEST_F(Supervising, OnATerminalTheTableComesAgain) {
+  const launch::Descriptor terminal(posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK));
+  ASSERT_TRUE(terminal.open() && unlockpt(terminal.get()) == 0);
+  const launch::Descriptor screen(ioctl(terminal.get(), TIOCGPTPEER, O_RDWR | O_NOCTTY));
+  ASSERT_TRUE(screen.open());
+  unsetenv("NO_COLOR");
+  const std::string lingers = TTF_LAUNCH_CHILD " ready start 'tell:{\"health\":{\"drops\":77}}'; sleep 0.3";
+  auto given = config({{"a", Policy::kRequired, {{"/bin/sh", "-c", lingers}, {}}}});
+  given.screen = screen.get();
+  given.health_every = Duration::milliseconds(100);
+  EXPECT_EQ(run(std::move(given)).exit_code, 0);
+  std::string text(1 << 16, '\0');
+  text.resize(static_cast<std::size_t>(std::max<ssize_t>(read(terminal.get(), text.data(), text.size()), 0)));
+  std::size_t tables = 0;
+  for (std::size_t at = text.find("missed slots"); at != std::string::npos; at = text.find("missed slots", at + 1)) ++tables;
+  EXPECT_GE(tables, 2u);
+  EXPECT_THAT(text, HasSubstr(" 77  running\r\n"));   // this terminal's line discipline is not raw
+  EXPECT_THAT(text, HasSubstr(" a      |\x1b[0m start {}\r\n"));
 }
 
 // Each descriptor that is at its end would keep an idle loop busy: its own terminal and control line closed, it lives on.
