@@ -273,6 +273,16 @@ void FlexRayController::command(PocEventKind command, Microticks now) {
 
 Microticks FlexRayController::next_event() const { return state_->due; }
 
+// Within the schedule only the minislot counters listen: what is taken there moves the node's own dynamic slots.
+bool FlexRayController::answers_at_once() const {
+  const State& s = *state_;
+  if (!synchronised()) return true;
+  const bool has_dynamic = std::any_of(kChannels.begin(), kChannels.end(), [&s](schedules::Channel channel) {
+    return !s.slots.own_dynamic(channel).empty();
+  });
+  return has_dynamic && s.segment == State::Segment::kDynamic;
+}
+
 void FlexRayController::advance(Microticks now) {
   for (State& s = *state_; s.due <= now; s.due = s.next_event()) s.handle(s.due);
 }

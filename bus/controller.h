@@ -147,6 +147,8 @@ class FlexRayController {
 
   // Far in the future where nothing is due without a reception.
   Microticks next_event() const;
+  // Whether a reception may make it send something before next_event(), as that is now.
+  bool answers_at_once() const;
   void advance(Microticks now);
   void receive(const Reception& reception);
 

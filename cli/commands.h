@@ -15,5 +15,7 @@ void add_diagram(CLI::App& app, Action& action);
 void add_export(CLI::App& app, Action& action);
 void add_schedule(CLI::App& app, Action& action);
 void add_experiment(CLI::App& app, Action& action);
+void add_launch(CLI::App& app, Action& action);
+void add_node(CLI::App& app, Action& action);
 
 }  // namespace ttf::cli

@@ -12,7 +12,7 @@
 #include "core/counted.h"
 #include "core/errors.h"
 #include "nodes/laser/laser_preprocessor.h"
-#include "recording/log_reader.h"
+#include "recording/merge.h"
 #include "recording/recorded_input.h"
 #include "report/boxes_picture.h"
 #include "report/position_plot.h"
@@ -43,17 +43,26 @@ report::Names names_of(const recording::LogManifest& manifest) {
   return names;
 }
 
-// Where a log begins and ends, and what it says of itself.
+// When the last task ended.
 struct Extent final : records::Sink {
   TrueTime last{};
   using records::Sink::on;
   void on(const records::TaskRun& run) override { last = std::max(last, run.end.true_time); }
 };
 
-recording::LogInfo read(const std::string& path, records::Sink& sink) {
-  recording::LogInfo info = recording::read_log(path, sink);
-  print_warnings(info.warning);
-  return info;
+// The logs of each run as one.
+std::vector<recording::MergedLogs> runs_in(const std::vector<std::string>& paths) {
+  std::vector<recording::StoredLog> logs;
+  for (const std::string& path : paths) logs.emplace_back(path);
+  std::vector<recording::MergedLogs> runs = recording::merge_by_run(std::move(logs));
+  for (const recording::MergedLogs& run : runs) print_warnings(run.warnings());
+  return runs;
+}
+
+recording::MergedLogs one_run(const std::vector<std::string>& paths) {
+  recording::MergedLogs run(paths);
+  print_warnings(run.warnings());
+  return run;
 }
 
 // A recorded laser scan and the vehicles that preprocessing sees in it.
@@ -83,16 +92,43 @@ std::string boxes(const DiagramOptions& options) {
 
 // The whole start-up and two cycles after it, unless told.
 std::string startup(const DiagramOptions& options) {
-  if (options.logs.size() != 1) throw InputError({"command line", 0, "--kind", "startup", "takes one log"});
   const TimeWindow window = time_window(options.from_s, options.to_s);
+  const recording::MergedLogs run = one_run(options.logs);
   report::StartupExtent extent;
-  const recording::LogInfo info = read(options.logs[0], extent);
-  const Duration cycle{info.manifest.cycle_ns};
+  run.read(extent);
+  const Duration cycle{run.manifest().cycle_ns};
   const auto whole = extent.window(cycle).value_or(std::pair(TrueTime{}, TrueTime{}));
-  report::StartupDiagram diagram(names_of(info.manifest), cycle, options.from_s >= 0.0 ? window.from : whole.first,
+  report::StartupDiagram diagram(names_of(run.manifest()), cycle, options.from_s >= 0.0 ? window.from : whole.first,
                                  window.to.value_or(whole.second));
-  recording::read_log(options.logs[0], diagram);
+  run.read(diagram);
   return diagram.svg();
+}
+
+std::string timing(const recording::MergedLogs& run, TrueTime from, TrueTime to) {
+  report::TimingDiagram diagram(names_of(run.manifest()), {run.manifest().cycle_ns}, from, to);
+  run.read(diagram);
+  return diagram.svg();
+}
+
+// Several runs side by side.
+std::string positions(const std::vector<recording::MergedLogs>& runs, TrueTime from, TrueTime to, bool plane) {
+  std::vector<std::unique_ptr<report::PositionPlots>> plots;
+  std::vector<const report::PositionPlots*> panels;
+  std::vector<std::string> titles;
+  for (const recording::MergedLogs& run : runs) {
+    report::PositionOptions position;
+    position.title = fmt::format("{}, {}", run.manifest().scenario_name, run.manifest().strategy);
+    position.from = from;
+    position.to = to;
+    plots.push_back(std::make_unique<report::PositionPlots>(names_of(run.manifest()), position));
+    run.read(*plots.back());
+    panels.push_back(plots.back().get());
+    titles.push_back(run.manifest().strategy);
+  }
+  if (plots.size() > 1)
+    return report::comparison_svg(panels, titles,
+                                  plane ? report::PositionView::kPlane : report::PositionView::kXOverTime);
+  return plane ? plots[0]->plane_svg() : plots[0]->over_time_svg();
 }
 
 int run_diagram(const DiagramOptions& options) {
@@ -108,45 +144,22 @@ int run_diagram(const DiagramOptions& options) {
     return 0;
   }
   const TimeWindow window = time_window(options.from_s, options.to_s);
+  const bool as_timing = options.kind == "timing";
+  std::vector<recording::MergedLogs> runs;
+  if (as_timing)
+    runs.push_back(one_run(options.logs));
+  else
+    runs = runs_in(options.logs);
   Extent extent;
-  std::vector<recording::LogInfo> infos;
-  for (const std::string& log : options.logs) infos.push_back(read(log, extent));
+  for (const recording::MergedLogs& run : runs) run.read(extent);
   const TrueTime from = window.from;
   if (extent.last == TrueTime{}) throw InputError({options.logs[0], 0, "", "", "holds no task's run: nothing to draw"});
   if (from > extent.last)
     throw InputError({"command line", 0, "--from", fmt::format("{:g} s", options.from_s),
                       fmt::format("must be before the end of the log, {:g} s", (extent.last - TrueTime{}).seconds())});
   // A timing diagram of a whole drive is unreadable: 160 ms unless told.
-  const bool timing = options.kind == "timing";
-  const TrueTime to = window.to ? *window.to : timing ? from + Duration::milliseconds(160) : extent.last;
-  std::string svg;
-  if (timing) {
-    if (options.logs.size() != 1)
-      throw InputError({"command line", 0, "--kind", "timing", "takes one log"});
-    report::TimingDiagram diagram(names_of(infos[0].manifest), {infos[0].manifest.cycle_ns}, from, to);
-    recording::read_log(options.logs[0], diagram);
-    svg = diagram.svg();
-  } else {
-    std::vector<std::unique_ptr<report::PositionPlots>> plots;
-    std::vector<const report::PositionPlots*> panels;
-    std::vector<std::string> titles;
-    for (std::size_t i = 0; i < options.logs.size(); ++i) {
-      report::PositionOptions position;
-      position.title = fmt::format("{}, {}", infos[i].manifest.scenario_name, infos[i].manifest.strategy);
-      position.from = from;
-      position.to = to;
-      plots.push_back(std::make_unique<report::PositionPlots>(names_of(infos[i].manifest), position));
-      recording::read_log(options.logs[i], *plots.back());
-      panels.push_back(plots.back().get());
-      titles.push_back(infos[i].manifest.strategy);
-    }
-    const bool plane = options.kind == "plane";
-    if (plots.size() > 1)
-      svg = report::comparison_svg(panels, titles,
-                                   plane ? report::PositionView::kPlane : report::PositionView::kXOverTime);
-    else
-      svg = plane ? plots[0]->plane_svg() : plots[0]->over_time_svg();
-  }
+  const TrueTime to = window.to ? *window.to : as_timing ? from + Duration::milliseconds(160) : extent.last;
+  const std::string svg = as_timing ? timing(runs[0], from, to) : positions(runs, from, to, options.kind == "plane");
   report::write_picture(svg, options.out);
   return 0;
 }
@@ -157,11 +170,13 @@ void add_diagram(CLI::App& app, Action& action) {
   auto options = std::make_shared<DiagramOptions>();
   CLI::App* command = app.add_subcommand("diagram", "Timing and start-up diagrams and position plots from logs");
   command->footer(
+      "Logs of one run, as its processes wrote them, are merged; position and plane show several runs side by side.\n"
       "Examples: ttfusion diagram out/drive/tt.mcap --from 1.5 --to 1.65 -o timing.svg\n"
+      "          ttfusion diagram out/launch/*.mcap --from 1.5 --to 1.65 -o timing.svg\n"
       "          ttfusion diagram out/cold_start/tt.mcap --kind startup -o startup.svg");
   command
       ->add_option("logs", options->logs,
-                   "Logs; several are drawn side by side (with --kind startup: one; boxes: a recording of laser scans)")
+                   "Logs: one of a run or of each of its processes (with --kind boxes: a recording of laser scans)")
       ->required();
   command
       ->add_option("--from", options->from_s,

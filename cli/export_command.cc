@@ -2,18 +2,20 @@
 
 #include <cstdio>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "cli/commands.h"
 #include "cli/output.h"
 #include "core/counted.h"
 #include "recording/capture_export.h"
-#include "recording/log_reader.h"
+#include "recording/merge.h"
 
 namespace ttf::cli {
 namespace {
 
 struct ExportOptions {
-  std::string log;
+  std::vector<std::string> logs;
   std::string format;
   std::string out;
   bool json = false;
@@ -27,11 +29,12 @@ std::string converted(const std::string& format, const recording::FrameCollector
 }
 
 int run_export(const ExportOptions& options) {
-  refuse_overwriting(options.log, options.out, "--out");
+  for (const std::string& log : options.logs) refuse_overwriting(log, options.out, "--out");
+  const recording::MergedLogs run(options.logs);
+  print_warnings(run.warnings());
   recording::FrameCollector collector;
-  const recording::LogInfo info = recording::read_log(options.log, collector);
-  print_warnings(info.warning);
-  const recording::LogNames names(info.manifest);
+  run.read(collector);
+  const recording::LogNames names(run.manifest());
   const std::vector<recording::LoggedFrame> frames = collector.in_order();
   write_file(options.out, converted(options.format, collector, frames, names));
   std::size_t flexray = 0, can = 0, symbols = 0;
@@ -52,11 +55,12 @@ int run_export(const ExportOptions& options) {
 
 void add_export(CLI::App& app, Action& action) {
   auto options = std::make_shared<ExportOptions>();
-  CLI::App* command = app.add_subcommand("export", "A log's frames for Wireshark, canplayer or a spreadsheet");
+  CLI::App* command = app.add_subcommand("export", "A run's frames for Wireshark, canplayer or a spreadsheet");
   command->footer(
       "The start of the run is 1970-01-01 in pcapng, second 1000000000 in candump, and 0 in csv.\n"
+      "The logs of a run's processes are merged.\n"
       "Example: ttfusion export out/drive/tt.mcap --format pcapng -o drive.pcapng");
-  command->add_option("log", options->log, "Log of a run")->required();
+  command->add_option("logs", options->logs, "Log of a run, or one of each of its processes")->required();
   command
       ->add_option("--format", options->format,
                    "pcapng (FlexRay and CAN, for Wireshark), candump (CAN only, for canplayer), "

@@ -58,6 +58,8 @@ int main(int argc, char** argv) {
   ttf::cli::add_export(app, action);
   ttf::cli::add_schedule(app, action);
   ttf::cli::add_experiment(app, action);
+  ttf::cli::add_launch(app, action);
+  ttf::cli::add_node(app, action);
   if (const std::string words = unknown_command(app, argc, argv); !words.empty()) return refuse(words);
   try {
     app.parse(argc, argv);

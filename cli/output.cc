@@ -48,6 +48,10 @@ void refuse_overwriting(const std::string& input, const std::string& path, const
     throw InputError({"command line", 0, flag, path, "must be another file than the input"});
 }
 
+void print_warnings(const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) print_warnings(warning);
+}
+
 void finish_standard_output() {
   // An error of an earlier, implicit flush is kept in the stream.
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) fail("standard output");

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace ttf::cli {
 
@@ -17,6 +18,7 @@ void create_folder(const std::string& path);
 
 // Prints each line of `text` on standard error as a warning of its own.
 void print_warnings(std::string_view text);
+void print_warnings(const std::vector<std::string>& warnings);
 
 // Hands what was printed to the system. Throws std::runtime_error with the reason where it is not taken (disk full, closed).
 void finish_standard_output();

@@ -41,6 +41,7 @@ struct Executive::SensorState {
   bool armed = false;            // host: trigger still due in this cycle
   Duration phase{};              // device, free-running: from power-on to the first measurement
   LocalTime first{};             // likewise: the instant of that
+  std::optional<Microticks> triggered;   // device: measures at the next advance()
 };
 
 Executive::Executive(const ExecutiveConfig& config, std::vector<std::shared_ptr<Step>> steps,
@@ -151,10 +152,34 @@ Microticks Executive::next_event() const {
     for (const SensorState& state : sensors_)
       if (state.armed) next = std::min(next, global->start_of(state.sensor->at.offset));
   }
-  for (const SensorState& state : sensors_)
+  for (const SensorState& state : sensors_) {
+    if (state.triggered) next = std::min(next, *state.triggered);
     if (state.is_device && !state.sensor->scheduled)
       next = std::min(next, ticks((state.first - LocalTime{}) + state.sensor->period * state.measured));
+  }
   return next;
+}
+
+Promise Executive::promise() const {
+  Promise promise{next_event(), kNever, soonest_end(true), kNever};
+  if (flexray_) promise.after_flexray = asleep_ || flexray_->answers_at_once() ? Microticks{} : soonest_end(false);
+  for (const SensorState& state : sensors_)
+    if (state.is_device && state.sensor->scheduled) promise.after_trigger = Microticks{};
+  return promise;
+}
+
+Microticks Executive::soonest_end(bool on_can) const {
+  Microticks soonest = kNever;
+  for (const TaskState& state : tasks_) {
+    const schedules::Task& task = *state.task;
+    if (task.activation.kind != schedules::ActivationKind::kMessage) continue;
+    const bool activates = std::any_of(task.reads.begin(), task.reads.end(), [&](const schedules::PortBinding& port) {
+      return port.port == task.activation.port && port.can_bus.has_value() == on_can;
+    });
+    const bool drawn = task.draw == schedules::ExecutionDraw::kUniform;
+    if (activates) soonest = std::min(soonest, ticks(drawn ? task.best_case : task.worst_case));
+  }
+  return soonest;
 }
 
 // Who loses the global time loses what was to happen by it.
@@ -193,9 +218,10 @@ void Executive::activate_due(Microticks now) {
       state.armed = false;
       lines_.trigger(state.id);
     }
-    if (state.is_device && !state.sensor->scheduled &&
-        ticks((state.first - LocalTime{}) + state.sensor->period * state.measured) <= now)
-      measure(state, now);
+    const bool by_itself = state.is_device && !state.sensor->scheduled &&
+                           ticks((state.first - LocalTime{}) + state.sensor->period * state.measured) <= now;
+    if (by_itself || state.triggered) measure(state, now);
+    state.triggered.reset();
   }
   for (std::size_t t = 0; t < tasks_.size(); ++t)
     if (tasks_[t].armed && clock()->start_of(tasks_[t].task->activation.at.offset) <= now) {
@@ -214,7 +240,7 @@ void Executive::measure(SensorState& sensor, Microticks now) {
 void Executive::trigger(SensorId sensor, Microticks now) {
   if (asleep_) return;
   for (SensorState& state : sensors_)
-    if (state.id == sensor && state.is_device) measure(state, now);
+    if (state.id == sensor && state.is_device) state.triggered = now;
 }
 
 void Executive::strobe(SensorId sensor, std::uint32_t sequence, Microticks now) {

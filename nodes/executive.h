@@ -24,6 +24,7 @@
 #include "bus/can_port.h"
 #include "bus/controller.h"
 #include "core/ids.h"
+#include "nodes/promise.h"
 #include "nodes/startup.h"
 #include "nodes/step.h"
 #include "recording/records/records.h"
@@ -75,6 +76,9 @@ class Executive final : private bus::ControllerEvents {
 
   Microticks next_event() const;
   void advance(Microticks now);
+  // Holds until the next advance() with anything due, or the next arrival that it names. What the node does that others
+  // notice, it does within advance().
+  Promise promise() const;
 
   // Arrivals. `now` is the node's microtick of the arrival. What they set off happens at the next advance(), which
   // next_event() then asks for.
@@ -122,6 +126,8 @@ class Executive final : private bus::ControllerEvents {
   void start_next(Microticks now);
   void finish(Microticks now);
   void measure(SensorState& sensor, Microticks now);
+  // The shortest time from an arrival on that medium that activates a task to the task's end.
+  Microticks soonest_end(bool on_can) const;
   void fill_inputs(TaskState& task);
   void hop(const records::Stamp& at, records::Hop what, PduId pdu, std::uint32_t sequence, int can_bus);
   bus::IncomingList& incoming(const schedules::PortBinding& binding);

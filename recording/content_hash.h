@@ -1,10 +1,9 @@
 // The hash by which runs are compared without comparing files.
 //
-// Each record hashes to 64 bits from (log time, kind, payload bytes); a log's hash is the sum of these modulo
-// 2^64, mixed with their number. A record's time, kind, node and sequence numbers are in its payload, so the
-// set of records has one canonical order (true time, kind, payload) and the sum equals any sum taken in that
-// order: the logs of separate processes agree with the log of one process once merged, in whatever order
-// equal instants were written. Equal records count as often as they occur. Not cryptographic: it detects
+// Each record hashes to 64 bits from (log time, kind, payload bytes); a log's hash is the sum of these modulo 2^64,
+// mixed with their number. A record's time, kind, node and sequence numbers are in its payload, and the sum is the same
+// in any order: the logs of separate processes agree with the log of one process, in whatever order things were written
+// (recording/merge.h puts them into one). Equal records count as often as they occur. Not cryptographic: it detects
 // change, not malice.
 #pragma once
 
@@ -14,11 +13,15 @@
 #include <string>
 #include <string_view>
 
+#include "recording/log_manifest.h"
+
 namespace ttf::recording {
 
 class ContentHash {
  public:
+  // What only somebody who sees all clocks knows is passed over: a node set of separate processes has nobody who does.
   void add(std::uint64_t log_time, std::uint8_t kind, std::string_view payload) {
+    if (kind == static_cast<std::uint8_t>(RecordKind::kPrecision)) return;
     std::uint64_t hash = mix(log_time ^ mix((static_cast<std::uint64_t>(payload.size()) << 8) | kind));
     std::size_t at = 0;
     for (; at + 8 <= payload.size(); at += 8) hash = mix(hash ^ word(payload.data() + at, 8));
@@ -26,6 +29,12 @@ class ContentHash {
     sum_ += mix(hash);
     ++records_;
   }
+  // All records of another log, too.
+  void add(const ContentHash& other) {
+    sum_ += other.sum_;
+    records_ += other.records_;
+  }
+  std::uint64_t records() const { return records_; }
   std::uint64_t value() const { return mix(sum_ ^ mix(records_)); }
 
   // 16 hex digits.

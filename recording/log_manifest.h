@@ -32,9 +32,15 @@ struct LogManifest {
   std::vector<SensorId> pdu_sensors;  // whose measurements the PDU's lists descend from; kNoSensor: of none
   std::vector<std::string> sensor_names;
   std::vector<std::string> can_bus_names;
+  std::string clock;   // empty: true times are the simulator's; else as below
+  std::string host;    // on which the log was written, where its clock is the wall's
 
   bool operator==(const LogManifest&) const = default;
 };
+
+// True times are what the clock of the process' host showed since the run was to start; after a merge of several hosts'
+// logs, on the one scale that they were put on (recording/common_time.h).
+inline constexpr std::string_view kWallClock = "wall", kCommonClock = "common";
 
 // The kinds of record, in the order of records::Sink. Values are MCAP channel and schema ids and go into the
 // content hash: append only.

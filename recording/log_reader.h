@@ -8,26 +8,34 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
+#include "recording/content_hash.h"
 #include "recording/log_manifest.h"
 #include "recording/records/records.h"
 
 namespace ttf::recording {
 
+struct Attachment {
+  std::string name, media_type, bytes;
+  bool operator==(const Attachment&) const = default;
+};
+
 struct LogInfo {
   LogManifest manifest;
-  std::vector<std::pair<std::string, std::string>> attachments;  // name, bytes; in file order
+  bool manifest_sound = false;                                   // else it is missing, or may be wrong
+  std::vector<Attachment> attachments;                           // in file order
   bool truncated = false;                                        // the file ends before its closing record
   std::string warning;                                           // sentences, empty for a sound file
   std::array<std::uint64_t, kRecordKinds> counts{};              // records read, by RecordKind - 1
   std::uint64_t chunks_read = 0;
   std::uint64_t chunks_lost = 0;   // damaged ones that were recognised as chunks
   std::uint64_t content_hash = 0;  // over the records read
+  ContentHash records;             // the same, for adding up over several logs
   std::optional<std::uint64_t>
       stated_content_hash;  // as the writer wrote it at the end; absent in a torn file
 
@@ -39,7 +47,10 @@ struct LogInfo {
 // handed to the sink are valid during the call only.
 LogInfo read_log(const std::string& path, records::Sink& sink);
 
-// The same on bytes in memory; `name` is what errors and warnings call it.
-LogInfo read_log_bytes(std::string_view bytes, const std::string& name, records::Sink& sink);
+// The same on bytes in memory; `name` is what errors and warnings call it. `on_chunk` hears of every sound chunk before
+// the sink hears of its records: where in `bytes` its content lies.
+using ChunkListener = std::function<void(std::string_view content)>;
+LogInfo read_log_bytes(std::string_view bytes, const std::string& name, records::Sink& sink,
+                       const ChunkListener& on_chunk = {});
 
 }  // namespace ttf::recording

@@ -48,6 +48,8 @@ bool read_entry(std::string_view key, const std::string& value, LogManifest& man
   if (key == "cluster") return manifest.cluster_name = value, true;
   if (key == "strategy") return manifest.strategy = value, true;
   if (key == "recording") return manifest.recording_name = value, true;
+  if (key == "clock") return manifest.clock = value, true;
+  if (key == "host") return manifest.host = value, true;
   if (key == "seed") {
     const auto seed = whole<std::uint64_t>(value);
     manifest.seed = seed.value_or(0);
@@ -101,6 +103,8 @@ ManifestEntries manifest_entries(const LogManifest& manifest) {
                           {"bit_ps", std::to_string(manifest.bit_ps)},
                           {"task_lists", std::to_string(manifest.task_names.size())}};
   if (!manifest.recording_name.empty()) entries.emplace_back("recording", manifest.recording_name);
+  if (!manifest.clock.empty()) entries.emplace_back("clock", manifest.clock);
+  if (!manifest.host.empty()) entries.emplace_back("host", manifest.host);
   for (const auto& [what, hash] : manifest.hashes) entries.emplace_back("hash." + what, hash);
   const auto list = [&entries](std::string_view prefix, const std::vector<std::string>& names) {
     for (std::size_t i = 0; i < names.size(); ++i)

@@ -1,54 +1,21 @@
 #include "recording/mcap_reader.h"
 
 #include <fmt/format.h>
-#include <zstd.h>
 
 #include <algorithm>
 #include <optional>
 
 #include "recording/mcap_bytes.h"
+#include "recording/mcap_chunk.h"
 
 namespace ttf::recording {
 namespace {
 
-constexpr std::uint64_t kMaxChunkBytes = 64 * 1024 * 1024;  // far above any writer's chunks; bounds memory
 constexpr std::size_t kMaxWarnings = 20;
-constexpr std::size_t kRecordHead = 9;  // opcode and length
 constexpr std::size_t kFooterBytes = kRecordHead + 20;
 
-struct Record {
-  std::uint8_t opcode = 0;
-  std::string_view content;
-};
-
-// The record that begins at `at`, if it ends within the file.
-std::optional<Record> record_at(std::string_view bytes, std::size_t at) {
-  FieldReader fields(bytes.substr(at));
-  const auto opcode = fields.take<std::uint8_t>();
-  const auto length = fields.take<std::uint64_t>();
-  const std::string_view content = fields.bytes(length);
-  if (!fields.ok()) return std::nullopt;
-  return Record{opcode, content};
-}
-
-struct ChunkFields {
-  std::uint64_t uncompressed_size = 0;
-  std::uint32_t crc = 0;
-  std::string_view compression, data;
-};
-
-bool read_chunk(std::string_view content, ChunkFields& out) {
-  FieldReader fields(content);
-  fields.bytes(16);  // log times, which the messages have too
-  out.uncompressed_size = fields.take<std::uint64_t>();
-  out.crc = fields.take<std::uint32_t>();
-  out.compression = fields.text();
-  out.data = fields.bytes(fields.take<std::uint64_t>());
-  return fields.done();
-}
-
 struct AttachmentFields {
-  std::string_view name, data;
+  std::string_view name, media_type, data;
   std::uint32_t crc = 0;
 };
 
@@ -56,7 +23,7 @@ bool read_attachment(std::string_view content, AttachmentFields& out) {
   FieldReader fields(content);
   fields.bytes(16);  // log and creation time
   out.name = fields.text();
-  fields.text();  // media type
+  out.media_type = fields.text();
   out.data = fields.bytes(fields.take<std::uint64_t>());
   out.crc = fields.take<std::uint32_t>();
   return fields.done();
@@ -78,7 +45,7 @@ bool read_metadata(std::string_view content, std::string_view& name,
 
 // Whether a record's fields fill it exactly. Takes time in proportion to the number of fields, never to their
 // lengths.
-bool consistent(const Record& record) {
+bool consistent(const McapRecord& record) {
   FieldReader fields(record.content);
   switch (static_cast<Opcode>(record.opcode)) {
     case Opcode::kHeader:
@@ -159,11 +126,7 @@ bool has_end(std::string_view bytes) {
 
 class Walk {
  public:
-  Walk(std::string_view bytes, McapHandler& handler)
-      : bytes_(bytes), handler_(handler), zstd_(ZSTD_createDCtx()) {}
-  ~Walk() { ZSTD_freeDCtx(zstd_); }
-  Walk(const Walk&) = delete;
-  Walk& operator=(const Walk&) = delete;
+  Walk(std::string_view bytes, McapHandler& handler) : bytes_(bytes), handler_(handler) {}
 
   McapReport run() {
     const bool ended = has_end(bytes_);
@@ -217,7 +180,7 @@ class Walk {
   }
 
   // True after the footer.
-  bool take(const Record& record, std::size_t at) {
+  bool take(const McapRecord& record, std::size_t at) {
     switch (static_cast<Opcode>(record.opcode)) {
       case Opcode::kChunk:
         take_chunk(record.content, at);
@@ -229,7 +192,7 @@ class Walk {
         if (attachment.crc != 0 && attachment.crc != crc_of(covered))
           warn("the attachment at byte {} is damaged (checksum) and left out", at);
         else
-          handler_.on_attachment(attachment.name, attachment.data);
+          handler_.on_attachment(attachment.name, attachment.media_type, attachment.data);
         return false;
       }
       case Opcode::kMetadata: {
@@ -273,46 +236,25 @@ class Walk {
   }
 
   void take_chunk(std::string_view content, std::size_t at) {
-    ChunkFields chunk;
-    read_chunk(content, chunk);
-    std::string_view records = chunk.data;
-    if (chunk.compression == "zstd" && chunk.uncompressed_size <= kMaxChunkBytes) {
-      buffer_.resize(static_cast<std::size_t>(chunk.uncompressed_size));
-      const std::size_t size =
-          ZSTD_decompressDCtx(zstd_, buffer_.data(), buffer_.size(), chunk.data.data(), chunk.data.size());
-      records = ZSTD_isError(size) != 0 ? std::string_view{} : std::string_view(buffer_).substr(0, size);
-    } else if (!chunk.compression.empty()) {
-      records = {};
-    }
-    if (records.size() != chunk.uncompressed_size || (chunk.crc != 0 && chunk.crc != crc_of(records))) {
+    const auto records = opener_.open(content, buffer_);
+    if (!records) {
       ++report_.chunks_lost;
       warn("the chunk at byte {} is damaged and left out", at);
       return;
     }
     ++report_.chunks_read;
-    std::uint64_t unreadable = 0;
-    for (std::size_t offset = 0; offset < records.size();) {
-      const auto record = record_at(records, offset);
-      if (!record) {
-        ++unreadable;
-        break;
-      }
-      offset += kRecordHead + record->content.size();
-      if (record->opcode != static_cast<std::uint8_t>(Opcode::kMessage)) continue;
-      FieldReader fields(record->content);
-      const auto channel = fields.take<std::uint16_t>();
-      fields.take<std::uint32_t>();  // sequence
-      const auto log_time = fields.take<std::uint64_t>();
-      fields.take<std::uint64_t>();  // publish time, a copy of what the payload has
-      if (!fields.ok() || !handler_.on_message(channel, log_time, fields.rest())) ++unreadable;
-    }
+    handler_.on_chunk(content);
+    const std::uint64_t unreadable =
+        for_each_message(*records, [this](std::uint16_t channel, std::uint64_t log_time, std::string_view payload) {
+          return handler_.on_message(channel, log_time, payload);
+        });
     if (unreadable > 0)
       warn("the chunk at byte {} holds {} unreadable messages, which are left out", at, unreadable);
   }
 
   std::string_view bytes_;
   McapHandler& handler_;
-  ZSTD_DCtx* zstd_;
+  ChunkOpener opener_;
   std::string buffer_;
   McapReport report_;
   std::uint64_t suppressed_ = 0;

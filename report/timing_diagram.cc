@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <tuple>
 
 #include "report/axes.h"
 #include "report/log_limits.h"
@@ -80,7 +82,10 @@ std::string TimingDiagram::svg() const {
     return empty_picture("Timing diagram", fmt::format("There are no records between {} ms and {} ms.",
                                                        number(in_ms(from_)),
                                                        number(in_ms(to_))));
-  return paint_timing(names_, data_, cycle_, from_, to_);
+  // Told of when it ended or, in a merged log, where it began: the picture is the same.
+  TimingData data = data_;
+  std::ranges::stable_sort(data.runs, {}, [](const TimingData::Run& run) { return std::tuple(run.start, run.node); });
+  return paint_timing(names_, data, cycle_, from_, to_);
 }
 
 }  // namespace ttf::report

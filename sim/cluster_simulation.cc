@@ -77,6 +77,10 @@ struct ClusterSimulation::FlexRayTap final : CrankPort {
   ClusterSimulation& simulation;
   FlexRayTap(ClusterSimulation& s, NodeId n) : CrankPort(s, n), simulation(s) {}
   void transmit(const bus::Transmission& transmission) override {
+    if (simulation.others_ != nullptr) simulation.others_->does(transmission);
+    happens(transmission);
+  }
+  void happens(const bus::Transmission& transmission) {
     simulation.frames_sent_ += transmission.signal == bus::Signal::kFrame ? 1 : 0;
     CrankPort::transmit(transmission);
   }
@@ -87,7 +91,10 @@ struct ClusterSimulation::CanTap final : bus::CanPort {
   NodeId node;
   std::size_t bus;
   CanTap(ClusterSimulation& s, NodeId n, std::size_t b) : simulation(s), node(n), bus(b) {}
-  void send(const bus::CanFrame& frame) override { simulation.cans_[bus]->send(node, simulation.now(), frame); }
+  void send(const bus::CanFrame& frame) override {
+    if (simulation.others_ != nullptr) simulation.others_->does(CanAct{bus, frame});
+    simulation.send_can(bus, node, frame);
+  }
 };
 
 // The medium says that a frame began; its sender reports it when it has left. Both instants are looked up on the sender's
@@ -104,6 +111,7 @@ struct ClusterSimulation::CanLog final : records::Sink {
   using records::Sink::on;
   void on(const records::CanFrameSent& began) override {
     const NodeId sender = began.start.node;
+    if (!simulation.is_here(index_of(sender))) return;
     const nodes::Executive& executive = *simulation.nodes_[index_of(sender)];
     InFlight& entry = in_flight[began.bus];
     entry.frame = began;
@@ -124,6 +132,7 @@ struct ClusterSimulation::CanLog final : records::Sink {
 ClusterSimulation::ClusterSimulation(const SimulationConfig& config, records::Sink& sink)
     : Crank(*config.cluster, kPendingEvents),
       config_(config),
+      others_(config.others),
       sink_(sink),
       channel_log_(cluster_.flexray, FlexRayMedium::kMostLogged, sink),
       can_ports_(cluster_.nodes.size(), std::vector<bus::CanPort*>(cluster_.can_buses.size())),
@@ -156,8 +165,10 @@ ClusterSimulation::ClusterSimulation(const SimulationConfig& config, records::Si
     const timebase::Oscillator crystal = make_oscillator(node, n, config);
     seat(crystal, power_on);
     if (power_on) continue;
-    make_node(n, node.flexray ? std::optional(integrated(crystal, cluster_, node)) : std::nullopt,
-              crystal.ticks_at(kFirstCycle), {});
+    if (others_ != nullptr) others_->outlook(n).begins(crystal.ticks_at(TrueTime{}));
+    if (is_here(n))
+      make_node(n, node.flexray ? std::optional(integrated(crystal, cluster_, node)) : std::nullopt,
+                crystal.ticks_at(kFirstCycle), {});
     refresh(n);
   }
   for (const schedules::Channel channel : {schedules::Channel::kA, schedules::Channel::kB})
@@ -188,6 +199,8 @@ void ClusterSimulation::make_node(std::size_t node, std::optional<bus::InitialCl
 }
 
 void ClusterSimulation::start(std::size_t node, Microticks now) {
+  if (others_ != nullptr) others_->outlook(node).begins(now);
+  if (!is_here(node)) return;
   const auto id = static_cast<NodeId>(node);
   // Whoever comes back finds the others awake.
   const bool first = powered_since(node) < TrueTime{};
@@ -200,26 +213,43 @@ void ClusterSimulation::start(std::size_t node, Microticks now) {
 }
 
 void ClusterSimulation::stop(std::size_t node) {
+  if (others_ != nullptr) others_->outlook(node).ends();
+  for (auto& can : cans_) can->power_off(static_cast<NodeId>(node));
+  if (!is_here(node)) return;
   // Nobody was told that a sleeper has its supply.
   if (!nodes_[node]->asleep()) sink_.on(records::PowerChanged{nodes_[node]->stamp(ticks(node)), false});
   add(gone_, nodes_[node]->counts());
   nodes_[node].reset();
   watched_cycle_[node] = kNoCycle;
-  for (auto& can : cans_) can->power_off(static_cast<NodeId>(node));
 }
 
-Microticks ClusterSimulation::next_event(std::size_t node) const { return nodes_[node]->next_event(); }
+Microticks ClusterSimulation::next_event(std::size_t node) const {
+  if (others_ == nullptr) return nodes_[node]->next_event();
+  const Microticks turn = others_->outlook(node).turn();
+  return is_here(node) ? std::min(turn, nodes_[node]->next_event()) : turn;
+}
 
 void ClusterSimulation::advance(std::size_t node, Microticks now) {
+  if (others_ != nullptr) return take_turn(node, now);
   nodes_[node]->advance(now);
   watch_cycle(node);
 }
 
-void ClusterSimulation::receive(std::size_t node, const bus::Reception& reception) { nodes_[node]->receive(reception); }
-void ClusterSimulation::drifts(std::size_t node) { nodes_[node]->drift(oscillator(static_cast<NodeId>(node))); }
+void ClusterSimulation::transmit(std::size_t node, const bus::Transmission& transmission) {
+  if (flexray_taps_[node]) flexray_taps_[node]->happens(transmission);
+}
+
+void ClusterSimulation::receive(std::size_t node, const bus::Reception& reception) {
+  if (is_here(node)) nodes_[node]->receive(reception);
+  if (others_ != nullptr) others_->outlook(node).hears_flexray(ticks(node));
+}
+
+void ClusterSimulation::drifts(std::size_t node) {
+  if (is_here(node)) nodes_[node]->drift(oscillator(static_cast<NodeId>(node)));
+}
 
 const nodes::Executive& ClusterSimulation::node(NodeId id) const {
-  TTF_CHECK(powered(id), "{} is without supply", cluster_.node(id).name);
+  TTF_CHECK(powered(id) && is_here(index_of(id)), "{} is without supply or elsewhere", cluster_.node(id).name);
   return *nodes_[index_of(id)];
 }
 
@@ -240,16 +270,19 @@ void ClusterSimulation::happen(const MediumEvent& event) {
   const bool arrives = this->arrives(event);
   switch (event.kind) {
     case MediumEvent::Kind::kCanArrival:
-      if (arrives)
+      if (arrives && is_here(node))
         nodes_[node]->receive_can(event.channel_or_bus,
                                   {event.identifier, event.flexible_data_rate, pool_.bytes(event.frame)}, ticks(node));
+      if (arrives && others_ != nullptr) others_->outlook(node).hears_can(ticks(node));
       pool_.release(event.frame);
       break;
     case MediumEvent::Kind::kStrobe:
-      if (arrives) nodes_[node]->strobe(static_cast<SensorId>(event.sensor), event.identifier, ticks(node));
+      if (arrives && is_here(node))
+        nodes_[node]->strobe(static_cast<SensorId>(event.sensor), event.identifier, ticks(node));
       break;
     case MediumEvent::Kind::kTrigger:
-      if (arrives) nodes_[node]->trigger(static_cast<SensorId>(event.sensor), ticks(node));
+      if (arrives && is_here(node)) nodes_[node]->trigger(static_cast<SensorId>(event.sensor), ticks(node));
+      if (arrives && others_ != nullptr) others_->outlook(node).hears_trigger(ticks(node));
       break;
     case MediumEvent::Kind::kCanSent:
       if (arrives) nodes_[node]->can_frame_sent(can_log_->in_flight[event.channel_or_bus].frame, ticks(node));
@@ -259,23 +292,6 @@ void ClusterSimulation::happen(const MediumEvent& event) {
     case MediumEvent::Kind::kObservation: return;
   }
   refresh(node);
-}
-
-void ClusterSimulation::trigger(SensorId sensor) {
-  MediumEvent event;
-  event.kind = MediumEvent::Kind::kTrigger;
-  event.node = static_cast<std::uint8_t>(cluster_.sensor(sensor).device);
-  event.sensor = static_cast<std::uint8_t>(sensor);
-  queue_.schedule(now(), Phase::kArrival, event.node, event);
-}
-
-void ClusterSimulation::strobe(SensorId sensor, std::uint32_t sequence) {
-  MediumEvent event;
-  event.kind = MediumEvent::Kind::kStrobe;
-  event.node = static_cast<std::uint8_t>(cluster_.sensor(sensor).host);
-  event.sensor = static_cast<std::uint8_t>(sensor);
-  event.identifier = sequence;
-  queue_.schedule(now(), Phase::kArrival, event.node, event);
 }
 
 // Looks at all clocks at the corners of this node's: where its cycle starts, and where its correction starts.

@@ -4,6 +4,9 @@
 // A node that loses its supply loses everything: its executive is dropped, and at power-on a new one is made, with
 // steps made anew. A CAN frame whose sender or receiver was without supply at any time since it began does not arrive;
 // the bus is taken to its end all the same.
+//
+// Or one node of it, the others being simulated by processes of their own (sim/turn_taking.h): then the others' executives
+// are not here, and of what they record nothing is.
 #pragma once
 
 #include <algorithm>
@@ -21,6 +24,7 @@
 #include "sim/can_medium.h"
 #include "sim/channel_log.h"
 #include "sim/crank.h"
+#include "sim/turn_taking.h"
 
 namespace ttf::sim {
 
@@ -42,6 +46,8 @@ struct SimulationConfig {
   // The schedule that the node believes in, with the same nodes, tasks, PDUs and CANs. Null, or no function: the
   // cluster's.
   std::function<const schedules::Cluster*(NodeId)> view = {};
+  // Null: all nodes are simulated here. Else make_steps is asked for the own node only.
+  TurnTaking* others = nullptr;
 };
 
 class ClusterSimulation final : public Crank, private nodes::SensorLines {
@@ -51,11 +57,11 @@ class ClusterSimulation final : public Crank, private nodes::SensorLines {
 
   // The achieved precision so far: the largest difference between any two nodes' global times at one true instant, but
   // for whole rounds of the cycle counter (sim/precision.h). The difference is piecewise linear with corners at the
-  // nodes' cycle starts and correction starts; it is taken there.
+  // nodes' cycle starts and correction starts; it is taken there. Zero, and never recorded, where there is but one node.
   Duration precision() const { return precision_; }
-  // Of a node with supply.
+  // Of a node with supply, simulated here.
   const nodes::Executive& node(NodeId id) const;
-  // Summed over the nodes, those that have lost their supply included.
+  // Summed over the nodes simulated here, those that have lost their supply included.
   nodes::ExecutiveCounts counts() const;
   Duration can_busy(std::size_t bus) const { return cans_[bus]->busy(); }
   std::uint64_t frames_sent() const { return frames_sent_; }   // on FlexRay, each channel's
@@ -79,6 +85,13 @@ class ClusterSimulation final : public Crank, private nodes::SensorLines {
 
   void trigger(SensorId sensor) override;
   void strobe(SensorId sensor, std::uint32_t sequence) override;
+  bool is_here(std::size_t node) const { return others_ == nullptr || others_->self() == static_cast<NodeId>(node); }
+  void take_turn(std::size_t node, Microticks now);
+  void act(std::size_t node, const Act& act);
+  void transmit(std::size_t node, const bus::Transmission& transmission);
+  void send_can(std::size_t bus, NodeId sender, const bus::CanFrame& frame) { cans_[bus]->send(sender, now(), frame); }
+  void pull_trigger(SensorId sensor);
+  void pull_strobe(SensorId sensor, std::uint32_t sequence);
   void make_guardian(schedules::Channel channel);
   void make_node(std::size_t node, std::optional<bus::InitialClock> clock, Microticks power_on,
                  const nodes::NodeStart& cold);
@@ -87,6 +100,7 @@ class ClusterSimulation final : public Crank, private nodes::SensorLines {
   void watch_cycle(std::size_t node);
 
   const SimulationConfig config_;
+  TurnTaking* const others_;
   records::Sink& sink_;
   ChannelLog channel_log_;
   std::vector<std::unique_ptr<CanMedium>> cans_;
@@ -94,7 +108,7 @@ class ClusterSimulation final : public Crank, private nodes::SensorLines {
   std::vector<std::unique_ptr<CanTap>> can_taps_;
   std::vector<std::vector<bus::CanPort*>> can_ports_;          // by NodeId and CAN, null where it is not on it
   std::unique_ptr<CanLog> can_log_;
-  std::vector<std::unique_ptr<nodes::Executive>> nodes_;       // by NodeId, null without supply
+  std::vector<std::unique_ptr<nodes::Executive>> nodes_;       // by NodeId, null without supply or elsewhere
   std::vector<std::int64_t> watched_cycle_;                    // per node, the cycle whose corners are being observed
   nodes::ExecutiveCounts gone_;                                // counted by executives that are no more
   Duration precision_{};

@@ -7,6 +7,7 @@
 #include "nodes/recorded.h"
 #include "recording/records/tee.h"
 #include "sim/observer.h"
+#include "sim/share.h"
 #include "sim/world/reference.h"
 
 namespace ttf::sim {
@@ -58,6 +59,7 @@ DriveOutcome outcome_of(const ClusterSimulation& simulation, const schedules::Cl
 }
 
 }  // namespace
+
 TrueTime drive_start(const schedules::Cluster& cluster) {
   if (!nodes::is_recorded(cluster)) return kFirstCycle;
   // Row 0 of the recording is the first measurement of the first sensor.
@@ -90,10 +92,13 @@ void check_fits(const nodes::Scenario& scenario, const schedules::Cluster& clust
   if (scenario.startup.cold) (void)nodes::node_starts(scenario.startup, cluster, scenario.seed, 0);
 }
 
-DriveOutcome run_drive(const DriveConfig& config, records::Sink& sink) {
+DriveOutcome run_drive(const DriveConfig& config, records::Sink& out) {
   const schedules::Cluster& cluster = *config.cluster;
   const nodes::Scenario& scenario = *config.scenario;
   check_recording(scenario, cluster, config.recorded != nullptr);
+  std::optional<Share> share;
+  if (config.others != nullptr) share.emplace(config.others->self(), out);
+  records::Sink& sink = share ? static_cast<records::Sink&>(*share) : out;
   const Surroundings around = surroundings_of(config);
   Observer observer(*around.scene, cluster.nodes.size(), sink);
   if (around.reference)
@@ -112,6 +117,7 @@ DriveOutcome run_drive(const DriveConfig& config, records::Sink& sink) {
   const nodes::FaultPlan faults = nodes::resolve(scenario.faults, cluster);
   const nodes::BelievedSchedules believed(faults, cluster);
   simulation_config.view = [&](NodeId node) { return believed.of(node); };
+  simulation_config.others = config.others;
   ClusterSimulation simulation(simulation_config, tee);
   std::optional<Injector> injector;
   if (!faults.empty()) {

@@ -25,9 +25,12 @@ struct DriveConfig {
   std::uint64_t seed = 0;
   std::uint32_t replication = 0;
   std::shared_ptr<const recording::RecordedInput> recorded;
+  // Null: the whole cluster. Else one node of it, the others being in processes of their own: what is recorded is that
+  // node's share, and all shares together are what is recorded where this is null, but for PrecisionSample.
+  TurnTaking* others = nullptr;
 };
 
-// What only the whole run knows.
+// What only the whole run knows; of one node among others, that node's counts and no precision.
 struct DriveOutcome {
   Duration precision{};
   nodes::ExecutiveCounts counts;
@@ -46,7 +49,7 @@ void check_fits(const nodes::Scenario& scenario, const schedules::Cluster& clust
 
 // Runs the drive to its end, with the scenario's faults; their times count from kFirstCycle. Throws InputError where
 // scenario, cluster and code do not fit together.
-DriveOutcome run_drive(const DriveConfig& config, records::Sink& sink);
+DriveOutcome run_drive(const DriveConfig& config, records::Sink& out);
 
 // True time at which the drive (world or recording) starts in this cluster. In a cold one (nodes/startup.h) the world
 // moves while the nodes start up: it starts when the first supply may come.

@@ -85,7 +85,8 @@ def include_problem(root: pathlib.Path, include: str) -> str | None:
         return "is in no room: includes start with the folder's name"
     if not include.endswith(".h"):
         return "is no header"
-    generated = include.endswith(".pb.h") and (root / include).with_suffix("").with_suffix(".proto").is_file()
+    generated = (include.endswith(".pb.h") and (root / include).with_suffix("").with_suffix(".proto").is_file()
+                 or (root / include).with_suffix(".idl").is_file())
     if not generated and not (root / include).is_file():
         return "is not there"
     return None

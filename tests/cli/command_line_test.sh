@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # The program as a user meets it: results, exit codes, and one clear sentence for each kind of bad input.
-#   command_line_test.sh PROGRAM SOURCE_DIR
+#   command_line_test.sh PROGRAM SOURCE_DIR SPLIT_LOG
 set -u
 program=$1
 source=$2
+split_log=$3
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 failures=0
@@ -232,6 +233,36 @@ expect 2 'README.md: is no capture' schedule check "$schedule" --against "$sourc
 expect 2 'absent.pcapng: cannot be read' schedule check "$schedule" --against "$work/absent.pcapng"
 expect 2 'no FlexRay frame' schedule check "$schedule" --against "$work/drive.pcapng" --from 1000
 expect 2 '--against' schedule check "$schedule" --channels A
+
+# The logs of a run's processes are merged: what is made of them is what is made of the one log of the run.
+mkdir "$work/nodes"
+"$split_log" "$work/a/tt.mcap" 5 "$work/nodes" || fail "split_log fails"
+expect 0 'are merged' diagram --help
+expect 0 'are merged' export --help
+for kind in timing startup position plane; do
+  expect 0 '' diagram "$work/a/tt.mcap" --kind $kind --from 1.5 --to 1.6 -o "$work/of_one.svg"
+  expect 0 '' diagram "$work"/nodes/node{3,0,4,2,1}.mcap --kind $kind --from 1.5 --to 1.6 -o "$work/of_many.svg"
+  cmp -s "$work/of_one.svg" "$work/of_many.svg" || fail "the $kind diagram of a run's five logs is not that of its one log"
+done
+for format in pcapng candump csv; do
+  expect 0 '' export "$work/a/tt.mcap" --format $format -o "$work/of_one"
+  expect 0 '' export "$work"/nodes/*.mcap --format $format -o "$work/of_many"
+  cmp -s "$work/of_one" "$work/of_many" || fail "the $format export of a run's five logs is not that of its one log"
+done
+expect 0 '' diagram "$work"/nodes/*.mcap "$work/a/adva.mcap" --kind plane -o "$work/of_many.svg"
+expect 0 '' diagram "$work/a/tt.mcap" "$work/a/adva.mcap" --kind plane -o "$work/of_one.svg"
+cmp -s "$work/of_one.svg" "$work/of_many.svg" || fail "two runs side by side differ by how many logs one of them has"
+expect 2 'adva.mcap: strategy = adva: must be tt as in .*tt.mcap: only logs of one run are merged' \
+  diagram "$work/a/tt.mcap" "$work/a/adva.mcap" -o "$work/none.svg"
+expect 2 'c/tt.mcap: seed = 4: must be 3 as in .*a/tt.mcap' export "$work/a/tt.mcap" "$work/c/tt.mcap" --format csv -o "$work/none"
+expect 2 'b/tt.mcap: holds the same records as .*a/tt.mcap: each log may be given once' \
+  diagram "$work/a/tt.mcap" "$work/b/tt.mcap" --kind plane -o "$work/none.svg"
+expect 2 'holds the same records as' export "$work/a/tt.mcap" "$work/nodes/node2.mcap" --format csv -o "$work/none"
+expect 2 'must be another file than the input' export "$work"/nodes/node{0,1}.mcap --format csv -o "$work/nodes/node1.mcap"
+printf 'damage' | dd of="$work/nodes/node1.mcap" bs=1 seek=60000 conv=notrunc status=none
+expect 0 'warning: .*node1.mcap: the chunk at byte' export "$work"/nodes/*.mcap --format csv -o "$work/of_many"
+grep -vxFf "$work/of_one" "$work/of_many" | grep -q . && fail "a damaged log adds frames"
+[[ $(wc -l <"$work/of_many") -lt $(wc -l <"$work/of_one") ]] || fail "a damaged chunk costs no frame"
 
 # In a cold drive nobody is active at first: that is no harm. Who never becomes active is harmed.
 sed "s#\.\./schedules#$source/schedules#" "$source/scenarios/cold_start.yaml" >"$work/cold_faulty.yaml"

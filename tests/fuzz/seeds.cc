@@ -15,6 +15,8 @@
 #include "recording/capture_writer.h"
 #include "recording/log_writer.h"
 #include "recording/mcap_reader.h"
+#include "schedules/loader.h"
+#include "sim/turn.h"
 #include "tests/fuzz/harness.h"
 #include "tests/recording/record_text.h"
 #include "tests/schedules/fibex_example.h"
@@ -134,6 +136,31 @@ void frame_seeds(const fs::path& folder) {
 }
 
 // A schedule's frames as pcapng and, from the same packets, as pcap; short enough to be edited.
+// A turn of every act, and one without.
+void turn_seeds(const fs::path& folder) {
+  const schedules::Cluster cluster = schedules::parse_cluster(fuzz::shipped("schedules/flexray_demo.yaml"), "flexray_demo");
+  std::array<std::byte, wire::kMaxFrameBytes> room{};
+  wire::FrameHeader header;
+  header.frame_id = 3;
+  const std::array<std::byte, 4> payload{std::byte{1}, std::byte{2}};
+  const std::size_t size = wire::encode_frame(header, schedules::Channel::kA, payload, room);
+  const std::span<const std::byte> frame = std::span<const std::byte>(room).first(size);
+  const SensorId sensor{0};
+  const auto add = [&](const std::string& name, NodeId node, const std::vector<sim::Act>& acts) {
+    sim::TurnWriter writer;
+    for (const sim::Act& act : acts) writer.add(act);
+    const auto bytes = writer.finish({node, 1, Microticks{400}, {Microticks{900}, Microticks{}, Microticks{5}}});
+    write(folder / "turn" / name, std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+  };
+  const bus::Transmission signal{schedules::Channel::kA, bus::Signal::kFrame, Microticks{400}, Microticks{500}, 3, frame};
+  bus::Transmission symbol = signal;
+  symbol.signal = bus::Signal::kWakeup;
+  symbol.bytes = {};
+  add("silent", NodeId{0}, {});
+  add("host", cluster.sensor(sensor).host, {signal, symbol, sim::TriggerAct{sensor}});
+  add("device", cluster.sensor(sensor).device, {sim::StrobeAct{sensor, 7}, sim::CanAct{0, {0x20, false, frame.first(8)}}});
+}
+
 void capture_seeds(const fs::path& folder) {
   for (const int first_slot : {1, 20})
     for (const bool nanoseconds : {false, true}) {
@@ -204,7 +231,7 @@ void drawn_seeds(const fs::path& folder) {
 class Payloads final : public recording::McapHandler {
  public:
   void on_metadata(std::string_view, const std::vector<std::pair<std::string, std::string>>&) override {}
-  void on_attachment(std::string_view, std::string_view) override {}
+  void on_attachment(std::string_view, std::string_view, std::string_view) override {}
   bool on_message(std::uint16_t channel, std::uint64_t, std::string_view payload) override {
     if (payload.size() > 0xffff) return true;
     put(messages, static_cast<std::uint8_t>(channel));
@@ -273,6 +300,7 @@ int main(int argc, char** argv) {
   fibex_seeds(folder);
   recorded_seeds(folder);
   frame_seeds(folder);
+  turn_seeds(folder);
   capture_seeds(folder);
   drawn_seeds(folder);
   log_seeds(folder);

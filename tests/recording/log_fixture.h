@@ -44,6 +44,8 @@ inline LogManifest sample_manifest() {
   manifest.pdu_sensors = {SensorId{0}, SensorId{254}, kNoSensor};
   manifest.sensor_names = {"laser"};
   manifest.can_bus_names = {"laser_can", ""};
+  manifest.clock = kWallClock;
+  manifest.host = "bench";
   return manifest;
 }
 

@@ -58,8 +58,9 @@ TEST(Log, ReturnsManifestAndAttachments) {
   const LogInfo info = read_log(path, read);
   EXPECT_EQ(info.warning, "");
   EXPECT_EQ(info.manifest, sample_manifest());
-  const std::vector<std::pair<std::string, std::string>> expected{
-      {"cluster.yaml", "name: paper\n"}, {"empty", ""}, {"late.bin", binary}};
+  const std::vector<Attachment> expected{{"cluster.yaml", "application/yaml", "name: paper\n"},
+                                         {"empty", "", ""},
+                                         {"late.bin", "application/octet-stream", binary}};
   EXPECT_EQ(info.attachments, expected);
   EXPECT_EQ(read.lines.size(), 1u);
 }

@@ -1,0 +1,33 @@
+// The running numbers of a topic on which everybody is heard in order: what is new, what is heard again, what is
+// lost.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstdint>
+#include <stdexcept>
+
+#include "core/ids.h"
+
+namespace ttf::dds {
+
+class Numbering {
+ public:
+  // Whether this is the sender's next sample; false: it has been heard before.
+  // Throws std::runtime_error where samples in between are lost.
+  bool is_new(NodeId sender, std::uint64_t number) {
+    std::uint64_t& next = next_[index_of(sender)];
+    if (number > next)
+      throw std::runtime_error(
+          fmt::format("exchange: control samples {} to {} of {} are lost", next, number - 1, index_of(sender)));
+    if (number < next) return false;
+    ++next;
+    return true;
+  }
+
+ private:
+  std::array<std::uint64_t, 256> next_{};
+};
+
+}  // namespace ttf::dds

@@ -1,0 +1,43 @@
+#include "cli/node_command.h"
+
+#include <memory>
+
+#include "cli/commands.h"
+#include "cli/launch/run_folder.h"
+#include "core/errors.h"
+
+namespace ttf::cli {
+namespace {
+
+struct NodeArguments {
+  std::string name;
+  NodeSetArguments set;
+  bool json = false;
+};
+
+int run_node(const NodeArguments& arguments) {
+  NodeOptions options;
+  options.set = read_node_set(arguments.set);
+  options.node = node_of(options.set.cluster, arguments.name);
+  options.log = options.set.folder + "/" + launch::file_stem(arguments.name) + ".mcap";
+  options.json = arguments.json;
+  if (!options.set.virtual_time)
+    throw InputError({"command line", 0, "", "", "node needs --virtual-time: this build has no runner in real time"});
+  return run_node_virtual(options);
+}
+
+}  // namespace
+
+void add_node(CLI::App& app, Action& action) {
+  auto arguments = std::make_shared<NodeArguments>();
+  CLI::App* command =
+      app.add_subcommand("node", "One node's process: what launch starts, and what is started by hand on other hosts");
+  command->footer("Example: ttfusion node fusion scenarios/paper_scenario1.yaml --virtual-time --out out/nodes");
+  command->add_option("name", arguments->name, "The node, by its name in the cluster file")->required();
+  add_node_set_options(*command, arguments->set);
+  command->add_option("--out", arguments->set.out, "Folder for the node's log (default: out/<scenario>/launch)");
+  command->add_flag("--json", arguments->json, "What came of it as JSON on standard output");
+  command->callback([arguments, &action] { action = [arguments] { return run_node(*arguments); }; });
+}
+
+}  // namespace ttf::cli

@@ -1,0 +1,55 @@
+// The node set of a launch: what `launch` and `node` are both told on the command line, read and checked once, and told
+// on.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/launch/preflight.h"
+#include "core/time.h"
+#include "fusion/strategy.h"
+#include "nodes/scenario.h"
+#include "schedules/cluster.h"
+
+namespace ttf::cli {
+
+// As written.
+struct NodeSetArguments {
+  std::string scenario;
+  std::string strategy = "tt";
+  std::optional<std::string> seed, time_scale, duration;
+  std::string bus = "dds";
+  std::string session = "ttfusion";
+  std::string out;
+  bool virtual_time = false;
+};
+
+void add_node_set_options(CLI::App& command, NodeSetArguments& arguments);
+
+struct NodeSet {
+  std::string file;                 // scenario or cluster, as given
+  nodes::Scenario scenario;         // with the duration asked for
+  schedules::Cluster cluster;       // of the strategy, checked
+  fusion::StrategyKind strategy{};
+  std::uint64_t seed = 0;
+  launch::Bus bus;
+  std::string session;              // who is in another one is not heard
+  bool virtual_time = false;
+  std::int64_t time_scale_ppm = 1'000'000;   // the schedule lasts so much longer in real time; in virtual time always 1
+  std::string folder;               // where the nodes' logs go: NAME.mcap (launch::file_stem)
+
+  // The options that make another process read this very node set.
+  std::vector<std::string> options() const;
+};
+
+// Given a cluster file instead of a scenario, the drive is the default scene: a car ahead that accelerates. Throws
+// InputError.
+NodeSet read_node_set(const NodeSetArguments& arguments);
+
+// The node of this name, or InputError that lists the names.
+NodeId node_of(const schedules::Cluster& cluster, const std::string& name);
+
+}  // namespace ttf::cli

@@ -1,0 +1,37 @@
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+#include <stdexcept>
+
+#include "bus/dds/exchange.h"
+#include "cli/launch/control.h"
+#include "cli/launch_session.h"
+#include "cli/node_command.h"
+#include "cli/node_drive.h"
+#include "cli/output.h"
+
+namespace ttf::cli {
+
+// The others are waited for first, so that who is ready hears everybody.
+int run_node_virtual(const NodeOptions& options) {
+  const NodeSet& set = options.set;
+  auto supervisor = launch::ControlLine::from_environment();
+  create_folder(set.folder);
+  dds::Exchange exchange(session_of(set, supervisor.has_value()), options.node);
+  exchange.wait_ready(kOthersPatience);
+  if (supervisor) {
+    supervisor->ready();
+    if (!supervisor->wait_for_start()) throw std::runtime_error("the supervisor has gone before the start");
+  }
+  const Recording none;
+  const NodeDrive drive{&set.scenario, &set.cluster, set.strategy, set.seed, &none, options.node, options.log};
+  const sim::DriveOutcome outcome = run_node_drive(drive, exchange);
+  exchange.leave();
+  const nlohmann::ordered_json json = outcome_json(outcome);
+  if (supervisor) supervisor->done(json);
+  if (options.json) fmt::print("{}\n", json.dump(2));
+  return 0;
+}
+
+}  // namespace ttf::cli

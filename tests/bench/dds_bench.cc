@@ -1,0 +1,188 @@
+// What the exchange over DDS costs: there and back between two processes and between two threads, and rounds of six
+// processes in which each says one message and hears one of each other. Against a pipe's round trip between two
+// processes in the same run: what the machine's own scheduler takes to pass the turn on twice.
+#include <benchmark/benchmark.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <exception>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "bus/dds/exchange.h"
+#include "bus/dds/supervisor.h"
+#include "core/check.h"
+#include "tests/bench/yardstick.h"
+
+namespace ttf::bench {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::size_t kBytes = 100;
+constexpr std::uint32_t kDomain = 18;   // nobody else's
+using Message = std::array<std::byte, kBytes>;
+
+dds::Session session_of(const std::string& name, std::size_t members) {
+  dds::Session session;
+  session.domain = kDomain;
+  session.name = name;
+  for (std::size_t i = 0; i < members; ++i) session.members.push_back(NodeId{static_cast<std::uint8_t>(i)});
+  return session;
+}
+
+// One round: says a message, and hears one of each other. False when somebody has gone.
+class RoundMember {
+ public:
+  RoundMember(const dds::Session& session, NodeId self)
+      : exchange_(session, self), others_(session.members.size() - 1) {
+    exchange_.wait_ready(30s);
+  }
+  bool round() {
+    exchange_.send(message_);
+    return hear();
+  }
+  // Answers: hears first.
+  bool round_in_turn() {
+    if (!hear()) return false;
+    exchange_.send(message_);
+    return true;
+  }
+
+ private:
+  // Who is ahead is ahead by one message at most.
+  bool hear() {
+    ++round_;
+    for (std::size_t left = others_ - ahead_, ahead = 0;;) {
+      if (left == 0) {
+        ahead_ = ahead;
+        return true;
+      }
+      const auto heard = exchange_.receive();
+      if (heard.gone) return false;
+      if (++count_[heard.from] > round_)
+        ++ahead;
+      else
+        --left;
+    }
+  }
+
+  dds::Exchange exchange_;
+  std::size_t others_;
+  std::size_t ahead_ = 0;   // whose message of the next round has been heard
+  std::uint64_t round_ = 0;
+  std::map<NodeId, std::uint64_t> count_;
+  Message message_{};
+};
+
+// This program again, as a member that does rounds until somebody goes.
+int be_member(char** arguments) {
+  const dds::Session session = session_of(arguments[2], std::stoul(arguments[4]));
+  RoundMember member(session, NodeId{static_cast<std::uint8_t>(std::stoul(arguments[3]))});
+  if (session.members.size() == 2) {
+    while (member.round_in_turn()) {
+    }
+  } else {
+    while (member.round()) {
+    }
+  }
+  return 0;
+}
+
+pid_t start_member(const dds::Session& session, std::size_t self) {
+  std::vector<std::string> words{"/proc/self/exe", "--member", session.name, std::to_string(self),
+                                 std::to_string(session.members.size())};
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  pid_t process = 0;
+  TTF_CHECK(posix_spawn(&process, arguments[0], nullptr, nullptr, arguments.data(), environ) == 0);
+  return process;
+}
+
+// Rounds with the others in processes of their own; two members pass a message there and back.
+void DdsRounds(benchmark::State& state) {
+  static int made = 0;
+  const auto members = static_cast<std::size_t>(state.range(0));
+  const dds::Session session = session_of("bench-" + std::to_string(getpid()) + "-" + std::to_string(made++), members);
+  std::vector<pid_t> processes;
+  for (std::size_t i = 1; i < members; ++i) processes.push_back(start_member(session, i));
+  {
+    dds::ExchangeSupervisor supervisor(session);
+    std::optional<RoundMember> self(std::in_place, session, NodeId{0});
+    for (auto _ : state)
+      if (!self->round()) return state.SkipWithError("somebody has gone");
+    self.reset();
+    for (const pid_t process : processes) waitpid(process, nullptr, 0);
+  }
+  state.SetItemsProcessed(state.iterations() * state.range(0));   // messages
+}
+BENCHMARK(DdsRounds)->ArgName("processes")->Arg(2)->Arg(6)->UseRealTime()->Unit(benchmark::kMicrosecond);
+
+void DdsThereAndBackBetweenThreads(benchmark::State& state) {
+  static int made = 0;
+  const dds::Session session = session_of("bench-t-" + std::to_string(getpid()) + "-" + std::to_string(made++), 2);
+  dds::ExchangeSupervisor supervisor(session);
+  std::thread other([&session] {
+    RoundMember member(session, NodeId{1});
+    while (member.round_in_turn()) {
+    }
+  });
+  {
+    RoundMember self(session, NodeId{0});
+    for (auto _ : state)
+      if (!self.round()) state.SkipWithError("the other has gone");
+  }
+  other.join();
+}
+BENCHMARK(DdsThereAndBackBetweenThreads)->UseRealTime()->Unit(benchmark::kMicrosecond);
+
+void PipeThereAndBack(benchmark::State& state) {
+  int there[2], back[2];
+  TTF_CHECK(pipe(there) == 0 && pipe(back) == 0);
+  Message message{};
+  const pid_t child = fork();
+  TTF_CHECK(child >= 0);
+  if (child == 0) {   // only calls that may follow a fork
+    close(there[1]);
+    while (read(there[0], message.data(), kBytes) == static_cast<ssize_t>(kBytes))
+      if (write(back[1], message.data(), kBytes) < 0) break;
+    _exit(0);
+  }
+  close(there[0]);
+  for (auto _ : state) {
+    const bool passed = write(there[1], message.data(), kBytes) == static_cast<ssize_t>(kBytes) &&
+                        read(back[0], message.data(), kBytes) == static_cast<ssize_t>(kBytes);
+    if (!passed) return state.SkipWithError("the pipe is broken");
+  }
+  close(there[1]);
+  waitpid(child, nullptr, 0);
+  close(back[0]);
+  close(back[1]);
+}
+BENCHMARK(PipeThereAndBack)->UseRealTime()->Unit(benchmark::kMicrosecond);
+
+}  // namespace
+}  // namespace ttf::bench
+
+int main(int count, char** arguments) {
+  if (count == 5 && std::string(arguments[1]) == "--member") {
+    try {
+      return ttf::bench::be_member(arguments);
+    } catch (const std::exception&) {
+      return 1;   // whoever measures notices that it has gone
+    }
+  }
+  benchmark::Initialize(&count, arguments);
+  if (benchmark::ReportUnrecognizedArguments(count, arguments)) return 2;
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}

@@ -1,0 +1,103 @@
+#!/usr/bin/env bash
+# `ttfusion launch --virtual-time`: processes leave the records of a single one, stopped or not, side by side or not; and
+# who is killed takes nobody's records along.
+#   launch_virtual_test.sh PROGRAM SOURCE_DIR
+set -u
+program=$1
+source=$2
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+failures=0
+drive=$source/scenarios/paper_scenario1.yaml
+
+fail() {
+  echo "FAILED: $*"
+  failures=$((failures + 1))
+}
+
+# hash_of FOLDER: of the drive that left its summary there.
+hash_of() {
+  python3 -c 'import json, sys; print(json.load(open(sys.argv[1] + "/summary.json"))["strategies"][0]["content_hash"])' "$1"
+}
+
+# launch FOLDER ARGS...
+launch() {
+  local folder=$1
+  shift
+  "$program" launch "$@" --virtual-time --no-pictures --out "$folder" >"$folder.out" 2>"$folder.err"
+}
+
+# Until the nodes of the launch in FOLDER have begun.
+wait_begun() {
+  for _ in $(seq 600); do
+    grep -q 'all are ready' "$1/launch.log" 2>/dev/null && return
+    sleep 0.1
+  done
+  fail "the nodes of $1 do not begin: $(cat "$1.err")"
+}
+
+# pid_of FOLDER NODE
+pid_of() {
+  python3 -c '
+import json, sys
+manifest = json.load(open(sys.argv[1] + "/manifest.json"))
+print(next(node["processes"][-1]["pid"] for node in manifest["nodes"] if node["name"] == sys.argv[2]))' "$1" "$2"
+}
+
+for scenario in paper_scenario1 faulty_bus; do
+  "$program" run "$source/scenarios/$scenario.yaml" --strategy tt --no-pictures --out "$work/run_$scenario" >/dev/null 2>&1 ||
+    fail "run $scenario"
+  launch "$work/$scenario" "$source/scenarios/$scenario.yaml" || fail "launch $scenario: $(cat "$work/$scenario.err")"
+  [[ $(hash_of "$work/$scenario") == "$(hash_of "$work/run_$scenario")" ]] || fail "launch $scenario leaves other records than run"
+done
+python3 - "$work/paper_scenario1" <<'PY' || fail "the manifest of a launch is another"
+import json, os, sys
+folder = sys.argv[1]
+manifest = json.load(open(os.path.join(folder, "manifest.json")))
+assert manifest["state"] == "ended" and manifest["exit_code"] == 0 and manifest["virtual_time"] is True, manifest
+assert len(manifest["nodes"]) == 7, manifest["nodes"]
+for node in manifest["nodes"]:
+    assert [process["exit"] for process in node["processes"]] == [0], node
+    assert os.path.exists(os.path.join(folder, node["name"] + ".mcap")), node
+PY
+# The nodes' own logs, together, are the log of the launch.
+"$program" export "$work"/paper_scenario1/{laser,camera,laser_pre,camera_pre,gateway,fusion,feature}.mcap --format csv \
+  -o "$work/nodes.csv" >/dev/null 2>&1 && "$program" export "$work/run_paper_scenario1/tt.mcap" --format csv -o "$work/run.csv" 2>/dev/null
+cmp "$work/nodes.csv" "$work/run.csv" || fail "the nodes' logs, exported together, are not the run's"
+
+# Two launches at once, one of them stopped now and then.
+launch "$work/beside" "$drive" &
+beside=$!
+launch "$work/stopped" "$drive" &
+stopped=$!
+wait_begun "$work/stopped"
+for node in fusion laser gateway camera_pre fusion feature; do
+  pid=$(pid_of "$work/stopped" "$node")
+  kill -STOP "$pid" 2>/dev/null && sleep 0.2 && kill -CONT "$pid"
+done
+wait "$beside" || fail "a launch beside another one: $(cat "$work/beside.err")"
+wait "$stopped" || fail "a launch whose nodes are stopped: $(cat "$work/stopped.err")"
+for folder in beside stopped; do
+  [[ $(hash_of "$work/$folder") == "$(hash_of "$work/run_paper_scenario1")" ]] || fail "$folder: other records"
+done
+
+# A killed one: the others go on to the end; its log is readable.
+launch "$work/killed" "$drive" --duration 8 --policy camera=optional &
+killed=$!
+wait_begun "$work/killed"
+sleep 0.3
+kill -9 "$(pid_of "$work/killed" camera)"
+wait "$killed" || fail "the survivors of a killed node: $(cat "$work/killed.err")"
+grep -q 'camera: signal 9' "$work/killed.err" || fail "nobody says that camera was killed"
+"$program" diagram "$work/killed/camera.mcap" --kind timing --from 0 --to 0.05 -o "$work/killed.svg" >/dev/null 2>&1 ||
+  "$program" export "$work/killed/camera.mcap" --format csv -o "$work/killed.csv" 2>/dev/null || fail "a killed node's log is not readable"
+launch "$work/required" "$drive" --duration 60 &
+required=$!
+wait_begun "$work/required"
+kill -9 "$(pid_of "$work/required" fusion)"
+wait "$required"
+code=$?
+[[ $code -eq 137 ]] || fail "a launch whose fusion is killed exits with $code"
+
+[[ $failures -eq 0 ]] && echo "launch in virtual time: the records of a single process"
+exit $((failures > 0))

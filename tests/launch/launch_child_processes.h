@@ -1,0 +1,23 @@
+// What the tests' child does with files and processes.
+#pragma once
+
+#include <sys/types.h>
+
+#include <string>
+
+namespace ttf::test {
+
+// Sends the text as it is on the control line.
+void tell(int control_fd, const std::string& text);
+// A file that appears complete.
+void leave_number(const std::string& path, pid_t number);
+// Forks a process that waits for ever, with its number in the file.
+void descend(const std::string& path);
+// The how-manieth call with this file it is.
+int times(const std::string& path);
+// Standard descriptors, environment and what is open besides the control line, in words.
+std::string surroundings(int control_fd);
+// Runs a supervisor of `DIR/child` and `DIR/grandchild`; its exit code.
+int supervise(const std::string& folder);
+
+}  // namespace ttf::test

@@ -1,0 +1,78 @@
+// One process' log as the logs that several processes would have written: each record goes to the log of its node's
+// process. What belongs to no node goes to the first.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "recording/log_reader.h"
+#include "recording/log_writer.h"
+
+namespace ttf::recording {
+
+// Node n is in process n modulo how many there are.
+class ByNode final : public records::Sink {
+ public:
+  explicit ByNode(std::vector<records::Sink*> processes) : processes_(std::move(processes)) {}
+
+  void on(const records::Measured& r) override { pass(r); }
+  void on(const records::CanFrameSent& r) override { pass(r); }
+  void on(const records::SlotFrameSent& r) override { pass(r); }
+  void on(const records::SlotProblem& r) override { pass(r); }
+  void on(const records::ListHop& r) override { pass(r); }
+  void on(const records::TaskRun& r) override { pass(r); }
+  void on(const records::ClockCorrected& r) override { pass(r); }
+  void on(const records::PrecisionSample& r) override { pass(r); }
+  void on(const records::FusionInput& r) override { pass(r); }
+  void on(const records::ListFused& r) override { pass(r); }
+  void on(const records::FusionStep& r) override { pass(r); }
+  void on(const records::TrackState& r) override { pass(r); }
+  void on(const records::ObservationSeen& r) override { pass(r); }
+  void on(const records::ImageWritten& r) override { pass(r); }
+  void on(const records::FeatureUsed& r) override { pass(r); }
+  void on(const records::ReferenceFix& r) override { pass(r); }
+  void on(const records::TruthState& r) override { pass(r); }
+  void on(const records::StateChanged& r) override { pass(r); }
+  void on(const records::SymbolSent& r) override { pass(r); }
+  void on(const records::PowerChanged& r) override { pass(r); }
+  void on(const records::FaultActivity& r) override { pass(r); }
+  void on(const records::GuardianIntervention& r) override { pass(r); }
+  void on(const records::ChannelFrame& r) override { pass(r); }
+
+ private:
+  template <class Record>
+  void pass(const Record& record) {
+    std::size_t node = 0;
+    if constexpr (requires { record.stamp; })
+      node = index_of(record.stamp.node);
+    else if constexpr (requires { record.end.node; })   // a CAN frame or a task's run
+      node = index_of(record.end.node);
+    else if constexpr (std::is_same_v<Record, records::TruthState>)
+      node = index_of(record.node);
+    processes_[node % processes_.size()]->on(record);
+  }
+  std::vector<records::Sink*> processes_;
+};
+
+// The logs of `count` processes, in `folder`: node0.mcap and so on.
+inline std::vector<std::string> split_log(const std::string& path, const std::string& folder, std::size_t count) {
+  records::Sink nobody;
+  const LogInfo info = read_log(path, nobody);
+  std::vector<std::string> paths;
+  std::vector<std::unique_ptr<LogWriter>> writers;
+  std::vector<records::Sink*> sinks;
+  for (std::size_t i = 0; i < count; ++i) {
+    paths.push_back(folder + "/node" + std::to_string(i) + ".mcap");
+    writers.push_back(std::make_unique<LogWriter>(paths.back(), info.manifest));
+    for (const Attachment& one : info.attachments) writers.back()->attach(one.name, one.media_type, one.bytes);
+    sinks.push_back(writers.back().get());
+  }
+  ByNode by_node(sinks);
+  read_log(path, by_node);
+  for (auto& writer : writers) writer->close();
+  return paths;
+}
+
+}  // namespace ttf::recording
