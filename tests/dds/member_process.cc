@@ -6,13 +6,14 @@
 //            rounds: COUNT times, says one, then hears one of each other that is not gone
 //   ENDLESS  nodes that do not stop at COUNT
 //
-// Ends when every other member has said COUNT messages, or for the endless ones, is gone. On stdout, one line for
-// each other member: its number, how many messages were heard of it, their hash, and whether it went. Exit code 1
-// and "error: ..." where the exchange fails.
+// Says "ready" once everybody hears everybody. Ends when every other member has said COUNT messages, or for the
+// endless ones, is gone. On stdout, one line for each other member: its number, how many messages were heard of it,
+// their hash, and whether it went. Exit code 1 and "error: ..." where the exchange fails.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <exception>
 #include <map>
 #include <set>
@@ -42,6 +43,8 @@ class TalkingMember {
     for (const NodeId node : session.members)
       if (node != self) others_[node].expected = endless.contains(node) ? kEndless : count;
     exchange_.wait_ready(std::chrono::seconds(30));
+    fmt::print("ready\n");
+    std::fflush(stdout);
   }
   void talk() {
     while (said_ < count_) say();

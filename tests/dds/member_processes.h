@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <set>
@@ -73,6 +74,10 @@ class MemberProcess {
 
   NodeId self() const { return self_; }
   void signal(int number) const { kill(process_, number); }
+  // Returns once it is ready, or has ended.
+  void await_ready() {
+    for (char letter = 0; letter != '\n' && read(output_, &letter, 1) == 1;) said_ += letter;
+  }
   // Its exit code, or minus the signal that ended it.
   int wait() {
     if (std::exchange(ended_, true)) return status_;
@@ -83,11 +88,12 @@ class MemberProcess {
     TTF_CHECK(waitpid(process_, &status, 0) == process_);
     return status_ = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
   }
-  // After wait().
+  // After wait(). It begins with kReady.
+  static inline const std::string kReady = "ready\n";
   const std::string& said() const { return said_; }
   std::map<std::size_t, HeardOf> heard() const {
     std::map<std::size_t, HeardOf> heard;
-    std::istringstream lines(said_);
+    std::istringstream lines(said_.substr(std::min(said_.size(), kReady.size())));
     std::size_t node = 0;
     HeardOf of;
     for (std::string how; lines >> node >> of.count >> of.hash >> how; heard[node] = of) of.gone = how == "gone";
