@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <deque>
 #include <map>
 #include <memory>
@@ -92,7 +93,8 @@ TEST(Departure, WithoutSurvivorsThereIsNothingToAgreeUpon) {
 }
 
 // Survivors who hear of one dead, each cut off at a drawn sample, and who are told everything late, in a drawn
-// order; some of them die in the middle of it. All that survive must have heard the same.
+// order; some of them die in the middle of it, and with them what they were saying again. All that survive must
+// have heard the same.
 class DrawnDeparture {
  public:
   explicit DrawnDeparture(std::uint64_t seed) : draw_(seed) {
@@ -104,17 +106,20 @@ class DrawnDeparture {
       const std::uint64_t heard = below(20);
       for (std::uint64_t n = 0; n < heard; ++n) accept(survivor, n);
       survivor.in_flight = heard;
+      survivor.reach = heard + below(4);
       all.insert(node);
     }
     departure_ = std::make_unique<Departure>(all);
   }
   void run() {
     tell_all(departure_->begin());
-    while (!departure_->done()) {
+    for (int steps = 0; !departure_->done(); ++steps) {
+      ASSERT_LT(steps, 100'000) << "it never ends";
       if (survivors_.size() > 1 && below(12) == 0) {
         auto victim = std::next(survivors_.begin(), static_cast<std::ptrdiff_t>(below(survivors_.size())));
         const NodeId node = victim->first;
         survivors_.erase(victim);
+        for (auto& other : survivors_) cut_off(node, other.second.again);
         if (const auto order = departure_->without(node)) tell_all(*order);
         continue;
       }
@@ -138,9 +143,10 @@ class DrawnDeparture {
   struct Survivor {
     Stream stream{NodeId{100}, 1 << 20};
     std::vector<Entry> entries;
-    std::uint64_t in_flight = 0;             // the next sample that still comes from the dead itself, a few more
+    std::uint64_t in_flight = 0;             // the next sample that still comes from the dead itself
+    std::uint64_t reach = 0;                 // and the first that does not
     std::deque<Departure::Order> orders;     // of the supervisor, not yet seen
-    std::deque<std::uint64_t> again;         // said again by a holder, not yet seen
+    std::deque<std::pair<NodeId, std::uint64_t>> again;   // said again, by whom, not yet seen
     std::uint32_t confirm = 0;               // the round that is to be confirmed
   };
 
@@ -155,11 +161,11 @@ class DrawnDeparture {
     const NodeId self = node_of(survivor);
     switch (below(3)) {
       case 0:
-        if (survivor.in_flight < 20 && below(2) == 0) accept(survivor, survivor.in_flight++);
+        if (survivor.in_flight < survivor.reach) accept(survivor, survivor.in_flight++);
         break;
       case 1:
         if (survivor.again.empty()) break;
-        accept(survivor, survivor.again.front());
+        accept(survivor, survivor.again.front().second);
         survivor.again.pop_front();
         break;
       default:
@@ -179,7 +185,13 @@ class DrawnDeparture {
     if (order.holder != self) return;
     for (const Entry& entry : survivor.stream.again(order.first))
       for (auto& other : survivors_)
-        if (other.first != self) other.second.again.push_back(entry.number);
+        if (other.first != self) other.second.again.emplace_back(self, entry.number);
+  }
+  // The last few, or all, that the dead was saying never come.
+  void cut_off(NodeId dead, std::deque<std::pair<NodeId, std::uint64_t>>& again) {
+    const auto said = std::count_if(again.begin(), again.end(), [&](const auto& a) { return a.first == dead; });
+    auto kept = said == 0 ? 0 : below(static_cast<std::uint64_t>(said) + 1);
+    std::erase_if(again, [&](const auto& a) { return a.first == dead && (kept == 0 || kept-- == 0); });
   }
   NodeId node_of(const Survivor& wanted) const {
     for (const auto& [node, survivor] : survivors_)
