@@ -252,7 +252,7 @@ done
 expect 0 '' diagram "$work"/nodes/*.mcap "$work/a/adva.mcap" --kind plane -o "$work/of_many.svg"
 expect 0 '' diagram "$work/a/tt.mcap" "$work/a/adva.mcap" --kind plane -o "$work/of_one.svg"
 cmp -s "$work/of_one.svg" "$work/of_many.svg" || fail "two runs side by side differ by how many logs one of them has"
-expect 2 'adva.mcap: strategy = adva: must be tt as in .*tt.mcap: only logs of one run are merged' \
+expect 2 'adva.mcap: cluster = paper_unsynchronised: must be paper_synchronised as in .*tt.mcap: only logs of one run' \
   diagram "$work/a/tt.mcap" "$work/a/adva.mcap" -o "$work/none.svg"
 expect 2 'c/tt.mcap: seed = 4: must be 3 as in .*a/tt.mcap' export "$work/a/tt.mcap" "$work/c/tt.mcap" --format csv -o "$work/none"
 expect 2 'b/tt.mcap: holds the same records as .*a/tt.mcap: each log may be given once' \
