@@ -1,4 +1,4 @@
-// One time for the logs of several hosts. Private to the room.
+// One time for the logs of several hosts.
 //
 // In virtual time there is one true time, the simulator's. In a run by the wall clock (manifest: `clock` = wall) a
 // record's true time is what the clock of its process' host showed, since the instant that the run was to start at.
