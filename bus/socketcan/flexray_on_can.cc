@@ -6,11 +6,11 @@
 
 #include "bus/wire/flexray_crc.h"
 #include "core/check.h"
+#include "schedules/can_load.h"
 
 namespace ttf::socketcan {
 namespace {
 
-constexpr std::array<std::uint8_t, 16> kLengths{0, 1, 2, 3, 4, 5, 6, 7, 8, 12, 16, 20, 24, 32, 48, 64};
 constexpr std::size_t kSymbolBytes = wire::kHeaderBytes + wire::kTrailerBytes;
 constexpr unsigned kFragmentMark = 0x80, kFragmentUnused = 0x40;
 
@@ -91,7 +91,7 @@ std::uint32_t big_endian(std::span<const std::byte> bytes) {
 
 std::size_t can_fd_length(std::size_t bytes) {
   TTF_CHECK(bytes <= CANFD_MAX_DLEN, "{} bytes", bytes);
-  return *std::lower_bound(kLengths.begin(), kLengths.end(), bytes);
+  return static_cast<std::size_t>(*schedules::can_data_length(true, static_cast<int>(bytes)));
 }
 
 CanFrames frame_to_can(int slot, std::span<const std::byte> frame) {
