@@ -52,7 +52,8 @@ class Socket {
   Status send(const canfd_frame& can);
   // Never blocks. What arrived before the interface went down is handed out first.
   Status receive(Received& received);
-  // Sleeps until receive() has something to say, for that long, or until a signal. For more than one socket: poll(descriptor()).
+  // Sleeps until receive() has something to say, for that long, or until a signal. The kernel may make
+  // it up to a thousandth longer; for an instant, or for more than one socket: poll(descriptor()), with a timerfd.
   void wait(Duration longest) const;
   int descriptor() const { return descriptor_; }
 

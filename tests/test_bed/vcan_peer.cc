@@ -9,7 +9,11 @@
 //   vcan_peer deaf INTERFACE FRAMES MS
 //       Has room for that many frames, reads nothing for that long, then prints how many it heard and how many were lost.
 #include <fmt/format.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/timerfd.h>
 #include <time.h>
+#include <unistd.h>
 
 #include <array>
 #include <cstdlib>
@@ -109,15 +113,39 @@ bool send_frame(Socket& socket, Channel channel, int slot, int cycle) {
   return send_all(socket, frame_to_can(slot, std::span(frame).first(size)).all());
 }
 
+// Wakes at an instant, to the microsecond; a timeout of poll()'s comes up to a thousandth of its length late.
+class Alarm {
+ public:
+  Alarm() : descriptor_(timerfd_create(CLOCK_REALTIME, TFD_CLOEXEC)) { prctl(PR_SET_TIMERSLACK, 1UL); }
+  ~Alarm() { close(descriptor_); }
+  Alarm(const Alarm&) = delete;
+  Alarm& operator=(const Alarm&) = delete;
+
+  void set(std::int64_t at) {
+    itimerspec when{};
+    when.it_value = {.tv_sec = at / kSecond, .tv_nsec = at % kSecond};
+    timerfd_settime(descriptor_, TFD_TIMER_ABSTIME, &when, nullptr);
+  }
+  // Until the instant that was set has come, or something is there to be received.
+  void wait(const Socket& socket) const {
+    pollfd either[] = {{.fd = descriptor_, .events = POLLIN, .revents = 0},
+                       {.fd = socket.descriptor(), .events = POLLIN, .revents = 0}};
+    poll(either, 2, -1);
+  }
+
+ private:
+  int descriptor_;
+};
+
 // Prints what has been said until that instant.
-bool hear_until(Socket& socket, Channel channel, Reassembly& reassembly, std::int64_t until) {
+bool hear_until(Socket& socket, Channel channel, Reassembly& reassembly, Alarm& alarm, std::int64_t until) {
+  alarm.set(until);
   for (;;) {
     Received received;
     const Status status = socket.receive(received);
     if (status == Status::kNothing) {
-      const std::int64_t left = until - now_ns();
-      if (left <= 0) return true;
-      socket.wait(Duration::nanoseconds(left));
+      if (now_ns() >= until) return true;
+      alarm.wait(socket);
       continue;
     }
     if (status != Status::kDone) return false;
@@ -131,11 +159,12 @@ bool hear_until(Socket& socket, Channel channel, Reassembly& reassembly, std::in
 int node(const std::string& interface, Channel channel, int slot, int nodes, int cycles, std::int64_t start) {
   Socket socket({.interface = interface, .filters = {}});
   Reassembly reassembly(channel);
+  Alarm alarm;
   for (int cycle = 0; cycle < cycles; ++cycle) {
-    if (!hear_until(socket, channel, reassembly, start + cycle * kCycle + slot * kSlot)) return failed(socket);
+    if (!hear_until(socket, channel, reassembly, alarm, start + cycle * kCycle + slot * kSlot)) return failed(socket);
     if (!send_frame(socket, channel, slot, cycle)) return failed(socket);
   }
-  if (!hear_until(socket, channel, reassembly, start + cycles * kCycle + kCycle)) return failed(socket);
+  if (!hear_until(socket, channel, reassembly, alarm, start + cycles * kCycle + kCycle)) return failed(socket);
   const auto expected = static_cast<std::uint64_t>((nodes - 1) * cycles);
   fmt::print("complete {} of {} lost {}\n", reassembly.count(Outcome::kComplete), expected, socket.lost());
   return reassembly.count(Outcome::kComplete) == expected && socket.lost() == 0 ? 0 : 1;
