@@ -46,6 +46,7 @@ build() {
     return 1
   fi
   make -C "$work/$package" O="$work/out" "${options[@]}" -j"$(nproc)" linux
+  rm -f "$cache"/linux-*   # of earlier versions
   mv "$work/out/linux" "$kernel"
   rm -rf "$work"
 }

@@ -10,6 +10,16 @@ out=$PWD/build/test-bed/exchange
 rm -rf "$out"
 mkdir -p "$out"
 
+echo "vcan bed: the bed itself"
+ends_with() {
+  local code=0
+  tools/test_bed.sh --seconds "$2" "${@:3}" >"$out/bed" 2>&1 || code=$?
+  [[ $code -eq $1 ]] || { echo "vcan bed: exit code $code, not $1: ${*:3}" >&2; cat "$out/bed" >&2; exit 1; }
+}
+ends_with 7 60 bash -c 'sleep 3600; exit 7'        # an hour of virtual time
+ends_with 124 3 bash -c 'while :; do :; done'
+ends_with 125 60 busybox poweroff -f
+
 echo "vcan bed: the socket's tests, none skipped"
 tools/test_bed.sh --seconds 120 build/release/tests/socketcan/test_socketcan >"$out/tests" || { cat "$out/tests"; exit 1; }
 tail -2 "$out/tests"
