@@ -112,7 +112,8 @@ busybox poweroff -f
 INIT
 } >"$run/init.sh"
 chmod +x "$run/init.sh"
-: >"$run/stdout" >"$run/stderr"
+: >"$run/stdout"
+: >"$run/stderr"
 
 # In a session of its own: what it starts on this machine is one process group.
 setsid "$kernel" root=none rootfstype=hostfs rootflags=/ rw mem=512M "init=$run/init.sh" con=null con0=null,fd:1 \

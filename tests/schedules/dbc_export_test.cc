@@ -151,11 +151,11 @@ std::string refusal(const Cluster& cluster, const std::string& can) {
 TEST(Dbc, RefusesWhatOneFileCannotSay) {
   Cluster cluster = load_cluster(shipped_path("paper_synchronised"));
   cluster.file = "a.yaml";
-  EXPECT_EQ(refusal(cluster, "laser"), "a.yaml: --can = laser: must be one of camera_can, laser_can, observation_can");
+  EXPECT_EQ(refusal(cluster, "laser"), "a.yaml: --can = laser: must be one of laser_can, camera_can, observation_can");
   cluster.can_buses[1].messages[0].identifier = cluster.can_buses[0].messages[0].identifier;
   cluster.can_buses[1].messages[0].line = 7;
   EXPECT_EQ(refusal(cluster, ""),
-            "a.yaml:7: identifier = 272: is on two CANs, and a DBC file has one message per identifier: --can NAME writes one CAN");
+            "a.yaml:7: identifier = 256: is on two CANs, and a DBC file has one message per identifier: --can NAME writes one CAN");
   for (const CanBus& bus : cluster.can_buses) EXPECT_EQ(refusal(cluster, bus.name), "");
   cluster.can_buses.clear();
   EXPECT_EQ(refusal(cluster, ""), "a.yaml: has no private CAN to write a DBC file of");
