@@ -13,6 +13,7 @@
 #include "report/schedule_picture.h"
 #include "schedules/ages.h"
 #include "schedules/checker.h"
+#include "schedules/dbc_export.h"
 #include "schedules/dynamic_load.h"
 #include "schedules/fibex_export.h"
 #include "schedules/fibex_import.h"
@@ -27,6 +28,7 @@ struct ScheduleOptions {
   std::string file;
   std::string out;
   std::string format;
+  std::string can;
   bool json = false;
   CaptureArguments capture;
 };
@@ -116,6 +118,12 @@ void write_text(const std::string& text, const std::string& path) {
 
 int export_cluster(const ScheduleOptions& options) {
   if (!options.out.empty()) refuse_overwriting(options.file, options.out, "--out");
+  if (!options.can.empty() && options.format != "dbc")
+    throw InputError(Finding{"command line", 0, "--can", options.can, "goes with --format dbc only"});
+  if (options.format == "dbc") {
+    write_text(schedules::dbc_text(schedules::load_checked_cluster(options.file), options.can), options.out);
+    return 0;
+  }
   if (options.format == "fibex") {
     write_text(schedules::fibex_text(schedules::load_checked_cluster(options.file)), options.out);
     return 0;
@@ -148,14 +156,17 @@ void add_schedule(CLI::App& app, Action& action) {
   showing->add_option("-o,--out", options->out, "Picture to write: .svg, .png or .pdf");
   showing->callback([options, &action] { action = [options] { return show(*options); }; });
   CLI::App* exporting = command->add_subcommand(
-      "export", "Write a cluster as FIBEX 3.1, or a FIBEX file's FlexRay cluster as the beginning of a cluster file");
+      "export",
+      "Write a cluster as FIBEX 3.1, its CANs as DBC, or a FIBEX file's FlexRay cluster as the beginning of a cluster file");
   exporting->footer(
       "Examples: ttfusion schedule export schedules/paper_synchronised.yaml --format fibex -o cluster.xml\n"
+      "          ttfusion schedule export schedules/paper_synchronised.yaml --format dbc -o cluster.dbc\n"
       "          ttfusion schedule export cluster.xml --format yaml -o cluster.yaml");
-  exporting->add_option("file", options->file, "Cluster file (fibex), or FIBEX file (yaml)")->required();
-  exporting->add_option("--format", options->format, "fibex: out of a cluster file; yaml: out of a FIBEX file")
+  exporting->add_option("file", options->file, "Cluster file (fibex, dbc), or FIBEX file (yaml)")->required();
+  exporting->add_option("--format", options->format, "fibex, dbc: out of a cluster file; yaml: out of a FIBEX file")
       ->required()
-      ->check(CLI::IsMember({"fibex", "yaml"}));
+      ->check(CLI::IsMember({"fibex", "dbc", "yaml"}));
+  exporting->add_option("--can", options->can, "dbc: only this CAN of the cluster's");
   exporting->add_option("-o,--out", options->out, "File to write; else standard output");
   exporting->callback([options, &action] { action = [options] { return export_cluster(*options); }; });
 }

@@ -87,6 +87,14 @@ expect 2 'broken.yaml:[0-9]+: can.camera_can.messages.camera_frame = 12 bytes: m
   schedule show "$cluster"
 expect 2 'png' schedule show "$source/schedules/paper_synchronised.yaml" -o "$work/schedule.bmp"
 
+# The CANs as DBC, all or one.
+expect 0 'BO_ 256 laser_scan: 64 laser' schedule export "$source/schedules/paper_synchronised.yaml" --format dbc
+expect 0 '' schedule export "$source/schedules/paper_synchronised.yaml" --format dbc --can camera_can -o "$work/camera.dbc"
+[[ $(grep -c '^BO_ ' "$work/camera.dbc") -eq 1 ]] || fail "--can camera_can writes something else"
+expect 2 '--can = no_can: must be one of' schedule export "$source/schedules/paper_synchronised.yaml" --format dbc --can no_can
+expect 2 'command line: --can = laser_can: goes with --format dbc only' \
+  schedule export "$source/schedules/paper_synchronised.yaml" --format fibex --can laser_can
+
 # A cluster to FIBEX and back; it loads, and the checker misses the tasks.
 expect 0 '' schedule export "$source/schedules/paper_synchronised.yaml" --format fibex -o "$work/cluster.xml"
 expect 0 '' schedule export "$work/cluster.xml" --format yaml -o "$work/imported.yaml"

@@ -135,6 +135,30 @@ void frame_seeds(const fs::path& folder) {
   }
 }
 
+// Frames whole and in fragments, right and wrong; some with a byte changed, some CAN frames twice.
+void flexray_on_can_seeds(const fs::path& folder) {
+  for (std::uint32_t i = 0; i < 24; ++i) {
+    std::string input(1, static_cast<char>(i & 1));
+    for (std::uint32_t k = 0; k < 6; ++k) {
+      const std::uint32_t kind = (i + k) % 4;
+      const bool changed = (i + k) % 5 == 0;
+      input += static_cast<char>(kind | (changed ? 4 : 0));
+      const std::uint16_t size = kind == 0 ? 64 : static_cast<std::uint16_t>((i * 6 + k) * 37 % 255);
+      if (kind == 3) {
+        put(input, static_cast<std::uint16_t>(k));
+      } else {
+        put(input, static_cast<std::uint16_t>(70 + i));
+        if (kind == 0) input += '\1';
+        if (kind == 0) put(input, static_cast<std::uint8_t>(size));
+        if (kind != 0) put(input, size);
+        input += drawn_bytes(400 + i * 6 + k, kind == 0 ? size : size + 8u);
+      }
+      if (changed) input += drawn_bytes(600 + i, 5);
+    }
+    write(folder / "flexray_on_can" / ("drawn_" + std::to_string(i)), input);
+  }
+}
+
 // A schedule's frames as pcapng and, from the same packets, as pcap; short enough to be edited.
 // A turn of every act, and one without.
 void turn_seeds(const fs::path& folder) {
@@ -301,6 +325,7 @@ int main(int argc, char** argv) {
   recorded_seeds(folder);
   frame_seeds(folder);
   turn_seeds(folder);
+  flexray_on_can_seeds(folder);
   capture_seeds(folder);
   drawn_seeds(folder);
   log_seeds(folder);

@@ -1,0 +1,99 @@
+// FlexRay on CAN FD: what of a FlexRay channel travels in which bytes on a CAN interface. Pure functions and one state;
+// docs/socketcan.md describes the same for those who look at the bus with candump.
+//
+//   identifier        11 bits: the slot in which the frame is sent, 1..2047; 0 for symbols, because no slot has that number
+//   whole frame       header, payload, frame CRC, as FlexRay has them: 8..64 bytes
+//   fragments         of what does not fit, or is no frame by its own header: three bytes in front of up to 61 of the frame
+//                       byte 0   1 0 lll iii   number of the last fragment, of this one, both from 0
+//                       byte 1   n 0 cccccc    top bit of the frame's length, cycle count
+//                       byte 2   nnnnnnnn      the frame's length in bytes, lower bits
+//   symbol            kind (1 CAS or MTS, 2 wake-up, 3 noise), duration in ns (4 bytes, most significant first), CRC-24 of these
+//                     five with the channel's initial value
+//
+// CAN FD has no frame of, say, 26 bytes: zeros follow up to the next length there is. How long a whole frame is, its header says,
+// whose CRC must hold; bit 7 of byte 0, reserved in FlexRay and sent as 0, tells the two forms apart. What is sent has one
+// form only, and a receiver takes no other. Fragments follow one another on the bus: another frame between them ends them.
+//
+// Nothing here allocates, throws, or looks at a clock. The frame CRC is not judged here: a frame that is broken arrives as
+// one, as on FlexRay (wire::decode_frame).
+#pragma once
+
+#include <linux/can.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "bus/flexray_port.h"
+#include "bus/wire/flexray_frame.h"
+#include "core/time.h"
+#include "schedules/cluster.h"
+
+namespace ttf::socketcan {
+
+inline constexpr int kSymbolIdentifier = 0;
+inline constexpr int kLastSlot = 2047;
+inline constexpr std::size_t kFragmentHeaderBytes = 3;
+inline constexpr std::size_t kFragmentBytes = CANFD_MAX_DLEN - kFragmentHeaderBytes;
+inline constexpr std::size_t kMaxFragments = (wire::kMaxFrameBytes + kFragmentBytes - 1) / kFragmentBytes;
+
+// The shortest CAN FD data of at least `bytes` bytes (0..64): 0..8, 12, 16, 20, 24, 32, 48, 64.
+std::size_t can_fd_length(std::size_t bytes);
+
+struct CanFrames {
+  std::array<canfd_frame, kMaxFragments> frames;
+  std::size_t count = 0;
+
+  std::span<const canfd_frame> all() const { return std::span(frames).first(count); }
+};
+// A frame of 8..262 bytes, correct or not, sent in slot 1..2047. The flag CANFD_BRS is set: data at the faster rate.
+CanFrames frame_to_can(int slot, std::span<const std::byte> frame);
+// Any signal but a frame; at most 4.29 s long.
+canfd_frame symbol_to_can(schedules::Channel channel, bus::Signal symbol, Duration duration);
+
+enum class Outcome : std::uint8_t {
+  kComplete,    // a FlexRay frame, or a symbol, is there
+  kFragment,    // part of a frame that is not complete yet
+  kForeign,     // not this mapping's: classic CAN, 29-bit identifiers, remote and error frames
+  kMalformed,   // a CAN FD frame with an 11-bit identifier that no sender of ours sends
+  kDisplaced,   // a fragment that does not continue what came before it, or repeats it
+};
+inline constexpr std::size_t kOutcomes = 5;
+
+struct Arrival {
+  Outcome outcome{};
+  bool abandoned = false;             // a frame whose first fragments were here will not be complete any more
+  int slot = 0;                       // of a complete frame or a fragment, displaced or not
+  bus::Signal signal{};               // of what is complete
+  Duration duration{};                // of a symbol
+  std::span<const std::byte> frame{};   // of a complete frame: valid until the next arrival, and as long as what arrived is
+};
+
+// One channel's receiver: one per interface.
+class Reassembly {
+ public:
+  explicit Reassembly(schedules::Channel channel) : channel_(channel) {}
+
+  // `can.flags` must have CANFD_FDF if and only if it arrived as a CAN FD frame.
+  Arrival arrive(const canfd_frame& can);
+  // How often; abandoned frames apart.
+  std::uint64_t count(Outcome outcome) const { return counts_[static_cast<std::size_t>(outcome)]; }
+  std::uint64_t abandoned() const { return abandoned_; }
+
+ private:
+  Arrival symbol(std::span<const std::byte> data) const;
+  Arrival whole(int slot, std::span<const std::byte> data) const;
+  Arrival fragment(int slot, std::span<const std::byte> data);
+
+  schedules::Channel channel_;
+  // What is begun: fragments 0..next_ - 1 of a frame of length_ bytes in slot_; nothing is while next_ is 0.
+  std::size_t next_ = 0;
+  int slot_ = 0;
+  std::size_t length_ = 0;
+  std::array<std::byte, wire::kMaxFrameBytes> bytes_{};
+  std::array<std::uint64_t, kOutcomes> counts_{};
+  std::uint64_t abandoned_ = 0;
+};
+
+}  // namespace ttf::socketcan

@@ -1,0 +1,103 @@
+// A reader of DBC files for tests, with nothing of the writer's in it: messages, signals, and what a signal's bits say by the
+// format's own rules. Lines it does not know fail the test.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <regex>
+#include <span>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace ttf::schedules {
+
+struct DbcSignal {
+  std::string name, unit, receivers;
+  int start = 0, bits = 0;
+  double factor = 0, offset = 0, low = 0, high = 0;
+
+  // Big-endian: from the start bit towards bit 0 of its byte, then on from bit 7 of the next.
+  std::uint64_t raw(std::span<const std::byte> data) const {
+    std::uint64_t value = 0;
+    int byte = start / 8, bit = start % 8;
+    for (int i = 0; i < bits; ++i) {
+      value = value << 1 | (static_cast<std::uint64_t>(data[static_cast<std::size_t>(byte)]) >> bit & 1);
+      if (bit-- == 0) bit = 7, ++byte;
+    }
+    return value;
+  }
+  double physical(std::span<const std::byte> data) const { return offset + factor * static_cast<double>(raw(data)); }
+};
+
+struct DbcMessage {
+  std::string name, sender, comment;
+  int length = 0;
+  std::vector<DbcSignal> signals;
+  std::map<std::string, std::string> attributes;
+
+  const DbcSignal& signal(const std::string& wanted) const {
+    for (const DbcSignal& one : signals)
+      if (one.name == wanted) return one;
+    ADD_FAILURE() << "no signal " << wanted << " in " << name;
+    return signals.front();
+  }
+};
+
+struct DbcFile {
+  std::vector<std::string> nodes;
+  std::map<std::uint32_t, DbcMessage> messages;
+};
+
+inline DbcFile read_dbc(const std::string& text) {
+  static const std::string kName = "([A-Za-z_][A-Za-z0-9_]*)", kNumber = "(-?[0-9.]+(?:[eE][-+]?[0-9]+)?)";
+  static const std::regex kMessage("BO_ ([0-9]+) " + kName + ": ([0-9]+) " + kName);
+  static const std::regex kSignal(" SG_ " + kName + " : ([0-9]+)\\|([0-9]+)@0\\+ \\(" + kNumber + "," + kNumber + "\\) \\[" +
+                                  kNumber + "\\|" + kNumber + "\\] \"([^\"]*)\" ([A-Za-z0-9_,]+)");
+  static const std::regex kComment("CM_ BO_ ([0-9]+) \"([^\"]*)\";");
+  static const std::regex kAttribute("BA_ \"([A-Za-z]+)\" BO_ ([0-9]+) (?:\"([^\"]*)\"|([0-9]+));");
+  static const std::regex kNodes("BU_:((?: [A-Za-z_][A-Za-z0-9_]*)*)");
+  static const std::regex kOther("|VERSION \"[^\"]*\"|NS_ :|BS_:|BA_DEF_ BO_ .*;|BA_DEF_DEF_ .*;");
+  DbcFile file;
+  DbcMessage* latest = nullptr;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    std::smatch part;
+    const auto number = [&](std::size_t i) { return std::stoul(part[i]); };
+    const auto real = [&](std::size_t i) { return std::stod(part[i]); };
+    if (std::regex_match(line, part, kMessage)) {
+      const auto identifier = static_cast<std::uint32_t>(number(1));
+      EXPECT_EQ(file.messages.count(identifier), 0u) << line;
+      latest = &file.messages[identifier];
+      latest->name = part[2];
+      latest->length = static_cast<int>(number(3));
+      latest->sender = part[4];
+    } else if (std::regex_match(line, part, kSignal) && latest != nullptr) {
+      for (const DbcSignal& other : latest->signals) EXPECT_NE(other.name, part[1]) << line;
+      latest->signals.push_back({.name = part[1],
+                                 .unit = part[8],
+                                 .receivers = part[9],
+                                 .start = static_cast<int>(number(2)),
+                                 .bits = static_cast<int>(number(3)),
+                                 .factor = real(4),
+                                 .offset = real(5),
+                                 .low = real(6),
+                                 .high = real(7)});
+    } else if (std::regex_match(line, part, kComment)) {
+      file.messages.at(static_cast<std::uint32_t>(number(1))).comment = part[2];
+    } else if (std::regex_match(line, part, kAttribute)) {
+      file.messages.at(static_cast<std::uint32_t>(number(2))).attributes[part[1]] = part[3].str() + part[4].str();
+    } else if (std::regex_match(line, part, kNodes)) {
+      std::istringstream names(part[1]);
+      for (std::string name; names >> name;) file.nodes.push_back(name);
+    } else {
+      EXPECT_TRUE(std::regex_match(line, kOther)) << line;
+    }
+  }
+  return file;
+}
+
+}  // namespace ttf::schedules

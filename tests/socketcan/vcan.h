@@ -1,0 +1,47 @@
+// A CAN of the kernel's for tests: skipped, with the reason, where there is none to be had.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <string>
+
+#include "bus/socketcan/interface.h"
+
+namespace ttf::socketcan {
+
+// Runs a command as one would type it; whether it succeeded.
+inline bool run(const std::string& command) { return std::system((command + " >/dev/null 2>&1").c_str()) == 0; }
+
+// Everything behind the last ": " of a problem: the command that helps.
+inline std::string command_in(const std::string& problem) { return problem.substr(problem.rfind(": ") + 2); }
+
+// Where vcan0 is there for CAN FD, as docs/socketcan.md says.
+class OnVcan : public ::testing::Test {
+ protected:
+  static constexpr const char* kName = "vcan0";
+  void SetUp() override {
+    if (const std::string problem = interface_problem(kName, interface_state(kName), true); !problem.empty())
+      GTEST_SKIP() << kName << ": " << problem;
+  }
+};
+
+// An interface of the test's own, to be changed at will: needs a kernel with vcan, and CAP_NET_ADMIN.
+class OwnVcan : public ::testing::Test {
+ protected:
+  static constexpr const char* kName = "vcan97";
+  void SetUp() override {
+    const InterfaceState state = interface_state(kName);
+    if (!state.raw) GTEST_SKIP() << interface_problem(kName, state, true);
+    if (geteuid() != 0) GTEST_SKIP() << "only root makes interfaces";
+    run(std::string("ip link del dev ") + kName);
+    if (!run(std::string("ip link add dev ") + kName + " type vcan")) GTEST_SKIP() << "no vcan can be made here";
+  }
+  void TearDown() override { run(std::string("ip link del dev ") + kName); }
+  static void ip(const std::string& what) {
+    ASSERT_TRUE(run(std::string("ip link set dev ") + kName + " " + what)) << what;
+  }
+};
+
+}  // namespace ttf::socketcan

@@ -1,0 +1,113 @@
+#!/usr/bin/env bash
+# can-utils as strangers on vcan0 and vcan1, and a process of ours (vcan_peer.cc): each must see of the other what
+# docs/socketcan.md says.
+#   strangers.sh VCAN_PEER     exit code 77, with the reason, where there is no vcan or no can-utils; 1 if something is wrong
+set -euo pipefail
+peer=$(realpath "$1")
+cd "$(dirname "$0")/../.."
+page=docs/socketcan.md
+
+for program in candump cansend cangen canplayer ip; do
+  PATH=$PATH:/usr/sbin:/sbin command -v "$program" >/dev/null || { echo "skipped: no $program (Debian: can-utils, iproute2)"; exit 77; }
+done
+export PATH=$PATH:/usr/sbin:/sbin
+for interface in vcan0 vcan1; do
+  if ! reason=$("$peer" listen "$interface" A 1 2>&1 >/dev/null); then
+    echo "skipped: $reason"
+    exit 77
+  fi
+done
+
+run=$(mktemp -d)
+trap 'kill $(jobs -p) 2>/dev/null || true; rm -rf "$run"' EXIT
+fail() {
+  echo "FAILED: $*"
+  exit 1
+}
+# wait_for FILE TEXT: until a process in the background is ready, 10 s at most.
+wait_for() {
+  for _ in $(seq 1000); do
+    ! grep -q "$2" "$1" 2>/dev/null || return 0
+    sleep 0.01
+  done
+  fail "no '$2' in $1: $(cat "$1")"
+}
+# Until so many sockets on that interface have said that they want its frames.
+wait_for_receivers() {
+  for _ in $(seq 1000); do
+    [[ $(grep -c "^ *$1 " /proc/net/can/rcvlist_all) -lt $2 ]] || return 0
+    sleep 0.01
+  done
+  fail "fewer than $2 receivers on $1"
+}
+# The page's examples for that interface, from the identifier on, as candump shows them.
+examples() { sed -nE "s/^    $1 +([0-9A-F]{3} .*)/\1/p" "$page"; }
+shown() { sed -E 's/^ *vcan[0-9]+ +//; s/ +$//' "$1"; }
+# 001  [08]  01 02 ...  ->  001##10102...
+as_cansend() { sed -E 's/^([0-9A-F]+) +\[[0-9]+\] +/\1##1/; s/ //g'; }
+
+echo "what cansend sends as the page says, we understand; what we say of it, candump shows as the page says"
+for channel in A:vcan0 B:vcan1; do
+  examples "${channel#*:}" >"$run/expected"
+  [[ -s $run/expected ]] || fail "no examples of ${channel#*:} in $page"
+  candump -T 1000 vcan1 >"$run/shown" &
+  candump -L -T 1000 vcan1 >"$run/recorded" &
+  wait_for_receivers vcan1 2
+  "$peer" listen vcan0 "${channel%:*}" 500 vcan1 >"$run/heard" 2>"$run/ready" &
+  wait_for "$run/ready" listening
+  as_cansend <"$run/expected" | while read -r frame; do cansend vcan0 "$frame"; done
+  wait
+  diff <(shown "$run/shown") "$run/expected" || fail "candump sees another frame on channel ${channel%:*}"
+  grep -q ' foreign 0 malformed 0 displaced 0 abandoned 0 lost 0' "$run/heard" || fail "$(tail -1 "$run/heard")"
+  # What candump -L recorded, canplayer says again.
+  "$peer" listen vcan0 "${channel%:*}" 500 >"$run/replayed" 2>"$run/ready" &
+  wait_for "$run/ready" listening
+  canplayer -I "$run/recorded" vcan0=vcan1
+  wait
+  diff "$run/heard" "$run/replayed" || fail "a replay is something else"
+done
+
+echo "strangers' frames are counted and ignored, while three of ours go on"
+"$peer" listen vcan0 A 5000 >"$run/heard" 2>"$run/ready" &
+listener=$!
+wait_for "$run/ready" listening
+start=$(($(date +%s) + 2))
+nodes=()
+for slot in 1 2 3; do
+  "$peer" node vcan0 A "$slot" 3 200 "$start" >"$run/node_$slot" &
+  nodes+=($!)
+done
+sleep "$((start - $(date +%s)))"
+cangen vcan0 -g 2 -n 100 -I i -L 8 -D r
+cangen vcan0 -g 2 -n 100 -I i -L 8 -D r -e
+cangen vcan0 -g 2 -n 100 -I i -L i -D r -f
+for node in "${nodes[@]}"; do wait "$node" || fail "a node lost frames: $(tail -qn1 "$run"/node_*)"; done
+wait "$listener"
+read -r _ complete _ _ _ foreign _ malformed _ displaced _ _ _ lost <<<"$(tail -1 "$run/heard")"
+[[ $complete -eq 600 && $foreign -eq 200 && $((malformed + displaced)) -eq 100 && $lost -eq 0 ]] ||
+  fail "600 complete, 200 foreign, 100 malformed: $(tail -1 "$run/heard")"
+
+echo "what nobody reads is counted"
+"$peer" deaf vcan0 64 3000 >"$run/deaf" 2>"$run/ready" &
+wait_for "$run/ready" listening
+cangen vcan0 -g 0 -n 500 -I i -L 64 -f
+wait
+read -r _ heard _ lost <"$run/deaf"
+[[ $heard -ge 64 && $lost -gt 0 && $((heard + lost)) -eq 500 ]] || fail "500 sent, $(cat "$run/deaf")"
+
+if [[ $(id -u) -eq 0 ]]; then
+  echo "an interface that goes down ends in a clear sentence"
+  ip link del dev vcan98 2>/dev/null || true
+  ip link add dev vcan98 type vcan
+  ip link set vcan98 mtu 72 up
+  "$peer" listen vcan98 A 60000 >"$run/heard" 2>"$run/ready" &
+  listener=$!
+  wait_for "$run/ready" listening
+  ip link set vcan98 down
+  code=0
+  wait "$listener" || code=$?
+  ip link del dev vcan98
+  [[ $code -eq 1 ]] && grep -qx 'vcan98: the interface went down during the run: ip link set vcan98 up' "$run/ready" ||
+    fail "exit code $code: $(cat "$run/ready")"
+fi
+echo "strangers: all as the page says"

@@ -1,0 +1,202 @@
+// One process on a vcan, for the scripts next to it: hears FlexRay frames on CAN FD, and says some.
+//
+//   vcan_peer listen INTERFACE A|B IDLE_MS [ONTO]
+//       Prints every frame and symbol of that channel until nothing has come for IDLE_MS, then what it counted. With ONTO, a
+//       second interface, all that is complete is said again there. Exit code 1 and one sentence if the interface fails.
+//   vcan_peer node INTERFACE A|B SLOT NODES CYCLES START_S
+//       Sends a frame in its slot of CYCLES cycles of 5 ms from that second (CLOCK_REALTIME) on, and prints what it hears from
+//       the other NODES - 1: the kernel's stamp, the instant of reading, slot, cycle and payload.
+//   vcan_peer deaf INTERFACE FRAMES MS
+//       Has room for that many frames, reads nothing for that long, then prints how many it heard and how many were lost.
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/timerfd.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bus/socketcan/flexray_on_can.h"
+#include "bus/socketcan/socket.h"
+#include "core/errors.h"
+
+namespace {
+
+using namespace ttf;
+using namespace ttf::socketcan;
+using schedules::Channel;
+
+constexpr std::int64_t kSecond = 1'000'000'000, kCycle = 5'000'000, kSlot = 100'000;
+
+std::int64_t now_ns() {
+  timespec now{};
+  clock_gettime(CLOCK_REALTIME, &now);
+  return std::int64_t{now.tv_sec} * kSecond + now.tv_nsec;
+}
+
+Channel channel_of(std::string_view name) { return name == "B" ? Channel::kB : Channel::kA; }
+
+std::string hex(std::span<const std::byte> bytes) {
+  std::string text;
+  for (const std::byte byte : bytes) text += fmt::format("{:02X}", static_cast<unsigned>(byte));
+  return text;
+}
+
+std::string described(Channel channel, const Arrival& arrival) {
+  if (arrival.signal != bus::Signal::kFrame)
+    return fmt::format("{} of {} ns", arrival.signal == bus::Signal::kCas      ? "CAS"
+                                      : arrival.signal == bus::Signal::kWakeup ? "wake-up"
+                                                                               : "noise",
+                       arrival.duration.ns);
+  const wire::DecodedFrame frame = wire::decode_frame(channel, arrival.frame);
+  return fmt::format("slot {} cycle {} {}{}{}", arrival.slot, frame.header.cycle,
+                     frame.error == wire::FrameError::kNone ? "" : "broken ", frame.header.null_frame ? "null " : "",
+                     hex(frame.payload));
+}
+
+int failed(const Socket& socket) {
+  fmt::print(stderr, "{}\n", socket.failure());
+  return 1;
+}
+
+bool send_all(Socket& socket, std::span<const canfd_frame> frames) {
+  for (const canfd_frame& can : frames)
+    if (socket.send(can) != Status::kDone) return false;
+  return true;
+}
+
+int listen(const std::string& interface, Channel channel, std::int64_t idle_ms, const std::string& onto) {
+  Socket socket({.interface = interface, .filters = {}});
+  std::vector<Socket> out;
+  if (!onto.empty()) out.emplace_back(SocketOptions{.interface = onto, .filters = {}});
+  fmt::print(stderr, "listening\n");
+  Reassembly reassembly(channel);
+  for (;;) {
+    Received received;
+    Status status = socket.receive(received);
+    if (status == Status::kNothing) {
+      socket.wait(Duration::milliseconds(idle_ms));
+      status = socket.receive(received);
+    }
+    if (status == Status::kNothing) break;
+    if (status != Status::kDone) return failed(socket);
+    const Arrival arrival = reassembly.arrive(received.can);
+    if (arrival.outcome != Outcome::kComplete) continue;
+    fmt::print("{}\n", described(channel, arrival));
+    if (out.empty()) continue;
+    const bool done = arrival.signal == bus::Signal::kFrame
+                          ? send_all(out[0], frame_to_can(arrival.slot, arrival.frame).all())
+                          : out[0].send(symbol_to_can(channel, arrival.signal, arrival.duration)) == Status::kDone;
+    if (!done) return failed(out[0]);
+  }
+  fmt::print("complete {} fragments {} foreign {} malformed {} displaced {} abandoned {} lost {}\n",
+             reassembly.count(Outcome::kComplete), reassembly.count(Outcome::kFragment),
+             reassembly.count(Outcome::kForeign), reassembly.count(Outcome::kMalformed),
+             reassembly.count(Outcome::kDisplaced), reassembly.abandoned(), socket.lost());
+  return 0;
+}
+
+// Frames of all lengths take their turns, fragments among them.
+bool send_frame(Socket& socket, Channel channel, int slot, int cycle) {
+  const std::size_t words = static_cast<std::size_t>((slot * 17 + cycle * 5) % 128);
+  std::vector<std::byte> payload(2 * words, static_cast<std::byte>(slot + cycle));
+  wire::FrameHeader header;
+  header.frame_id = static_cast<std::uint16_t>(slot);
+  header.cycle = static_cast<std::uint8_t>(cycle % 64);
+  std::array<std::byte, wire::kMaxFrameBytes> frame{};
+  const std::size_t size = wire::encode_frame(header, channel, payload, frame);
+  return send_all(socket, frame_to_can(slot, std::span(frame).first(size)).all());
+}
+
+// Wakes at an instant, to the microsecond; a timeout of poll()'s comes up to a thousandth of its length late.
+class Alarm {
+ public:
+  Alarm() : descriptor_(timerfd_create(CLOCK_REALTIME, TFD_CLOEXEC)) { prctl(PR_SET_TIMERSLACK, 1UL); }
+  ~Alarm() { close(descriptor_); }
+  Alarm(const Alarm&) = delete;
+  Alarm& operator=(const Alarm&) = delete;
+
+  void set(std::int64_t at) {
+    itimerspec when{};
+    when.it_value = {.tv_sec = at / kSecond, .tv_nsec = at % kSecond};
+    timerfd_settime(descriptor_, TFD_TIMER_ABSTIME, &when, nullptr);
+  }
+  // Until the instant that was set has come, or something is there to be received.
+  void wait(const Socket& socket) const {
+    pollfd either[] = {{.fd = descriptor_, .events = POLLIN, .revents = 0},
+                       {.fd = socket.descriptor(), .events = POLLIN, .revents = 0}};
+    poll(either, 2, -1);
+  }
+
+ private:
+  int descriptor_;
+};
+
+// Prints what has been said until that instant.
+bool hear_until(Socket& socket, Channel channel, Reassembly& reassembly, Alarm& alarm, std::int64_t until) {
+  alarm.set(until);
+  for (;;) {
+    Received received;
+    const Status status = socket.receive(received);
+    if (status == Status::kNothing) {
+      if (now_ns() >= until) return true;
+      alarm.wait(socket);
+      continue;
+    }
+    if (status != Status::kDone) return false;
+    const std::int64_t read_at = now_ns();
+    const Arrival arrival = reassembly.arrive(received.can);
+    fmt::print("{} {} {} {}\n", received.stamp_ns, read_at, static_cast<int>(arrival.outcome),
+               arrival.outcome == Outcome::kComplete ? described(channel, arrival) : "");
+  }
+}
+
+int node(const std::string& interface, Channel channel, int slot, int nodes, int cycles, std::int64_t start) {
+  Socket socket({.interface = interface, .filters = {}});
+  Reassembly reassembly(channel);
+  Alarm alarm;
+  for (int cycle = 0; cycle < cycles; ++cycle) {
+    if (!hear_until(socket, channel, reassembly, alarm, start + cycle * kCycle + slot * kSlot)) return failed(socket);
+    if (!send_frame(socket, channel, slot, cycle)) return failed(socket);
+  }
+  if (!hear_until(socket, channel, reassembly, alarm, start + cycles * kCycle + kCycle)) return failed(socket);
+  const auto expected = static_cast<std::uint64_t>((nodes - 1) * cycles);
+  fmt::print("complete {} of {} lost {}\n", reassembly.count(Outcome::kComplete), expected, socket.lost());
+  return reassembly.count(Outcome::kComplete) == expected && socket.lost() == 0 ? 0 : 1;
+}
+
+int deaf(const std::string& interface, int frames, std::int64_t ms) {
+  Socket socket({.interface = interface, .receive_buffer_frames = frames, .filters = {}});
+  fmt::print(stderr, "listening\n");
+  const timespec pause{.tv_sec = ms / 1000, .tv_nsec = ms % 1000 * 1'000'000};
+  nanosleep(&pause, nullptr);
+  int heard = 0;
+  for (Received received; socket.receive(received) == Status::kDone;) ++heard;
+  fmt::print("heard {} lost {}\n", heard, socket.lost());
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  const auto number = [&](std::size_t i) { return std::atoll(words[i].c_str()); };
+  const auto whole = [&](std::size_t i) { return static_cast<int>(number(i)); };
+  try {
+    if (words.size() >= 4 && words[0] == "listen")
+      return listen(words[1], channel_of(words[2]), number(3), words.size() > 4 ? words[4] : "");
+    if (words.size() == 7 && words[0] == "node")
+      return node(words[1], channel_of(words[2]), whole(3), whole(4), whole(5), number(6) * kSecond);
+    if (words.size() == 4 && words[0] == "deaf") return deaf(words[1], whole(2), number(3));
+  } catch (const InputError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return 2;
+  }
+  fmt::print(stderr, "vcan_peer listen|node|deaf ...: the beginning of vcan_peer.cc says how\n");
+  return 2;
+}

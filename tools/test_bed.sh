@@ -1,0 +1,135 @@
+#!/usr/bin/env bash
+# Runs a command on a Linux with real SocketCAN and virtual time, whatever the machine's own kernel has: a User-Mode Linux
+# kernel is an ordinary program. Sleeping costs no time there and computing no virtual time, so that the same command takes
+# the same virtual instants, however fast or busy the machine is.
+#   tools/test_bed.sh [--seconds N] COMMAND [ARGUMENT...]
+#   tools/test_bed.sh --build       only builds the kernel, once: some 3 minutes on two cores
+# The command runs as root of that Linux, with this machine's files (and the rights of whoever started this), in this folder
+# and with this environment; vcan0, vcan1 and lo are up, vcan ones for CAN FD. /proc, /sys, /dev and /run are its own. Its exit
+# code is this script's. After N seconds (default 300) of this machine's time everything is ended: exit code 124; 125 if the
+# kernel went down before the command ended.
+# What does not end there: waiting for something in a loop that does not sleep. It stops virtual time.
+set -euo pipefail
+project=$(cd "$(dirname "$0")/.." && pwd)
+cache=$project/build/test-bed
+symbols=$project/tools/test_bed/kernel.symbols
+package=linux-source-6.1
+source=/usr/src/$package.tar.xz
+
+fail() {
+  echo "test bed: $*" >&2
+  exit 2
+}
+
+version=$(dpkg-query -W -f='${Version}' "$package" 2>/dev/null) && [[ -f $source ]] ||
+  fail "$package is not installed: tools/install_deps.sh --gates"
+[[ $(uname -m) == x86_64 ]] || fail "User-Mode Linux is built for x86_64, this is $(uname -m)"
+# This kernel has room for 2696 bytes of a program's floating-point registers, and the machine's own wants them whole (11008 with
+# AMX) or not at all; what is too much it leaves alone. The stacks these are on grow with it (KERNEL_STACK_ORDER).
+register_bytes=12288
+kernel=$cache/linux-$version-$({ cat "$symbols"; echo "$register_bytes"; } | sha256sum | cut -c1-12)
+
+build() {
+  local work=$cache/work options=(ARCH=um LOCALVERSION= KBUILD_BUILD_TIMESTAMP=@0 KBUILD_BUILD_USER=ttfusion KBUILD_BUILD_HOST=ttfusion)
+  command -v ccache >/dev/null && options+=("CC=ccache gcc")
+  rm -rf "$work"
+  mkdir -p "$work/out"
+  tar -xJf "$source" -C "$work"
+  local offsets=$work/$package/arch/x86/um/user-offsets.c
+  sed -i "s/HOST_FP_SIZE, 2696/HOST_FP_SIZE, $register_bytes/" "$offsets"
+  grep -q "HOST_FP_SIZE, $register_bytes" "$offsets"
+  sed -E '/^(#|$)/d; s/^[^=]+$/&=y/; s/^/CONFIG_/' "$symbols" >"$work/fragment"
+  make -C "$work/$package" O="$work/out" "${options[@]}" KCONFIG_ALLCONFIG="$work/fragment" allnoconfig
+  # A symbol that this kernel does not know, or not on these terms, is not silently left out.
+  if grep -vxFf "$work/out/.config" "$work/fragment"; then
+    echo "these symbols are not what they should be" >&2
+    return 1
+  fi
+  make -C "$work/$package" O="$work/out" "${options[@]}" -j"$(nproc)" linux
+  rm -f "$cache"/linux-*   # of earlier versions
+  mv "$work/out/linux" "$kernel"
+  rm -rf "$work"
+}
+
+if [[ ! -x $kernel ]]; then
+  mkdir -p "$cache"
+  exec 9>"$cache/lock"
+  flock 9   # one builds, the others wait for it
+  if [[ ! -x $kernel ]]; then
+    echo "test bed: building the kernel, $package $version (its words: $cache/build.log)" >&2
+    set +e   # of which `build || ...` would make nothing inside build
+    (set -e; build) >"$cache/build.log" 2>&1 9>&-
+    built=$?
+    set -e
+    [[ $built -eq 0 ]] || { tail -n 5 "$cache/build.log" >&2; fail "the kernel was not built: $cache/build.log"; }
+  fi
+  exec 9>&-
+fi
+
+seconds=300
+case ${1:-} in
+  --build) exit 0 ;;
+  --seconds) seconds=$2 && shift 2 ;;
+esac
+[[ $# -gt 0 ]] || fail "which command? tools/test_bed.sh [--seconds N] COMMAND [ARGUMENT...]"
+
+run=$(mktemp -d "${TMPDIR:-/tmp}/test-bed.XXXXXX")
+leader=
+end() {
+  if [[ -n $leader ]]; then
+    kill -KILL -- "-$leader" 2>/dev/null || true
+    wait "$leader" 2>/dev/null || true
+  fi
+  rm -rf "$run"
+}
+trap end EXIT
+trap 'exit 130' INT
+trap 'exit 143' TERM
+
+quoted() { printf '%q ' "$@"; }
+{
+  echo '#!/bin/bash'
+  export -p
+  cat <<INIT
+# What comes before the command may use no more than is there: kernel file systems first.
+exec >>$(quoted "$run/init") 2>&1
+export PATH=\$PATH:/usr/sbin:/sbin
+busybox mount -t proc proc /proc
+busybox mount -t sysfs sysfs /sys
+busybox mount -t tmpfs tmpfs /run
+mkdir -p /dev/shm
+busybox mount -t tmpfs tmpfs /dev/shm
+ln -sfn /proc/self/fd /dev/fd
+ip link set lo up
+for interface in vcan0 vcan1; do
+  ip link add dev \$interface type vcan && ip link set \$interface mtu 72 up
+done
+cd $(quoted "$PWD")
+$(quoted "$@") >$(quoted "$run/stdout") 2>$(quoted "$run/stderr")
+echo \$? >$(quoted "$run/rc.new")
+mv $(quoted "$run/rc.new") $(quoted "$run/rc")
+busybox poweroff -f
+INIT
+} >"$run/init.sh"
+chmod +x "$run/init.sh"
+: >"$run/stdout"
+: >"$run/stderr"
+
+# In a session of its own: what it starts on this machine is one process group.
+setsid "$kernel" root=none rootfstype=hostfs rootflags=/ rw mem=512M "init=$run/init.sh" con=null con0=null,fd:1 \
+  "uml_dir=$run" umid=bed time-travel=inf-cpu time-travel-start=1000000000000000000 \
+  >"$run/console" 2>&1 </dev/null &
+leader=$!
+deadline=$((SECONDS + seconds))
+while kill -0 "$leader" 2>/dev/null && [[ $SECONDS -lt $deadline ]]; do sleep 0.1; done
+
+cat "$run/stdout"
+cat "$run/stderr" >&2
+[[ -f $run/rc ]] && exit "$(cat "$run/rc")"
+if [[ $SECONDS -ge $deadline ]]; then
+  echo "test bed: ended after $seconds s: $(quoted "$@")" >&2
+  exit 124
+fi
+echo "test bed: the kernel went down; its last words:" >&2
+tail -n 20 -- "$run/init" "$run/console" >&2
+exit 125
