@@ -277,10 +277,9 @@ Microticks FlexRayController::next_event() const { return state_->due; }
 bool FlexRayController::answers_at_once() const {
   const State& s = *state_;
   if (!synchronised()) return true;
-  const bool has_dynamic = std::any_of(kChannels.begin(), kChannels.end(), [&s](schedules::Channel channel) {
-    return !s.slots.own_dynamic(channel).empty();
-  });
-  return has_dynamic && s.segment == State::Segment::kDynamic;
+  return s.segment == State::Segment::kDynamic &&
+         std::any_of(schedules::kBothChannels.begin(), schedules::kBothChannels.end(),
+                     [&s](schedules::Channel channel) { return !s.slots.own_dynamic(channel).empty(); });
 }
 
 void FlexRayController::advance(Microticks now) {

@@ -145,7 +145,8 @@ void tell_result(const NodeSet& set, const VirtualLaunch& drive, const launch::R
     fmt::print("{}\n", json.dump(2));
     return;
   }
-  fmt::print("{}\n{}{}", set.scenario.description, startup_text(results), comparison_table(results));
+  fmt::print("{}\n{}{}", set.scenario.description, startup_text(results, set.scenario.startup.cold),
+             comparison_table(results));
   if (!set.scenario.faults.empty())
     fmt::print("\n{}", faults_text(nodes::name_of(set.strategy), result->faults, result->fault_free, set.cluster));
 }

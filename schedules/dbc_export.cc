@@ -48,7 +48,8 @@ class DbcWriter {
       for (const CanMessage& message : bus->messages) {
         if (!identifiers.insert(message.identifier).second)
           throw InputError(Finding{cluster.file, message.line, "identifier", fmt::format("{}", message.identifier),
-                                   "is on two CANs, and a DBC file has one message per identifier: --can NAME writes one CAN"});
+                                   "is on two CANs, and a DBC file has one message per identifier: --can NAME writes "
+                                   "one CAN"});
         messages_.push_back({bus, &message, identifier_like(cluster.pdu(message.pdu).name, message_names_)});
       }
   }
@@ -96,7 +97,8 @@ class DbcWriter {
   // A big-endian signal is named by its most significant bit; bits count up from each byte's least significant one.
   void put_signal(const Signal& signal, int first_bit, const std::string& name, const std::string& receivers) {
     text_ += fmt::format(" SG_ {} : {}|{}@0+ ({},{}) [{}|{}] {} {}\n", name, first_bit / 8 * 8 + 7 - first_bit % 8,
-                         signal.bits, signal.resolution, signal.low, signal.low, signal.high, quoted(signal.unit), receivers);
+                         signal.bits, signal.resolution, signal.low, signal.low, signal.high, quoted(signal.unit),
+                         receivers);
   }
 
   void put_message(const Message& message) {
@@ -120,8 +122,9 @@ class DbcWriter {
     const std::string elements =
         layout.max_fragments() == 1
             ? "One frame is a list: the elements below count are valid."
-            : fmt::format("One frame is a fragment of a list of up to {} elements in {} fragments, which have one sequence number; "
-                          "NAME_k is element {} * fragment + k of the list, valid if that is less than count.",
+            : fmt::format("One frame is a fragment of a list of up to {} elements in {} fragments, which have one "
+                          "sequence number; NAME_k is element {} * fragment + k of the list, valid if that is less "
+                          "than count.",
                           layout.max_elements, layout.max_fragments(), layout.elements_per_fragment);
     text_ += fmt::format("CM_ BO_ {} {};\n", message.message->identifier,
                          quoted(fmt::format("{} Lists are queued at least {} ms apart.", elements,

@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
-# Runs a command on a Linux with real SocketCAN and virtual time, whatever the machine's own kernel has: a User-Mode Linux
-# kernel is an ordinary program. Sleeping costs no time there and computing no virtual time, so that the same command takes
-# the same virtual instants, however fast or busy the machine is.
+# Runs a command on a Linux with real SocketCAN and virtual time, whatever the machine's own kernel has: a User-Mode
+# Linux kernel is an ordinary program. Sleeping costs no time there and computing no virtual time, so that the same
+# command takes the same virtual instants, however fast or busy the machine is.
 #   tools/test_bed.sh [--seconds N] COMMAND [ARGUMENT...]
 #   tools/test_bed.sh --build       only builds the kernel, once: some 3 minutes on two cores
-# The command runs as root of that Linux, with this machine's files (and the rights of whoever started this), in this folder
-# and with this environment; vcan0, vcan1 and lo are up, vcan ones for CAN FD. /proc, /sys, /dev and /run are its own. Its exit
-# code is this script's. After N seconds (default 300) of this machine's time everything is ended: exit code 124; 125 if the
-# kernel went down before the command ended.
-# What does not end there: waiting for something in a loop that does not sleep. It stops virtual time.
+# The command runs as root of that Linux, with this machine's files (and the rights of whoever started this), in this
+# folder and with this environment; vcan0, vcan1 and lo are up, vcan ones for CAN FD. /proc, /sys, /dev and /run are
+# its own. Its exit code is this script's. After N seconds (default 300) of this machine's time everything is ended:
+# exit code 124; 125 if the kernel went down before the command ended. What does not end there: waiting for something
+# in a loop that does not sleep. It stops virtual time.
 set -euo pipefail
 project=$(cd "$(dirname "$0")/.." && pwd)
 cache=$project/build/test-bed
@@ -24,13 +24,15 @@ fail() {
 version=$(dpkg-query -W -f='${Version}' "$package" 2>/dev/null) && [[ -f $source ]] ||
   fail "$package is not installed: tools/install_deps.sh --gates"
 [[ $(uname -m) == x86_64 ]] || fail "User-Mode Linux is built for x86_64, this is $(uname -m)"
-# This kernel has room for 2696 bytes of a program's floating-point registers, and the machine's own wants them whole (11008 with
-# AMX) or not at all; what is too much it leaves alone. The stacks these are on grow with it (KERNEL_STACK_ORDER).
+# This kernel has room for 2696 bytes of a program's floating-point registers, and the machine's own wants them whole
+# (11008 with AMX) or not at all; what is too much it leaves alone. The stacks these are on grow with it
+# (KERNEL_STACK_ORDER).
 register_bytes=12288
 kernel=$cache/linux-$version-$({ cat "$symbols"; echo "$register_bytes"; } | sha256sum | cut -c1-12)
 
 build() {
-  local work=$cache/work options=(ARCH=um LOCALVERSION= KBUILD_BUILD_TIMESTAMP=@0 KBUILD_BUILD_USER=ttfusion KBUILD_BUILD_HOST=ttfusion)
+  local work=$cache/work
+  local options=(ARCH=um LOCALVERSION= KBUILD_BUILD_TIMESTAMP=@0 KBUILD_BUILD_USER=ttfusion KBUILD_BUILD_HOST=ttfusion)
   command -v ccache >/dev/null && options+=("CC=ccache gcc")
   rm -rf "$work"
   mkdir -p "$work/out"

@@ -70,8 +70,7 @@ void Exchange::Member::wait_ready(std::chrono::milliseconds patience) {
     all_ready_ = said && everybody(ready_) && (!session_.supervised || ready_.contains(kSupervisor));
     if (all_ready_) return;
     if (Clock::now() >= deadline) give_up(patience);
-    control_.connections_changed();   // of no interest yet, but seen
-    data_.connections_changed();
+    note_lost();   // of no interest yet
     wait(deadline);
   }
 }
@@ -116,26 +115,28 @@ bus::Exchange::Heard Exchange::Member::receive() {
 std::optional<Exchange::Member::Clock::time_point> Exchange::Member::look_around() {
   if (nobody_left()) throw std::runtime_error("exchange: " + node(self_) + ": nobody is left to be heard");
   if (supervisor_left_) throw std::runtime_error("exchange: the supervisor has left");
+  note_lost();
   std::optional<Clock::time_point> until;
-  const auto now = Clock::now();
-  const auto look = [&](Clock::time_point limit, const std::string& sentence) {
-    if (now >= limit) throw std::runtime_error(sentence);
+  for (const auto& [id, limit] : lost_) {
+    if (gone_.contains(id)) continue;
+    if (Clock::now() >= limit)
+      throw std::runtime_error(fmt::format("exchange: {} has fallen silent: DDS has lost it", node(id)));
     until = std::min(until.value_or(limit), limit);
-  };
-  const bool data_changed = data_.connections_changed();
-  if (control_.connections_changed() || data_changed) {
-    const auto note = [&](NodeId id) {
-      if (!control_.lost(id))
-        lost_.erase(id);
-      else if (!gone_.contains(id))
-        lost_.try_emplace(id, now + session_.lease);
-    };
-    if (session_.supervised) note(kSupervisor);   // it knows best who else is gone
-    else for (const auto& entry : others_) note(entry.first);
   }
-  for (const auto& [id, limit] : lost_)
-    if (!gone_.contains(id)) look(limit, fmt::format("exchange: {} has fallen silent: DDS has lost it", node(id)));
   return until;
+}
+
+void Exchange::Member::note_lost() {
+  const bool data_changed = data_.connections_changed();
+  if (!control_.connections_changed() && !data_changed) return;
+  const auto note = [&](NodeId id) {
+    if (control_.lost(id))
+      lost_.try_emplace(id, Clock::now() + session_.lease);
+    else
+      lost_.erase(id);
+  };
+  if (session_.supervised) return note(kSupervisor);   // it knows best who else is gone
+  for (const auto& entry : others_) note(entry.first);
 }
 
 void Exchange::Member::wait(std::optional<Clock::time_point> until) {

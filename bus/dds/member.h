@@ -68,6 +68,8 @@ class Exchange::Member {
   bool nobody_left() const { return gone_.size() == others_.size(); }
   // Throws where waiting on would be in vain; else until when it need not be looked at again.
   std::optional<Clock::time_point> look_around();
+  // Whom DDS has lost, and found again.
+  void note_lost();
   void wait(std::optional<Clock::time_point> until);
 
   const Session session_;

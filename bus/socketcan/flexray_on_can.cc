@@ -96,8 +96,8 @@ std::size_t can_fd_length(std::size_t bytes) {
 
 CanFrames frame_to_can(int slot, std::span<const std::byte> frame) {
   TTF_CHECK(slot >= 1 && slot <= kLastSlot, "slot {}", slot);
-  TTF_CHECK(frame.size() >= wire::kHeaderBytes + wire::kTrailerBytes && frame.size() <= wire::kMaxFrameBytes, "{} bytes",
-            frame.size());
+  TTF_CHECK(frame.size() >= wire::kHeaderBytes + wire::kTrailerBytes && frame.size() <= wire::kMaxFrameBytes,
+            "{} bytes", frame.size());
   CanFrames can;
   if (goes_whole(slot, frame)) {
     can.count = 1;

@@ -1,21 +1,22 @@
 // FlexRay on CAN FD: what of a FlexRay channel travels in which bytes on a CAN interface. Pure functions and one state;
 // docs/socketcan.md describes the same for those who look at the bus with candump.
 //
-//   identifier        11 bits: the slot in which the frame is sent, 1..2047; 0 for symbols, because no slot has that number
+//   identifier        11 bits: the slot in which the frame is sent, 1..2047; 0 for symbols, as no slot has that number
 //   whole frame       header, payload, frame CRC, as FlexRay has them: 8..64 bytes
-//   fragments         of what does not fit, or is no frame by its own header: three bytes in front of up to 61 of the frame
+//   fragments         of what does not fit, or is no frame by its own header: three bytes before up to 61 of the frame
 //                       byte 0   1 0 lll iii   number of the last fragment, of this one, both from 0
 //                       byte 1   n 0 cccccc    top bit of the frame's length, cycle count
 //                       byte 2   nnnnnnnn      the frame's length in bytes, lower bits
-//   symbol            kind (1 CAS or MTS, 2 wake-up, 3 noise), duration in ns (4 bytes, most significant first), CRC-24 of these
-//                     five with the channel's initial value
+//   symbol            kind (1 CAS or MTS, 2 wake-up, 3 noise), duration in ns (4 bytes, most significant first), CRC-24
+//                     of these five with the channel's initial value
 //
-// CAN FD has no frame of, say, 26 bytes: zeros follow up to the next length there is. How long a whole frame is, its header says,
-// whose CRC must hold; bit 7 of byte 0, reserved in FlexRay and sent as 0, tells the two forms apart. What is sent has one
-// form only, and a receiver takes no other. Fragments follow one another on the bus: another frame between them ends them.
+// CAN FD has no frame of, say, 26 bytes: zeros follow up to the next length there is. How long a whole frame is, its
+// header says, whose CRC must hold; bit 7 of byte 0, reserved in FlexRay and sent as 0, tells the two forms apart.
+// What is sent has one form only, and a receiver takes no other. Fragments follow one another on the bus: another
+// frame between them ends them.
 //
-// Nothing here allocates, throws, or looks at a clock. The frame CRC is not judged here: a frame that is broken arrives as
-// one, as on FlexRay (wire::decode_frame).
+// Nothing here allocates, throws, or looks at a clock. The frame CRC is not judged here: a frame that is broken
+// arrives as one, as on FlexRay (wire::decode_frame).
 #pragma once
 
 #include <linux/can.h>
@@ -67,7 +68,7 @@ struct Arrival {
   int slot = 0;                       // of a complete frame or a fragment, displaced or not
   bus::Signal signal{};               // of what is complete
   Duration duration{};                // of a symbol
-  std::span<const std::byte> frame{};   // of a complete frame: valid until the next arrival, and as long as what arrived is
+  std::span<const std::byte> frame{};   // of a complete frame: valid as long as what arrived is, until the next arrival
 };
 
 // One channel's receiver: one per interface.

@@ -75,7 +75,8 @@ std::string interface_problem(const std::string& name, const InterfaceState& sta
     return "this kernel has no CAN sockets (AF_CAN): modprobe can_raw && modprobe vcan, in a container on its host";
   if (!state.raw) return "this kernel has no raw CAN sockets (CAN_RAW): modprobe can_raw, in a container on its host";
   if (!state.there) {
-    if (name.empty() || name.size() >= IFNAMSIZ) return fmt::format("interfaces have names of 1..{} bytes", IFNAMSIZ - 1);
+    if (name.empty() || name.size() >= IFNAMSIZ)
+      return fmt::format("interfaces have names of 1..{} bytes", IFNAMSIZ - 1);
     if (is_virtual(name))
       return fmt::format("no such interface: ip link add dev {} type {} && {}", name, name[1] == 'x' ? "vxcan" : "vcan",
                          bring_up(name, flexible_data_rate));

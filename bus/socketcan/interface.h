@@ -18,8 +18,8 @@ struct InterfaceState {
 // Asks the kernel; changes nothing. Throws std::runtime_error where the kernel's answer is none of these.
 InterfaceState interface_state(const std::string& name);
 
-// What keeps that interface from being used, and the command that helps: one sentence, empty where there is nothing. With
-// `flexible_data_rate` it must carry CAN FD.
+// What keeps that interface from being used, and the command that helps: one sentence, empty where there is nothing.
+// With `flexible_data_rate` it must carry CAN FD.
 std::string interface_problem(const std::string& name, const InterfaceState& state, bool flexible_data_rate);
 
 }  // namespace ttf::socketcan

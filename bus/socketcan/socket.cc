@@ -83,8 +83,8 @@ void Socket::size_receive_buffer(int frames) {
   socklen_t size = sizeof granted;
   getsockopt(descriptor_, SOL_SOCKET, SO_RCVBUF, &granted, &size);
   if (granted < wanted)
-    shortage_ = fmt::format("{}: the receive buffer holds {} frames, not {}: sysctl -w net.core.rmem_max={}", interface_,
-                            granted / kBytesPerFrame, frames, asked);
+    shortage_ = fmt::format("{}: the receive buffer holds {} frames, not {}: sysctl -w net.core.rmem_max={}",
+                            interface_, granted / kBytesPerFrame, frames, asked);
 }
 
 Socket::~Socket() {
@@ -174,7 +174,8 @@ std::uint32_t Socket::lost() const {
 
 std::string Socket::failure() const {
   switch (state_) {
-    case Status::kDown: return fmt::format("{}: the interface went down during the run: ip link set {} up", interface_, interface_);
+    case Status::kDown:
+      return fmt::format("{0}: the interface went down during the run: ip link set {0} up", interface_);
     case Status::kGone: return fmt::format("{}: the interface was removed during the run", interface_);
     case Status::kFailed: return fmt::format("{}: {}", interface_, words_of(error_));
     case Status::kDone:

@@ -1,10 +1,11 @@
 // A raw CAN socket on one interface, ready for CAN FD: what every process on SocketCAN speaks through.
 //
-// What is wrong with the interface ends set-up with one sentence and the command that helps. Afterwards nothing throws: what the
-// network does is a value. A frame that the kernel had no room for is counted, one by one; none is lost silently.
+// What is wrong with the interface ends set-up with one sentence and the command that helps. Afterwards nothing
+// throws: what the network does is a value. A frame that the kernel had no room for is counted, one by one; none is
+// lost silently.
 //
-// Stamps are the kernel's when the frame reached the interface, CLOCK_REALTIME. A frame that its sender had queued with a
-// transmission time (SO_TXTIME) carries that time instead: such stamps say nothing about its arrival.
+// Stamps are the kernel's when the frame reached the interface, CLOCK_REALTIME. A frame that its sender had queued
+// with a transmission time (SO_TXTIME) carries that time instead: such stamps say nothing about its arrival.
 #pragma once
 
 #include <linux/can.h>

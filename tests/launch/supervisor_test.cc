@@ -142,8 +142,8 @@ TEST_F(Supervising, ARequiredOnesFailureStopsAllAndIsTheExitCode) {
 }
 
 TEST_F(Supervising, ASignalIs128More) {
-  EXPECT_EQ(run(config({{"fusion", Policy::kRequired, child({"ready", "start", "raise:11"})}})).exit_code, 139);
-  EXPECT_THAT(shown(), HasSubstr("fusion: signal 11 (Segmentation fault)\n"));
+  EXPECT_EQ(run(config({{"fusion", Policy::kRequired, child({"ready", "start", "raise:10"})}})).exit_code, 138);
+  EXPECT_THAT(shown(), HasSubstr("fusion: signal 10 (User defined signal 1)\n"));
 }
 
 // The one that fails while all are being stopped is not the first.

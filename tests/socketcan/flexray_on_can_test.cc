@@ -69,7 +69,8 @@ TEST(FlexRayOnCan, WhatFitsIsTheFrameItself) {
   EXPECT_EQ(bytes_of(data_of(can.frames[0])), frame);
 }
 
-// What a fault made of a frame at its sender arrives as that, however long it is, and is told from a sound one by its receiver.
+// What a fault made of a frame at its sender arrives as that, however long it is, and is told from a sound one by its
+// receiver.
 TEST(FlexRayOnCan, BrokenFramesArriveAsTheyWereSent) {
   RandomStream draw({.seed = 7});
   for (std::size_t size = 8; size <= wire::kMaxFrameBytes; ++size)
@@ -142,8 +143,8 @@ TEST(FlexRayOnCan, ForeignFramesAreToldAndDoNoHarm) {
   EXPECT_EQ(receiver.abandoned(), 0u);
 }
 
-// Every byte of every CAN frame, zeros behind the end included, every value it could have: what comes of it is refused here, or by
-// the FlexRay decoder, or is what was sent. Never another frame.
+// Every byte of every CAN frame, zeros behind the end included, every value it could have: what comes of it is
+// refused here, or by the FlexRay decoder, or is what was sent. Never another frame.
 TEST(FlexRayOnCan, NoCorruptedByteMakesAnotherFrame) {
   std::uint64_t refused = 0, broken = 0;
   for (const int words : {0, 1, 2, 9, 27, 28, 29, 30, 57, 58, 60, 127}) {

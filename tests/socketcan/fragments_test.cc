@@ -138,11 +138,13 @@ TEST_F(Fragments, AreNotForFramesThatGoWhole) {
   }
 }
 
-// Drawn sequences of two frames' fragments, some lost, some twice, some swapped. Laws: what is complete is one of the frames as
-// it was sent, and every frame whose fragments came in order with nothing in between is complete.
+// Drawn sequences of two frames' fragments, some lost, some twice, some swapped. Laws: what is complete is one of the
+// frames as it was sent, and every frame whose fragments came in order with nothing in between is complete.
 TEST_F(Fragments, InAnyOrderMakeNoOtherFrame) {
   RandomStream draw({.seed = 3});
-  const auto below = [&](std::size_t n) { return static_cast<std::size_t>(draw.integer(0, static_cast<std::int64_t>(n) - 1)); };
+  const auto below = [&](std::size_t n) {
+    return static_cast<std::size_t>(draw.integer(0, static_cast<std::int64_t>(n) - 1));
+  };
   std::uint64_t complete = 0;
   for (int trial = 0; trial < 3000; ++trial) {
     std::vector<Bytes> frames;

@@ -40,7 +40,8 @@ TEST(InterfaceProblem, ComesWithTheCommandThatHelps) {
   EXPECT_EQ(interface_problem("a_name_of_20_bytes__", absent, true), "interfaces have names of 1..15 bytes");
   EXPECT_EQ(interface_problem("lo", but([](auto& s) { s.can = false; }), true),
             "not a CAN interface: ip -details link show type can lists those there are");
-  EXPECT_EQ(interface_problem("vcan0", but([](auto& s) { s.up = false; }), true), "not up: ip link set vcan0 mtu 72 up");
+  EXPECT_EQ(interface_problem("vcan0", but([](auto& s) { s.up = false; }), true),
+            "not up: ip link set vcan0 mtu 72 up");
   EXPECT_EQ(interface_problem("can0", but([](auto& s) { s.up = false; }), true),
             "not up: ip link set can0 up type can bitrate 1000000 dbitrate 5000000 fd on");
   EXPECT_EQ(interface_problem("can0", but([](auto& s) { s.up = false; }), false),

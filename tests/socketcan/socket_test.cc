@@ -104,7 +104,8 @@ TEST_F(SocketOnVcan, ClassicFramesAreToldFromCanFd) {
 
 TEST_F(SocketOnVcan, FiltersLetThroughWhatMatches) {
   Socket sender({.interface = kName, .filters = {}});
-  Socket receiver({.interface = kName, .filters = {{0x100, CAN_EFF_FLAG | CAN_SFF_MASK}, {0x206, CAN_EFF_FLAG | 0x7fe}}});
+  Socket receiver(
+      {.interface = kName, .filters = {{0x100, CAN_EFF_FLAG | CAN_SFF_MASK}, {0x206, CAN_EFF_FLAG | 0x7fe}}});
   for (const canid_t identifier : {0x0ffu, 0x100u, 0x101u, 0x206u, 0x207u, 0x208u, 0x100u | CAN_EFF_FLAG})
     ASSERT_EQ(sender.send(can_fd(identifier, 8, 0)), Status::kDone);
   std::vector<canid_t> heard;

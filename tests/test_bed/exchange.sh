@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Ten processes in ten slots of vcan0, 300 cycles, and one that only listens: what each heard, and when, into a folder. Where
-# time is virtual it is the same each time, to the nanosecond.
+# Ten processes in ten slots of vcan0, 300 cycles, and one that only listens: what each heard, and when, into a
+# folder. Where time is virtual it is the same each time, to the nanosecond.
 #   exchange.sh VCAN_PEER FOLDER
 set -euo pipefail
 peer=$1

@@ -1,16 +1,18 @@
 #!/usr/bin/env bash
 # can-utils as strangers on vcan0 and vcan1, and a process of ours (vcan_peer.cc): each must see of the other what
 # docs/socketcan.md says.
-#   strangers.sh VCAN_PEER     exit code 77, with the reason, where there is no vcan or no can-utils; 1 if something is wrong
+#   strangers.sh VCAN_PEER    exit code 77, with the reason, where there is no vcan or no can-utils; 1 if a test fails
 set -euo pipefail
 peer=$(realpath "$1")
 cd "$(dirname "$0")/../.."
 page=docs/socketcan.md
 
-for program in candump cansend cangen canplayer ip; do
-  PATH=$PATH:/usr/sbin:/sbin command -v "$program" >/dev/null || { echo "skipped: no $program (Debian: can-utils, iproute2)"; exit 77; }
-done
 export PATH=$PATH:/usr/sbin:/sbin
+for program in candump cansend cangen canplayer ip; do
+  command -v "$program" >/dev/null && continue
+  echo "skipped: no $program (Debian: can-utils, iproute2)"
+  exit 77
+done
 for interface in vcan0 vcan1; do
   if ! reason=$("$peer" listen "$interface" A 1 2>&1 >/dev/null); then
     echo "skipped: $reason"

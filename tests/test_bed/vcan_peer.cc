@@ -1,13 +1,14 @@
 // One process on a vcan, for the scripts next to it: hears FlexRay frames on CAN FD, and says some.
 //
 //   vcan_peer listen INTERFACE A|B IDLE_MS [ONTO]
-//       Prints every frame and symbol of that channel until nothing has come for IDLE_MS, then what it counted. With ONTO, a
-//       second interface, all that is complete is said again there. Exit code 1 and one sentence if the interface fails.
+//       Prints every frame and symbol of that channel until nothing has come for IDLE_MS, then what it counted. With
+//       ONTO, a second interface, all that is complete is said again there. Exit code 1 and one sentence if an interface
+//       fails.
 //   vcan_peer node INTERFACE A|B SLOT NODES CYCLES START_S
-//       Sends a frame in its slot of CYCLES cycles of 5 ms from that second (CLOCK_REALTIME) on, and prints what it hears from
-//       the other NODES - 1: the kernel's stamp, the instant of reading, slot, cycle and payload.
+//       Sends a frame in its slot of CYCLES cycles of 5 ms from that second (CLOCK_REALTIME) on, and prints what it hears
+//       from the other NODES - 1: the kernel's stamp, the instant of reading, slot, cycle and payload.
 //   vcan_peer deaf INTERFACE FRAMES MS
-//       Has room for that many frames, reads nothing for that long, then prints how many it heard and how many were lost.
+//       Has room for that many frames, reads nothing for that long, then prints how many it heard and how many it lost.
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/prctl.h>
