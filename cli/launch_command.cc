@@ -7,8 +7,8 @@
 #include <fstream>
 #include <map>
 #include <memory>
-#include <optional>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "cli/commands.h"
 #include "cli/drive_setup.h"
@@ -20,6 +20,7 @@
 #include "cli/launch/preflight.h"
 #include "cli/launch/run_folder.h"
 #include "cli/launch/shell_text.h"
+#include "cli/launch/signal_watch.h"
 #include "cli/launch/supervisor.h"
 #include "cli/node_set.h"
 #include "core/errors.h"
@@ -156,12 +157,15 @@ int run_plan(LaunchPlan plan, const LaunchArguments& arguments) {
   facts.update(facts_of(plan.set));
   launch::RunFolder folder(plan.set.folder, std::move(facts), std::chrono::system_clock::now());
   for (const launch::NodeSpec& node : plan.nodes) std::filesystem::remove(folder.log_path(node.name));   // an earlier launch's
+  // Before the exchange begins a thread, which would take signals else.
+  std::optional<launch::SignalWatch> held_back(std::in_place);
   VirtualLaunch drive(plan.set);
   launch::SupervisorConfig config;
   config.nodes = std::move(plan.nodes);
   config.screen = STDERR_FILENO;
   config.folder = &folder;
   const launch::Outcome outcome = launch::Supervisor(std::move(config), drive.hooks()).run();
+  held_back.reset();   // what comes now may be interrupted as ever
   tell_result(plan.set, drive, folder, arguments);
   std::fflush(stdout);   // both may go to one file
   fmt::print(stderr, "written to {}\n", plan.set.folder);

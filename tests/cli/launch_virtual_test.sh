@@ -99,5 +99,21 @@ wait "$required"
 code=$?
 [[ $code -eq 137 ]] || fail "a launch whose fusion is killed exits with $code"
 
+# Interrupted, as by Ctrl-C, it stops in order and says so.
+"$program" launch "$drive" --virtual-time --duration 600 --no-pictures --out "$work/interrupted" >/dev/null 2>"$work/interrupted.err" &
+interrupted=$!
+wait_begun "$work/interrupted"
+kill -INT "$interrupted"
+wait "$interrupted"
+code=$?
+[[ $code -eq 130 ]] || fail "an interrupted launch exits with $code: $(cat "$work/interrupted.err")"
+grep -q 'stopping: interrupted (SIGINT)' "$work/interrupted.err" || fail "an interrupted launch does not say so"
+python3 - "$work/interrupted/manifest.json" <<'PY' || fail "the manifest of an interrupted launch is not complete"
+import json, sys
+manifest = json.load(open(sys.argv[1]))
+assert manifest["state"] == "ended" and manifest["exit_code"] == 130, manifest
+assert all(process["ended"] for node in manifest["nodes"] for process in node["processes"]), manifest
+PY
+
 [[ $failures -eq 0 ]] && echo "launch in virtual time: the records of a single process"
 exit $((failures > 0))
