@@ -1,8 +1,10 @@
-// Any CAN frames, in any order, to a channel's receiver. Laws: an outcome is a value, and counted; what is complete is what sending
-// it makes of it, CAN frame by CAN frame, each of which arrived in this order; nothing is abandoned that was not begun.
+// Any CAN frames, in any order, to a channel's receiver. Laws: an outcome is a value, and counted; what is complete
+// is what sending it makes of it, CAN frame by CAN frame, each of which arrived in this order; nothing is abandoned
+// that was not begun.
 //
-// First byte: channel (bit 0). Then frames, each begun by a byte: bits 0 and 1, where it comes from (any bytes as a CAN frame; any
-// bytes as a FlexRay frame that is sent; the same with right CRCs; a CAN frame sent before), bit 2, one of its bytes is changed.
+// First byte: channel (bit 0). Then frames, each begun by a byte: bits 0 and 1, where it comes from (any bytes as a
+// CAN frame; any bytes as a FlexRay frame that is sent; the same with right CRCs; a CAN frame sent before), bit 2,
+// one of its bytes is changed.
 #include <algorithm>
 #include <array>
 #include <vector>

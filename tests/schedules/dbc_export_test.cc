@@ -24,7 +24,8 @@ class DbcOfShipped : public testing::TestWithParam<std::string> {
   const Cluster cluster_ = load_checked_cluster(shipped_path(GetParam()));
 };
 
-// What the reader makes of a frame by the file alone is what our own decoder makes of it: every signal of every element.
+// What the reader makes of a frame by the file alone is what our own decoder makes of it: every signal of every
+// element.
 TEST_P(DbcOfShipped, DecodesEveryFrameAsWeDo) {
   const DbcFile file = read_dbc(dbc_text(cluster_));
   ASSERT_EQ(file.nodes.size(), cluster_.nodes.size());
@@ -100,14 +101,16 @@ TEST(Dbc, ShippedFilesAreWhatTheClustersSay) {
   // The CANs of the other paradigm are the same.
   for (const auto& [one, other] : {std::pair{"paper_synchronised", "paper_unsynchronised"},
                                    std::pair{"laser_radar", "laser_radar_synchronised"}}) {
-    const DbcFile a = read_dbc(dbc_text(load_cluster(shipped_path(one)))), b = read_dbc(dbc_text(load_cluster(shipped_path(other))));
+    const DbcFile a = read_dbc(dbc_text(load_cluster(shipped_path(one))));
+    const DbcFile b = read_dbc(dbc_text(load_cluster(shipped_path(other))));
     ASSERT_EQ(a.messages.size(), b.messages.size()) << one;
     for (const auto& [identifier, message] : a.messages) {
       ASSERT_EQ(b.messages.count(identifier), 1u) << one;
       const DbcMessage& twin = b.messages.at(identifier);
       EXPECT_EQ(message.name, twin.name);
       ASSERT_EQ(message.signals.size(), twin.signals.size());
-      for (std::size_t s = 0; s < message.signals.size(); ++s) EXPECT_EQ(message.signals[s].start, twin.signals[s].start);
+      for (std::size_t s = 0; s < message.signals.size(); ++s)
+        EXPECT_EQ(message.signals[s].start, twin.signals[s].start);
     }
   }
 }
@@ -116,8 +119,9 @@ TEST(Dbc, ShippedFilesAreWhatTheClustersSay) {
 TEST(Dbc, CommentsSayHowListsAreCut) {
   const DbcFile file = read_dbc(dbc_text(load_cluster(shipped_path("paper_synchronised"))));
   EXPECT_EQ(file.messages.at(256).comment,
-            "One frame is a fragment of a list of up to 1300 elements in 93 fragments, which have one sequence number; NAME_k is "
-            "element 14 * fragment + k of the list, valid if that is less than count. Lists are queued at least 79 ms apart.");
+            "One frame is a fragment of a list of up to 1300 elements in 93 fragments, which have one sequence number; "
+            "NAME_k is element 14 * fragment + k of the list, valid if that is less than count. Lists are queued at "
+            "least 79 ms apart.");
   const DbcFile alone = read_dbc(dbc_text(load_cluster(shipped_path("laser_radar"))));
   for (const auto& [identifier, message] : alone.messages)
     EXPECT_EQ(message.comment.rfind("One frame is a list", 0), 0u) << identifier;
@@ -155,7 +159,8 @@ TEST(Dbc, RefusesWhatOneFileCannotSay) {
   cluster.can_buses[1].messages[0].identifier = cluster.can_buses[0].messages[0].identifier;
   cluster.can_buses[1].messages[0].line = 7;
   EXPECT_EQ(refusal(cluster, ""),
-            "a.yaml:7: identifier = 256: is on two CANs, and a DBC file has one message per identifier: --can NAME writes one CAN");
+            "a.yaml:7: identifier = 256: is on two CANs, and a DBC file has one message per identifier: --can NAME "
+            "writes one CAN");
   for (const CanBus& bus : cluster.can_buses) EXPECT_EQ(refusal(cluster, bus.name), "");
   cluster.can_buses.clear();
   EXPECT_EQ(refusal(cluster, ""), "a.yaml: has no private CAN to write a DBC file of");

@@ -1,5 +1,5 @@
-// A reader of DBC files for tests, with nothing of the writer's in it: messages, signals, and what a signal's bits say by the
-// format's own rules. Lines it does not know fail the test.
+// A reader of DBC files for tests, with nothing of the writer's in it: messages, signals, and what a signal's bits
+// say by the format's own rules. Lines it does not know fail the test.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -55,8 +55,8 @@ struct DbcFile {
 inline DbcFile read_dbc(const std::string& text) {
   static const std::string kName = "([A-Za-z_][A-Za-z0-9_]*)", kNumber = "(-?[0-9.]+(?:[eE][-+]?[0-9]+)?)";
   static const std::regex kMessage("BO_ ([0-9]+) " + kName + ": ([0-9]+) " + kName);
-  static const std::regex kSignal(" SG_ " + kName + " : ([0-9]+)\\|([0-9]+)@0\\+ \\(" + kNumber + "," + kNumber + "\\) \\[" +
-                                  kNumber + "\\|" + kNumber + "\\] \"([^\"]*)\" ([A-Za-z0-9_,]+)");
+  static const std::regex kSignal(" SG_ " + kName + " : ([0-9]+)\\|([0-9]+)@0\\+ \\(" + kNumber + "," + kNumber +
+                                  "\\) \\[" + kNumber + "\\|" + kNumber + "\\] \"([^\"]*)\" ([A-Za-z0-9_,]+)");
   static const std::regex kComment("CM_ BO_ ([0-9]+) \"([^\"]*)\";");
   static const std::regex kAttribute("BA_ \"([A-Za-z]+)\" BO_ ([0-9]+) (?:\"([^\"]*)\"|([0-9]+));");
   static const std::regex kNodes("BU_:((?: [A-Za-z_][A-Za-z0-9_]*)*)");

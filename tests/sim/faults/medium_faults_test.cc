@@ -133,7 +133,8 @@ TEST(MediumFaults, NoiseEndsWithItsFault) {
     FaultBus bus(with({fault}));
     bus.run(5 * 30);
     EXPECT_EQ(bus.acts(), 1U);
-    EXPECT_EQ(bus.said(0).count(2, bus::kSyntaxError | bus::kNoFrame), 1) << nodes::name_of(kind);
+    EXPECT_EQ(bus.said(0).count(2, bus::kBoundaryViolation), 1) << nodes::name_of(kind);
+    EXPECT_EQ(bus.said(0).count(2, bus::kNoFrame), 0) << nodes::name_of(kind);
     for (const Said::Problem& problem : bus.said(0).problems) EXPECT_LE(problem.cycle, 10) << nodes::name_of(kind);
     EXPECT_EQ(bus.simulation().medium().carrier(NodeId{0}, Channel::kA, bus.simulation().now()), false);
   }
