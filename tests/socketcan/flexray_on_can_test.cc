@@ -155,8 +155,9 @@ TEST(FlexRayOnCan, NoCorruptedByteMakesAnotherFrame) {
         for (unsigned flip = 1; flip < 256; ++flip) {
           Reassembly receiver(Channel::kA);
           Arrival last;
+          canfd_frame one{};   // `last` refers to what arrived
           for (std::size_t k = 0; k < can.count; ++k) {
-            canfd_frame one = can.frames[k];
+            one = can.frames[k];
             if (k == i) one.data[at] = static_cast<std::uint8_t>(one.data[at] ^ flip);
             last = receiver.arrive(one);
             ASSERT_TRUE(k + 1 == can.count || last.outcome != Outcome::kComplete || !sound(Channel::kA, last, 515))
