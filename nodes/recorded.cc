@@ -53,7 +53,8 @@ void RecordedScene::states_at(TrueTime at, std::vector<world::ObjectState>& out)
   });
   out.clear();
   // The last row's own instant is the recording's, too; what is before the first and behind it nobody knows.
-  const bool at_the_end = after == rows_.end() && (at - start_).ns == 1000 * rows_.back().time_us_from_start;
+  const std::int64_t ns = (at - start_).ns;
+  const bool at_the_end = after == rows_.end() && ns % 1000 == 0 && ns / 1000 == rows_.back().time_us_from_start;
   if (after == rows_.begin() || (after == rows_.end() && !at_the_end)) return;
   const auto& a = *(after - 1);
   const auto& b = after == rows_.end() ? rows_.back() : *after;

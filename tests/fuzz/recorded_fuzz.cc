@@ -50,7 +50,7 @@ void check_laser_radar(const std::string& text) {
   std::vector<world::ObjectState> states;
   for (const Duration at : {Duration{-1}, Duration{}, Duration::milliseconds(50), Duration::milliseconds(3'600'000)}) {
     scene.states_at(TrueTime{} + at, states);
-    const bool recorded = at.ns >= 0 && at.ns <= input.truth.back().time_us_from_start * 1000;
+    const bool recorded = at.ns >= 0 && (at.ns + 999) / 1000 <= input.truth.back().time_us_from_start;
     TTF_CHECK(states.size() == (recorded ? 1u : 0u), "{} states", states.size());
     TTF_CHECK(!recorded || (std::isfinite(states[0].x) && std::isfinite(states[0].y) && std::isfinite(states[0].speed)),
               "at {} ns", at.ns);
