@@ -35,15 +35,20 @@ void FlexRayController::State::send_static(Microticks at) {
   const bool null_frame = starting || (slot.pdu != kNoPdu && content.payload.empty());
   const Microticks end = at + bits(schedules::frame_bits(g, g.gPayloadLengthStatic));
   const Channel last_channel = includes(slot.channels, Channel::kB) ? Channel::kB : Channel::kA;
-  if (p.pKeySlotUsedForSync && slot.slot == p.pKeySlotId) sync.own(slot.slot, slot.channels);
   if (slot.network_management && !null_frame) network_management.combine(network_management.own());
+  unsigned left = 0;   // bits of Channels
   for (const Channel channel : schedules::kBothChannels)
-    if (includes(slot.channels, channel))
-      send_frame(slot, channel, at, end, content, null_frame, content.last && channel == last_channel);
+    if (includes(slot.channels, channel) &&
+        send_frame(slot, channel, at, end, content, null_frame, content.last && channel == last_channel))
+      left |= 1u << index_of(channel);
+  // What nobody hears tells this node no more of the cluster's time than it tells the others.
+  if (left != 0 && p.pKeySlotUsedForSync && slot.slot == p.pKeySlotId)
+    sync.own(slot.slot, static_cast<schedules::Channels>(left));
 }
 
-void FlexRayController::State::send_frame(const FrameSlot& slot, Channel channel, Microticks at, Microticks end,
+bool FlexRayController::State::send_frame(const FrameSlot& slot, Channel channel, Microticks at, Microticks end,
                                           const Cni::Fragment& content, bool null_frame, bool last) {
+  if (!port.may_leave(channel, slot.slot, at)) return false;
   const bool is_static = slot.slot <= g.gNumberOfStaticSlots;
   wire::FrameHeader header;
   header.frame_id = static_cast<std::uint16_t>(slot.slot);
@@ -74,6 +79,7 @@ void FlexRayController::State::send_frame(const FrameSlot& slot, Channel channel
   sending_to[index_of(channel)] = end;
   port.transmit(transmission);
   events.frame_sent(transmission, clock->cycle(), null_frame, slot.pdu, content.sequence, slot.fragment, last);
+  return true;
 }
 
 // Finds this node's next dynamic slot on the channel, as the slot counter stands. A reception changes the counter, and
@@ -118,6 +124,7 @@ void FlexRayController::State::send_dynamic(Channel channel, Microticks at) {
 }
 
 void FlexRayController::State::send_symbol(Signal signal, Channel channel, Microticks at, Microticks end) {
+  if (!port.may_leave(channel, 0, at)) return;
   sending_from[index_of(channel)] = at;
   sending_to[index_of(channel)] = end;
   port.transmit({channel, signal, at, end, 0, {}});

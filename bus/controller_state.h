@@ -124,7 +124,8 @@ struct FlexRayController::State {
   std::size_t preamble_bytes(const schedules::FrameSlot& slot) const {
     return static_cast<std::size_t>(schedules::preamble_bytes(g, slot));
   }
-  void send_frame(const schedules::FrameSlot& slot, schedules::Channel channel, Microticks at, Microticks end,
+  // False: it was too late for it.
+  bool send_frame(const schedules::FrameSlot& slot, schedules::Channel channel, Microticks at, Microticks end,
                   const Cni::Fragment& content, bool null_frame, bool last);
   void send_symbol(Signal signal, schedules::Channel channel, Microticks at, Microticks end);
   Microticks cas_length() const;

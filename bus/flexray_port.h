@@ -53,6 +53,11 @@ class FlexRayPort {
  public:
   virtual ~FlexRayPort() = default;
   virtual void transmit(const Transmission& transmission) = 0;
+  // Whether a frame or, in slot 0, a symbol that should leave at `start` still may: else it is not sent at all. Only real
+  // time knows of too late.
+  virtual bool may_leave(schedules::Channel channel, int slot, Microticks start) {
+    return (void)channel, (void)slot, (void)start, true;
+  }
   // Whether something is arriving just now.
   virtual bool carrier(schedules::Channel channel) const = 0;
   // Whether the next transmission's bytes are looked at; a medium that carries contents can do without.

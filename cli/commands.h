@@ -1,5 +1,5 @@
-// The commands of the one program. Each registers itself and runs when the command line names it; exit codes: 0 done, 1 a
-// stated condition does not hold, 2 bad usage or input.
+// The commands of the one program. Each registers itself and runs when the command line names it; exit codes: 0 done,
+// 1 a stated condition does not hold, 2 bad usage or input.
 #pragma once
 
 #include <CLI/CLI.hpp>

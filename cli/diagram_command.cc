@@ -12,9 +12,11 @@
 #include "core/counted.h"
 #include "core/errors.h"
 #include "nodes/laser/laser_preprocessor.h"
+#include "recording/lateness_sums.h"
 #include "recording/merge.h"
 #include "recording/recorded_input.h"
 #include "report/boxes_picture.h"
+#include "report/lateness_picture.h"
 #include "report/position_plot.h"
 #include "report/render.h"
 #include "report/startup_diagram.h"
@@ -71,8 +73,9 @@ std::string boxes(const DiagramOptions& options) {
   const auto scans = recording::read_lidar_scans(options.logs[0]);
   const int frame = options.frame.value_or(0);
   if (frame >= static_cast<int>(scans.size()))
-    throw InputError({"command line", 0, "--frame", fmt::format("{}", frame),
-                      fmt::format("must be 0..{}: the recording has {}", scans.size() - 1, counted(scans.size(), "scan"))});
+    throw InputError(
+        {"command line", 0, "--frame", fmt::format("{}", frame),
+         fmt::format("must be 0..{}: the recording has {}", scans.size() - 1, counted(scans.size(), "scan"))});
   const recording::RecordedScan& scan = scans[static_cast<std::size_t>(frame)];
   std::vector<nodes::ScanPoint> points;
   std::vector<report::Point> drawn;
@@ -86,8 +89,8 @@ std::string boxes(const DiagramOptions& options) {
   for (const nodes::LaserObject& object : objects)
     rectangles.push_back({object.x, object.y, object.heading, object.length, object.width, ""});
   return report::boxes_svg(drawn, rectangles,
-                           fmt::format("Scan {}: {}, {} box{}", scan.frame, counted(points.size(), "return"), objects.size(),
-                                       objects.size() == 1 ? "" : "es"));
+                           fmt::format("Scan {}: {}, {} box{}", scan.frame, counted(points.size(), "return"),
+                                       objects.size(), objects.size() == 1 ? "" : "es"));
 }
 
 // The whole start-up and two cycles after it, unless told.
@@ -102,6 +105,20 @@ std::string startup(const DiagramOptions& options) {
                                  window.to.value_or(whole.second));
   run.read(diagram);
   return diagram.svg();
+}
+
+// Of the whole run: a histogram has no window.
+std::string lateness(const DiagramOptions& options) {
+  for (const auto& [name, seconds] : {std::pair("--from", options.from_s), std::pair("--to", options.to_s)})
+    if (seconds >= 0.0)
+      throw InputError({"command line", 0, name, fmt::format("{:g} s", seconds),
+                        "does not go with --kind lateness, which is of the whole run"});
+  const recording::MergedLogs run = one_run(options.logs);
+  recording::LatenessSums sums;
+  run.read(sums);
+  if (sums.nodes().empty())
+    throw InputError({options.logs[0], 0, "", "", "tells of no lateness: the run was not in real time"});
+  return report::lateness_svg(sums.nodes(), names_of(run.manifest()));
 }
 
 std::string timing(const recording::MergedLogs& run, TrueTime from, TrueTime to) {
@@ -141,6 +158,10 @@ int run_diagram(const DiagramOptions& options) {
     throw InputError({"command line", 0, "--frame", fmt::format("{}", *options.frame), "goes with --kind boxes only"});
   if (options.kind == "startup") {
     report::write_picture(startup(options), options.out);
+    return 0;
+  }
+  if (options.kind == "lateness") {
+    report::write_picture(lateness(options), options.out);
     return 0;
   }
   const TimeWindow window = time_window(options.from_s, options.to_s);
@@ -183,15 +204,16 @@ void add_diagram(CLI::App& app, Action& action) {
                    "Start of the window, true time in seconds (default: 0; of a start-up diagram: of the start-up)")
       ->check(CLI::NonNegativeNumber);
   command
-      ->add_option("--to", options->to_s,
-                   "End of the window, true time in seconds (default: the end; of a timing diagram 160 ms after its start; "
-                   "of a start-up diagram two cycles after the start-up)")
+      ->add_option(
+          "--to", options->to_s,
+          "End of the window, true time in seconds (default: the end; of a timing diagram 160 ms after its start; "
+          "of a start-up diagram two cycles after the start-up)")
       ->check(CLI::NonNegativeNumber);
   command
       ->add_option("--kind", options->kind,
-                   "timing, startup (states and what was sent), position (x and y over time), plane (y over x), or boxes "
-                   "(of a recorded laser scan)")
-      ->check(CLI::IsMember({"timing", "startup", "position", "plane", "boxes"}))->capture_default_str();
+                   "timing, startup (states and what was sent), lateness (of wake-ups, in real time), "
+                   "position (x and y over time), plane (y over x), or boxes (of a recorded laser scan)")
+      ->check(CLI::IsMember({"timing", "startup", "lateness", "position", "plane", "boxes"}))->capture_default_str();
   command->add_option("--frame", options->frame, "Which scan of a recording, with --kind boxes")
       ->check(CLI::NonNegativeNumber);
   command->add_option("-o,--out", options->out, "Picture to write: .svg, .png or .pdf")->required();

@@ -25,8 +25,8 @@ std::string hex_hash(const std::string& text);
 // A cluster that has passed its check, ready to run. Throws InputError.
 schedules::Cluster checked_cluster(const std::string& file);
 
-// What --input gives: the observations, and what the manifest says of the file they came from. Its name goes without the
-// folder, so that a log does not depend on where the file lay.
+// What --input gives: the observations, and what the manifest says of the file they came from. Its name goes without
+// the folder, so that a log does not depend on where the file lay.
 struct Recording {
   std::shared_ptr<const recording::RecordedInput> rows;
   std::string name, hash;

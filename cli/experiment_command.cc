@@ -94,7 +94,8 @@ int replay(const ExperimentOptions& options, const CampaignFile& campaign, const
 nlohmann::ordered_json to_json(const experiments::Spread& spread, Duration cycle) {
   if (spread.count == 0) return nullptr;
   const auto cycles = [&](std::int64_t ns) { return static_cast<double>(ns) / static_cast<double>(cycle.ns); };
-  return {{"count", spread.count}, {"median_cycles", cycles(spread.median_ns)}, {"worst_cycles", cycles(spread.worst_ns)}};
+  return {
+      {"count", spread.count}, {"median_cycles", cycles(spread.median_ns)}, {"worst_cycles", cycles(spread.worst_ns)}};
 }
 
 nlohmann::ordered_json to_json(const Coverage& coverage, Duration cycle) {
@@ -129,7 +130,8 @@ std::string harms_text(const ExperimentOptions& options, const CampaignFile& cam
   for (std::size_t v = 0; v < campaign.variants.size(); ++v) {
     if (!campaign.variants[v].guarded()) continue;
     for (const FaultResult& result : results) {
-      if (result.outcomes[v].harms == 0 || !experiments::in_hypothesis(result.drawn.fault) || ++count > kShownHarms) continue;
+      if (result.outcomes[v].harms == 0 || !experiments::in_hypothesis(result.drawn.fault) || ++count > kShownHarms)
+        continue;
       out += fmt::format("fault {}: {}\n  {}\n  ttfusion experiment {} --replay {}\n", result.index,
                          experiments::fault_text(result.drawn, clusters.base),
                          experiments::harm_text(result.outcomes[v], clusters.variants[v]), options.file, result.index);
@@ -139,7 +141,8 @@ std::string harms_text(const ExperimentOptions& options, const CampaignFile& cam
   return out;
 }
 
-std::vector<FaultResult> results_of(const ExperimentOptions& options, const CampaignFile& campaign, const CampaignClusters& clusters) {
+std::vector<FaultResult> results_of(const ExperimentOptions& options, const CampaignFile& campaign,
+                                    const CampaignClusters& clusters) {
   if (!options.merge.empty()) {
     std::vector<std::vector<FaultResult>> shards;
     for (const std::string& folder : options.merge) {

@@ -39,7 +39,8 @@ constexpr std::string_view kUnattributed = "unattributed";
 // Every fault's effects by what it is called in the tables, and last what belongs to none.
 template <class Each>
 void for_each(const FaultFindings& findings, Each each) {
-  for (const FaultSeen& fault : findings.faults) each(fmt::format("{}", fault.fault), fault, std::optional(fault.begins));
+  for (const FaultSeen& fault : findings.faults)
+    each(fmt::format("{}", fault.fault), fault, std::optional(fault.begins));
   each(std::string(kUnattributed), findings.unattributed, std::optional<TrueTime>());
 }
 
@@ -54,7 +55,8 @@ std::string injected_text(const FaultFindings& findings, const schedules::Cluste
 std::string seers(const CheckSeen& seen, const schedules::Cluster& cluster) {
   std::string names = node_names(seen.nodes, cluster);
   for (const auto channel : schedules::kBothChannels)
-    if (seen.guardians[index_of(channel)]) names += fmt::format("{}guardian {}", names.empty() ? "" : ", ", letter(channel));
+    if (seen.guardians[index_of(channel)])
+      names += fmt::format("{}guardian {}", names.empty() ? "" : ", ", letter(channel));
   return names;
 }
 
@@ -78,8 +80,8 @@ std::string guardians_text(const FaultFindings& findings) {
   report::Table table({"#", "guardians", "signals", "first cycle", "first [s]", "why"});
   for_each(findings, [&](const std::string& name, const FaultEffects& effects, std::optional<TrueTime>) {
     for (const GuardianSeen& kept : effects.guardians)
-      table.add({name, kept.cut ? "cut" : "blocked", fmt::format("{}", kept.signals), fmt::format("{}", kept.first_cycle),
-                 cell(kept.first), kept.why});
+      table.add({name, kept.cut ? "cut" : "blocked", fmt::format("{}", kept.signals),
+                 fmt::format("{}", kept.first_cycle), cell(kept.first), kept.why});
   });
   return table.rows() == 0 ? "" : table.text() + "\n";
 }
@@ -102,10 +104,12 @@ std::string harm_words(Harm harm, const HarmSeen& harmed, const schedules::Clust
   const bool often = harmed.times > 1;
   switch (harm) {
     case Harm::kFrameLost:   // of whatever slots and senders
-      return often ? fmt::format("{}: {} lost, the first: {} on any channel", node, counted(harmed.times, "frame"), where)
+      return often ? fmt::format("{}: {} lost, the first: {} on any channel", node, counted(harmed.times, "frame"),
+                                 where)
                    : fmt::format("{}: a frame lost: {} on any channel", node, where);
     case Harm::kFrameForged:
-      return often ? fmt::format("{}: {} of another taken for valid, the first: {}", node, counted(harmed.times, "frame"), where)
+      return often ? fmt::format("{}: {} of another taken for valid, the first: {}", node,
+                                 counted(harmed.times, "frame"), where)
                    : fmt::format("{}: a frame of another taken for valid: {}", node, where);
     case Harm::kLeftActive: return node + " left normal active" + (often ? fmt::format(" {} times", harmed.times) : "");
     case Harm::kNotStarted: return node + " never became normal active";
@@ -115,7 +119,8 @@ std::string harm_words(Harm harm, const HarmSeen& harmed, const schedules::Clust
   return "";
 }
 
-std::string harms_text(const FaultFindings& findings, const std::vector<NodeId>& sound, const schedules::Cluster& cluster) {
+std::string harms_text(const FaultFindings& findings, const std::vector<NodeId>& sound,
+                       const schedules::Cluster& cluster) {
   std::string text;
   for_each(findings, [&](const std::string& name, const FaultEffects& effects, std::optional<TrueTime>) {
     for (const Harm harm : experiments::kAllHarms)
@@ -169,9 +174,12 @@ void add_effects(nlohmann::ordered_json& one, const FaultEffects& effects, const
   one["harms"] = nlohmann::ordered_json::array();
   for (const Harm harm : experiments::kAllHarms)
     for (const HarmSeen& harmed : effects.harms[static_cast<std::size_t>(harm)])
-      one["harms"].push_back({{"harm", name_of(harm)}, {"first_s", seconds(harmed.first)},
-                              {"node", name_or_null(harmed.node, cluster)}, {"sender", name_or_null(harmed.sender, cluster)},
-                              {"slot", harmed.slot}, {"times", harmed.times}});
+      one["harms"].push_back({{"harm", name_of(harm)},
+                              {"first_s", seconds(harmed.first)},
+                              {"node", name_or_null(harmed.node, cluster)},
+                              {"sender", name_or_null(harmed.sender, cluster)},
+                              {"slot", harmed.slot},
+                              {"times", harmed.times}});
 }
 
 }  // namespace

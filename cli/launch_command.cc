@@ -10,11 +10,16 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "cli/can_interfaces.h"
 #include "cli/commands.h"
 #include "cli/drive_setup.h"
 #include "cli/fault_tables.h"
+#include "cli/launch_live.h"
+#include "cli/launch_result.h"
 #include "cli/launch_virtual.h"
+#include "cli/live_topics.h"
 #include "cli/output.h"
+#include "cli/real_time_outputs.h"
 #include "cli/run_outputs.h"
 #include "cli/startup_outputs.h"
 #include "cli/launch/preflight.h"
@@ -27,6 +32,8 @@
 
 namespace ttf::cli {
 namespace {
+
+constexpr const char* kSummary = "summary.json";
 
 struct LaunchArguments {
   NodeSetArguments set;
@@ -84,6 +91,7 @@ std::string new_session() {
 LaunchPlan plan_of(const LaunchArguments& arguments) {
   LaunchPlan plan;
   plan.set = read_node_set(arguments.set);
+  if (plan.set.topics) check_topics(plan.set);
   if (!arguments.session_given) plan.set.session = new_session();
   const std::string program = this_program();
   for (const schedules::Node& node : plan.set.cluster.nodes) {
@@ -95,7 +103,7 @@ LaunchPlan plan_of(const LaunchArguments& arguments) {
     plan.nodes.push_back(std::move(spec));
   }
   set_policies(arguments.policies, plan.set.cluster, plan.nodes);
-  plan.preflight = launch::look_at(plan.set.bus);
+  plan.preflight = launch::look_at(plan.set.bus, private_cans(plan.set.cluster, plan.set.can_interfaces));
   plan.preflight.insert(plan.preflight.begin(), {plan.set.cluster.file, true, "is consistent", {}});
   return plan;
 }
@@ -123,49 +131,65 @@ int show_plan(const LaunchPlan& plan, bool as_json) {
   nlohmann::ordered_json json = facts_of(plan.set);
   json["preflight"] = launch::json_of(plan.preflight);
   for (const launch::NodeSpec& node : plan.nodes)
-    json["nodes"].push_back({{"name", node.name}, {"policy", name_of(node.policy)}, {"command", node.command.arguments}});
+    json["nodes"].push_back(
+        {{"name", node.name}, {"policy", name_of(node.policy)}, {"command", node.command.arguments}});
   fmt::print("{}\n", json.dump(2));
   return 0;
 }
 
 // What came of the drive, from the logs of those who got to its end; nothing where nobody has a log.
-void tell_result(const NodeSet& set, const VirtualLaunch& drive, const launch::RunFolder& folder,
+template <class Launch>
+void tell_result(const NodeSet& set, const Launch& drive, const launch::RunFolder& folder,
                  const LaunchArguments& arguments) {
-  std::vector<std::string> logs;
-  for (const schedules::Node& node : set.cluster.nodes) {
-    const std::string log = folder.log_path(node.name);
-    if (std::filesystem::exists(log)) logs.push_back(log);
-  }
-  const std::optional<StrategyResult> result = drive.result(logs);
+  const std::optional<StrategyResult> result = drive.result(folder.logs());
   if (!result) return;
   const std::vector<StrategyResult> results{*result};
   if (!arguments.no_pictures) write_pictures(set.scenario, results, set.folder);
   const nlohmann::ordered_json json = to_json(set.scenario, set.seed, results);
-  write_file(set.folder + "/summary.json", json.dump(2) + '\n');
+  write_file(fmt::format("{}/{}", set.folder, kSummary), json.dump(2) + '\n');
   if (arguments.json) {
     fmt::print("{}\n", json.dump(2));
     return;
   }
-  fmt::print("{}\n{}{}", set.scenario.description, startup_text(results, set.scenario.startup.cold),
-             comparison_table(results));
+  fmt::print("{}\n{}{}{}", set.scenario.description, startup_text(results, set.scenario.startup.cold),
+             comparison_table(results), real_time_text(*result));
   if (!set.scenario.faults.empty())
     fmt::print("\n{}", faults_text(nodes::name_of(set.strategy), result->faults, result->fault_free, set.cluster));
 }
 
+// What an earlier launch left, so that nobody takes it for this one's; and nothing else that is in the folder.
+void remove_earlier(const std::optional<launch::EarlierLaunch>& earlier, const LaunchPlan& plan,
+                    const launch::RunFolder& folder) {
+  for (const launch::NodeSpec& node : plan.nodes) folder.remove_logs(node.name);
+  if (!earlier) return;
+  for (const std::string& node : earlier->nodes) {
+    folder.remove_logs(node);
+    folder.remove(launch::file_stem(node) + ".txt");
+  }
+  for (const char* const name : {kTruthLog, kSummary}) folder.remove(name);
+  if (earlier->strategy.empty()) return;
+  folder.remove(merged_log(earlier->strategy));
+  for (const std::string& name : picture_files(earlier->strategy)) folder.remove(name);
+}
+
+// `Launch`: LiveLaunch or VirtualLaunch.
+template <class Launch>
 int run_plan(LaunchPlan plan, const LaunchArguments& arguments) {
   nlohmann::ordered_json facts{{"command", command_line()}};
   facts.update(facts_of(plan.set));
+  const auto earlier = launch::earlier_launch(plan.set.folder);
   launch::RunFolder folder(plan.set.folder, std::move(facts), std::chrono::system_clock::now());
-  for (const launch::NodeSpec& node : plan.nodes) std::filesystem::remove(folder.log_path(node.name));   // an earlier launch's
+  remove_earlier(earlier, plan, folder);
   // Before the exchange begins a thread, which would take signals else.
   std::optional<launch::SignalWatch> held_back(std::in_place);
-  VirtualLaunch drive(plan.set);
+  Launch drive(plan.set);
   launch::SupervisorConfig config;
   config.nodes = std::move(plan.nodes);
   config.screen = STDERR_FILENO;
   config.folder = &folder;
   const launch::Outcome outcome = launch::Supervisor(std::move(config), drive.hooks()).run();
   held_back.reset();   // what comes now may be interrupted as ever
+  print_warnings(drive.warnings());
   tell_result(plan.set, drive, folder, arguments);
   std::fflush(stdout);   // both may go to one file
   fmt::print(stderr, "written to {}\n", plan.set.folder);
@@ -175,17 +199,16 @@ int run_plan(LaunchPlan plan, const LaunchArguments& arguments) {
 int run_launch(const LaunchArguments& arguments) {
   LaunchPlan plan = plan_of(arguments);
   if (arguments.dry_run) return show_plan(plan, arguments.json);
-  if (!plan.set.virtual_time)
-    throw InputError({"command line", 0, "", "", "launch needs --virtual-time: this build has no runner in real time"});
   if (!launch::all_good(plan.preflight)) {
     fmt::print(stderr, "{}", launch::text_of(plan.preflight));
     return 1;
   }
+  if (!plan.set.virtual_time) return run_plan<LiveLaunch>(std::move(plan), arguments);
   for (const launch::NodeSpec& node : plan.nodes)
     if (node.policy == launch::Policy::kRestart)
       throw InputError({"command line", 0, "--policy", node.name + "=restart",
                         "must not be given with --virtual-time: nobody would wait for the node to catch up"});
-  return run_plan(std::move(plan), arguments);
+  return run_plan<VirtualLaunch>(std::move(plan), arguments);
 }
 
 }  // namespace

@@ -15,7 +15,8 @@ inline dds::Session session_of(const NodeSet& set, bool supervised) {
   dds::Session session;
   session.name = set.session;
   session.supervised = supervised;
-  for (std::size_t node = 0; node < set.cluster.nodes.size(); ++node) session.members.push_back(static_cast<NodeId>(node));
+  for (std::size_t node = 0; node < set.cluster.nodes.size(); ++node)
+    session.members.push_back(static_cast<NodeId>(node));
   return session;
 }
 

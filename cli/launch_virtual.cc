@@ -1,17 +1,10 @@
 #include "cli/launch_virtual.h"
 
-#include <fmt/format.h>
-
 #include <utility>
 
-#include "cli/drive_setup.h"
+#include "cli/launch_result.h"
 #include "cli/launch_session.h"
 #include "cli/node_drive.h"
-#include "cli/output.h"
-#include "core/errors.h"
-#include "nodes/catalog.h"
-#include "recording/merge.h"
-#include "recording/records/tee.h"
 
 namespace ttf::cli {
 
@@ -27,28 +20,10 @@ launch::Hooks VirtualLaunch::hooks() {
 }
 
 std::optional<StrategyResult> VirtualLaunch::result(const std::vector<std::string>& logs) const {
-  StrategyResult result;
-  result.strategy = set_.strategy;
-  result.cluster = set_.cluster;
+  const std::vector<std::string> readable = readable_logs(logs);
+  if (readable.empty()) return std::nullopt;
+  StrategyResult result = merged_result(set_, readable);
   result.outcome = outcome_;
-  std::vector<recording::StoredLog> stored;
-  for (const std::string& log : logs) {
-    try {
-      stored.emplace_back(log);
-    } catch (const InputError& error) {   // of a node that was killed before it had written anything
-      for (const Finding& finding : error.findings()) print_warnings(finding.sentence());
-    }
-  }
-  if (stored.empty()) return std::nullopt;
-  const recording::MergedLogs merged(std::move(stored));
-  print_warnings(merged.warnings());
-  result.log_path = fmt::format("{}/{}.mcap", set_.folder, nodes::name_of(set_.strategy));
-  recording::write_merged(merged, result.log_path);
-  result.content_hash = recording::ContentHash::text(merged.content_hash().value());
-  DriveJudge judge(set_.scenario, set_.cluster);
-  records::Tee tee(judge.sinks());
-  merged.read(tee);
-  judge.finish(result);
   return result;
 }
 

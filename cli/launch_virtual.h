@@ -18,9 +18,10 @@ class VirtualLaunch {
 
   // A process that ends is announced gone, so that the others go on without it; what a node says it did is added up.
   launch::Hooks hooks();
-  // The nodes' logs as one, STRATEGY.mcap in the folder, and what is made of it. A log that cannot be read at all is left
-  // out, with a warning; nothing where none can.
+  // The nodes' logs as one, STRATEGY.mcap in the folder, and what is made of it. A log that cannot be read at all is
+  // left out, with a warning; nothing where none can.
   std::optional<StrategyResult> result(const std::vector<std::string>& logs) const;
+  std::vector<std::string> warnings() const { return {}; }
 
  private:
   const NodeSet& set_;

@@ -27,11 +27,13 @@ std::string unknown_command(CLI::App& app, int argc, char** argv) {
     const std::string name = argv[i];
     if (name.empty() || name.front() == '-') return "";
     const std::vector<CLI::App*> commands = in->get_subcommands([](CLI::App*) { return true; });
-    const auto command = std::find_if(commands.begin(), commands.end(), [&](CLI::App* one) { return one->get_name() == name; });
+    const auto command =
+        std::find_if(commands.begin(), commands.end(), [&](CLI::App* one) { return one->get_name() == name; });
     if (command == commands.end()) {
       std::vector<std::string> names;
       for (const CLI::App* one : commands) names.push_back(one->get_name());
-      return fmt::format("{} is no command{}: must be {}", name, in == &app ? "" : " of " + in->get_name(), joined(names));
+      return fmt::format("{} is no command{}: must be {}", name, in == &app ? "" : " of " + in->get_name(),
+                         joined(names));
     }
     in = *command;
   }

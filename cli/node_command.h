@@ -19,5 +19,7 @@ struct NodeOptions {
 // supervisor, where there is one, is spoken to over launch::ControlLine. Throws InputError and std::runtime_error as
 // commands do.
 int run_node_virtual(const NodeOptions& options);
+// The same in real time. A signal, or a supervisor that has gone, ends it in order: the log is complete up to there.
+int run_node_live(const NodeOptions& options);
 
 }  // namespace ttf::cli

@@ -37,9 +37,22 @@ sim::DriveOutcome run_node_drive(const NodeDrive& drive, bus::Exchange& exchange
   return outcome;
 }
 
-nlohmann::ordered_json outcome_json(const sim::DriveOutcome& outcome) {
+nlohmann::ordered_json counts_json(const ExecutiveCounts& counts) {
   nlohmann::ordered_json json;
-  for (const auto& [name, member] : kCounts) json["counts"][name] = outcome.counts.*member;
+  for (const auto& [name, member] : kCounts) json[name] = counts.*member;
+  return json;
+}
+
+void add_counts(ExecutiveCounts& sum, const nlohmann::json& one) {
+  try {
+    for (const auto& [name, member] : kCounts) sum.*member += one.at(name).get<std::uint64_t>();
+  } catch (const nlohmann::json::exception& error) {
+    throw std::runtime_error(std::string("a node's counts that are none: ") + error.what());
+  }
+}
+
+nlohmann::ordered_json outcome_json(const sim::DriveOutcome& outcome) {
+  nlohmann::ordered_json json{{"counts", counts_json(outcome.counts)}};
   json["flexray_load"] = outcome.flexray_load;
   json["can_load"] = outcome.can_load;
   json["frames_sent"] = outcome.frames_sent;
@@ -48,7 +61,7 @@ nlohmann::ordered_json outcome_json(const sim::DriveOutcome& outcome) {
 
 void add_outcome(sim::DriveOutcome& sum, const nlohmann::json& one) {
   try {
-    for (const auto& [name, member] : kCounts) sum.counts.*member += one.at("counts").at(name).get<std::uint64_t>();
+    add_counts(sum.counts, one.at("counts"));
     sum.flexray_load = one.at("flexray_load").get<double>();
     sum.can_load = one.at("can_load").get<std::vector<double>>();
     sum.frames_sent = one.at("frames_sent").get<std::uint64_t>();

@@ -1,4 +1,5 @@
-// One node of a drive in virtual time, in a process of its own among others: its drive, its log, and what it tells of it.
+// One node of a drive in virtual time, in a process of its own among others: its drive, its log, and what it tells of
+// it.
 #pragma once
 
 #include <cstdint>
@@ -28,8 +29,13 @@ struct NodeDrive {
 // Runs it to its end. Throws std::runtime_error where the exchange fails or the log cannot be written.
 sim::DriveOutcome run_node_drive(const NodeDrive& drive, bus::Exchange& exchange);
 
-// An outcome on its way from a node's process to whoever started it: what is the node's alone (its counts), and what all of
-// them see alike (loads, faults).
+// What a node has counted, on its way from its process to whoever started it; added up there. Throws
+// std::runtime_error on what no counts_json() made.
+nlohmann::ordered_json counts_json(const nodes::ExecutiveCounts& counts);
+void add_counts(nodes::ExecutiveCounts& sum, const nlohmann::json& one);
+
+// An outcome on its way from a node's process to whoever started it: what is the node's alone (its counts), and what
+// all of them see alike (loads, faults).
 nlohmann::ordered_json outcome_json(const sim::DriveOutcome& outcome);
 // Adds up what the nodes say, of which `one` is the next. Throws std::runtime_error on what no outcome_json() made.
 void add_outcome(sim::DriveOutcome& sum, const nlohmann::json& one);

@@ -1,4 +1,5 @@
-// Where results go: files and standard output. What cannot be written is no input of the user's: the run failed, exit code 1.
+// Where results go: files and standard output. What cannot be written is no input of the user's: the run failed, exit
+// code 1.
 #pragma once
 
 #include <string>
@@ -20,7 +21,8 @@ void create_folder(const std::string& path);
 void print_warnings(std::string_view text);
 void print_warnings(const std::vector<std::string>& warnings);
 
-// Hands what was printed to the system. Throws std::runtime_error with the reason where it is not taken (disk full, closed).
+// Hands what was printed to the system. Throws std::runtime_error with the reason where it is not taken (disk full,
+// closed).
 void finish_standard_output();
 
 }  // namespace ttf::cli

@@ -24,8 +24,9 @@ std::string_view text(bus::Signal signal) {
 
 void ReplayStory::state_changed(NodeId node, bus::PocKind from, const bus::PocStep& step, TrueTime at) {
   const std::string_view consequence = bus::to_text(step.consequence);
-  say(at, fmt::format("{}: {} -> {}: {}{}{}", cluster_.node(node).name, bus::to_text(from), bus::to_text(step.next.kind),
-                      bus::to_text(step.reason), consequence.empty() ? "" : "; ", consequence));
+  say(at,
+      fmt::format("{}: {} -> {}: {}{}{}", cluster_.node(node).name, bus::to_text(from), bus::to_text(step.next.kind),
+                  bus::to_text(step.reason), consequence.empty() ? "" : "; ", consequence));
 }
 
 void ReplayStory::fault_acts(const records::FaultActivity& activity) {
@@ -46,8 +47,10 @@ void ReplayStory::guardian_intervened(const sim::StarCoupler::Intervention& inte
 void ReplayStory::judged(const experiments::Judgement& judgement) {
   for (const experiments::Check check : experiments::kAllChecks) {
     const auto c = static_cast<std::size_t>(check);
-    if (judgement.seen_by_others[c]) say(*judgement.seen_by_others[c], fmt::format("noticed by others: {}", name_of(check)));
-    if (judgement.seen_by_itself[c]) say(*judgement.seen_by_itself[c], fmt::format("noticed by itself: {}", name_of(check)));
+    if (judgement.seen_by_others[c])
+      say(*judgement.seen_by_others[c], fmt::format("noticed by others: {}", name_of(check)));
+    if (judgement.seen_by_itself[c])
+      say(*judgement.seen_by_itself[c], fmt::format("noticed by itself: {}", name_of(check)));
   }
 }
 
@@ -60,7 +63,8 @@ void ReplayStory::finish() {
                in_units_of(cluster_.cycle(), line.at - TrueTime{}), line.text);
   }
   if (acts > kShown) fmt::print("  the fault acts {} more\n", counted(acts - kShown, "time"));
-  if (interventions > kShown) fmt::print("  the guardians intervene {} more\n", counted(interventions - kShown, "time"));
+  if (interventions > kShown)
+    fmt::print("  the guardians intervene {} more\n", counted(interventions - kShown, "time"));
 }
 
 }  // namespace ttf::cli

@@ -1,5 +1,5 @@
-// One fault of a campaign in words: what the fault does, what the guardians keep from the others, and which nodes change their
-// state and why, in the order of time.
+// One fault of a campaign in words: what the fault does, what the guardians keep from the others, and which nodes
+// change their state and why, in the order of time.
 #pragma once
 
 #include <cstdint>

@@ -69,7 +69,8 @@ int run_scenario(const RunOptions& options) {
 
   std::vector<StrategyResult> results;
   for (const fusion::StrategyKind strategy : chosen(options.strategy)) {
-    fmt::print(stderr, "{}: {:g} s with {} ...\n", scenario.name, scenario.duration.seconds(), nodes::name_of(strategy));
+    fmt::print(stderr, "{}: {:g} s with {} ...\n", scenario.name, scenario.duration.seconds(),
+               nodes::name_of(strategy));
     results.push_back(run_strategy(options, scenario, strategy, seed, recording, folder));
   }
   if (!options.no_pictures && !options.no_log) write_pictures(scenario, results, folder);

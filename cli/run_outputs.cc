@@ -7,10 +7,12 @@
 #include <optional>
 
 #include "cli/fault_tables.h"
+#include "cli/real_time_outputs.h"
 #include "cli/startup_outputs.h"
 #include "recording/log_reader.h"
 #include "recording/records/tee.h"
 #include "report/index_page.h"
+#include "report/lateness_picture.h"
 #include "report/position_plot.h"
 #include "report/render.h"
 #include "report/schedule_picture.h"
@@ -54,15 +56,19 @@ std::uint64_t lost_lists(const StrategyResult& result) {
 }
 
 const Row kRows[] = {
-    {"position RMSE against truth [m]", [](const StrategyResult& r) { return report::cell(r.summary.position_rmse_truth, 3); }},
-    {"velocity RMSE against truth [m/s]", [](const StrategyResult& r) { return report::cell(r.summary.velocity_rmse_truth, 3); }},
+    {"position RMSE against truth [m]",
+     [](const StrategyResult& r) { return report::cell(r.summary.position_rmse_truth, 3); }},
+    {"velocity RMSE against truth [m/s]",
+     [](const StrategyResult& r) { return report::cell(r.summary.velocity_rmse_truth, 3); }},
     {"  x, y, vx, vy", [](const StrategyResult& r) {
        const auto& rmse = r.summary.rmse_truth;
        return fmt::format("{} {} {} {}", report::cell(rmse[0], 2), report::cell(rmse[1], 2), report::cell(rmse[2], 2),
                           report::cell(rmse[3], 2));
      }},
-    {"position RMSE against DGPS [m]", [](const StrategyResult& r) { return report::cell(r.summary.position_rmse_reference, 3); }},
-    {"velocity RMSE against DGPS [m/s]", [](const StrategyResult& r) { return report::cell(r.summary.velocity_rmse_reference, 3); }},
+    {"position RMSE against DGPS [m]",
+     [](const StrategyResult& r) { return report::cell(r.summary.position_rmse_reference, 3); }},
+    {"velocity RMSE against DGPS [m/s]",
+     [](const StrategyResult& r) { return report::cell(r.summary.velocity_rmse_reference, 3); }},
     {"NEES (4 degrees of freedom)", [](const StrategyResult& r) { return report::cell(r.summary.nees, 2); }},
     {"  95 % band", [](const StrategyResult& r) {
        return r.summary.nees_samples == 0
@@ -80,9 +86,11 @@ const Row kRows[] = {
     {"  dropped", [](const StrategyResult& r) { return number(lost_lists(r)); }},
     {"    too old to be fused", [](const StrategyResult& r) { return number(r.summary.dropped); }, true},
     {"    torn on the way", [](const StrategyResult& r) { return number(r.outcome.counts.torn_lists); }, true},
-    {"    overwritten before they were read", [](const StrategyResult& r) { return number(r.outcome.counts.overwritten_lists); },
+    {"    overwritten before they were read",
+     [](const StrategyResult& r) { return number(r.outcome.counts.overwritten_lists); },
      true},
-    {"    discarded: no time of measuring", [](const StrategyResult& r) { return number(r.outcome.counts.discarded_lists); },
+    {"    discarded: no time of measuring",
+     [](const StrategyResult& r) { return number(r.outcome.counts.discarded_lists); },
      true},
     {"fragments refused", [](const StrategyResult& r) { return number(r.outcome.counts.refused_fragments); }, true},
     {"uses of an image", [](const StrategyResult& r) { return number(uses(r)); }},
@@ -98,16 +106,25 @@ const Row kRows[] = {
      }},
     {"slot problems", [](const StrategyResult& r) { return number(r.outcome.counts.slot_problems); }},
     {"deadlines missed", [](const StrategyResult& r) { return number(r.outcome.counts.deadlines_missed); }},
-    {"FlexRay load per channel [%]", [](const StrategyResult& r) { return report::cell(100 * r.outcome.flexray_load, 1); }},
-    {"content hash of the log", [](const StrategyResult& r) { return r.content_hash.empty() ? std::string("-") : r.content_hash; }},
+    {"FlexRay load per channel [%]",
+     [](const StrategyResult& r) { return report::cell(100 * r.outcome.flexray_load, 1); }},
+    {"content hash of the log",
+     [](const StrategyResult& r) { return r.content_hash.empty() ? std::string("-") : r.content_hash; }},
     {"CAN frames refused", [](const StrategyResult& r) { return number(r.outcome.counts.refused_can_frames); }, true},
-    {"fates of lists that no record tells", [](const StrategyResult& r) { return number(r.outcome.counts.unlisted_fates); }, true},
+    {"fates of lists that no record tells",
+     [](const StrategyResult& r) { return number(r.outcome.counts.unlisted_fates); }, true},
 };
 
 nlohmann::ordered_json ages(const experiments::AgeStatistics& statistics) {
   if (statistics.count == 0) return {{"count", 0}, {"mean_ms", nullptr}, {"worst_ms", nullptr}};
   return {{"count", statistics.count}, {"mean_ms", in_ms(statistics.mean())}, {"worst_ms", in_ms(statistics.worst)}};
 }
+
+constexpr const char* kPictureFormats[] = {".svg", ".png", ".pdf"};
+constexpr const char* kIndex = "index.html";
+constexpr const char* kSchedule = "schedule";
+// Of each strategy: STRATEGY_timing and so on.
+constexpr const char* kOfStrategy[] = {"startup", "lateness", "timing", "over_time", "plane"};
 
 report::PositionOptions position_options(const nodes::Scenario& scenario, const StrategyResult& result) {
   report::PositionOptions options;
@@ -192,6 +209,7 @@ nlohmann::ordered_json to_json(const nodes::Scenario& scenario, std::uint64_t se
       one["can_load"][result.cluster.can_buses[b].name] = result.outcome.can_load[b];
     one["content_hash"] = result.content_hash;
     one["log"] = result.log_path;
+    if (result.real_time) one["real_time"] = real_time_json(result);
     if (!scenario.faults.empty()) {
       one["faults"] = faults_json(result.faults.faults, result.cluster);
       one["fault_free_nodes"] = names_json(result.fault_free, result.cluster);
@@ -200,6 +218,15 @@ nlohmann::ordered_json to_json(const nodes::Scenario& scenario, std::uint64_t se
     json["strategies"].push_back(std::move(one));
   }
   return json;
+}
+
+std::vector<std::string> picture_files(std::string_view strategy) {
+  std::vector<std::string> files{kIndex};
+  for (const std::string format : kPictureFormats) {
+    files.push_back(kSchedule + format);
+    for (const char* const what : kOfStrategy) files.push_back(fmt::format("{}_{}{}", strategy, what, format));
+  }
+  return files;
 }
 
 void write_pictures(const nodes::Scenario& scenario, const std::vector<StrategyResult>& results,
@@ -232,6 +259,12 @@ void write_pictures(const nodes::Scenario& scenario, const std::vector<StrategyR
       report::StartupDiagram startup(names, result.cluster.cycle(), window->first, window->second);
       recording::read_log(result.log_path, startup);
       picture(strategy + "_startup", strategy + ": start-up", "Every node's states, and what it sent.", startup.svg());
+    }
+    if (result.real_time) {
+      picture(strategy + "_lateness", strategy + ": lateness",
+              "How late the nodes' processes were woken up, in real time.",
+              report::lateness_svg(result.real_time->lateness, names));
+      entries.push_back({"", "", "", real_time_text(result), {}});
     }
     picture(strategy + "_timing", strategy + ": timing", "Slots, tasks and every measurement's way.", timing.svg());
     picture(strategy + "_over_time", strategy + ": x and y over time", "", plots.back()->over_time_svg());

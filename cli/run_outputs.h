@@ -2,10 +2,13 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "experiments/fault_report.h"
+#include "experiments/lateness.h"
 #include "experiments/measures.h"
 #include "experiments/startup_account.h"
 #include "fusion/strategy.h"
@@ -23,6 +26,7 @@ struct StrategyResult {
   std::vector<experiments::NodeStartup> startup;   // nodes that started up or changed their state
   experiments::FaultFindings faults;
   std::vector<NodeId> fault_free;                  // to the end, of those on FlexRay
+  std::optional<experiments::RealTimeFindings> real_time;   // of a run by the wall clock
   std::string log_path;
   std::string content_hash;
 };
@@ -31,6 +35,8 @@ struct StrategyResult {
 std::string comparison_table(const std::vector<StrategyResult>& results);
 nlohmann::ordered_json to_json(const nodes::Scenario& scenario, std::uint64_t seed,
                                const std::vector<StrategyResult>& results);
+// All files that write_pictures() may make of this one strategy.
+std::vector<std::string> picture_files(std::string_view strategy);
 // Timing diagrams, position plots and index.html in `folder`, from the logs alone.
 void write_pictures(const nodes::Scenario& scenario, const std::vector<StrategyResult>& results,
                     const std::string& folder);

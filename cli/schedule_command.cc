@@ -6,6 +6,7 @@
 
 #include "cli/capture_against.h"
 #include "cli/commands.h"
+#include "cli/medium_check.h"
 #include "cli/output.h"
 #include "core/errors.h"
 #include "nodes/catalog.h"
@@ -31,6 +32,7 @@ struct ScheduleOptions {
   std::string can;
   bool json = false;
   CaptureArguments capture;
+  MediumArguments medium;
 };
 
 
@@ -56,8 +58,12 @@ nlohmann::ordered_json dynamic_json(const schedules::Cluster& cluster) {
 void print_findings(const InputError& error) {
   nlohmann::ordered_json json{{"consistent", false}, {"findings", nlohmann::ordered_json::array()}};
   for (const Finding& finding : error.findings())
-    json["findings"].push_back({{"file", finding.file}, {"line", finding.line}, {"key", finding.key},
-                                {"value", finding.value}, {"expected", finding.expected}, {"text", finding.sentence()}});
+    json["findings"].push_back({{"file", finding.file},
+                                {"line", finding.line},
+                                {"key", finding.key},
+                                {"value", finding.value},
+                                {"expected", finding.expected},
+                                {"text", finding.sentence()}});
   fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
 
@@ -75,6 +81,7 @@ schedules::Cluster checked_schedule(const ScheduleOptions& options) {
 int check(const ScheduleOptions& options) {
   const schedules::Cluster cluster = checked_schedule(options);
   if (!options.capture.file.empty()) return check_against_capture(cluster, options.capture, options.json);
+  if (options.medium.medium) return check_on_medium(cluster, options.medium, options.json);
   if (!options.json) {
     fmt::print("{}: consistent\n{}{}", cluster.name, schedules::dynamic_text(cluster), schedules::ages_text(cluster));
     return 0;
@@ -91,8 +98,9 @@ int check(const ScheduleOptions& options) {
                                {"newest_at_any_use_worst_ms", in_ms(path.newest_worst)},
                                {"buffered_use_worst_ms", in_ms(path.buffered_use_worst)}};
     for (const schedules::Contribution& contribution : path.to_use)
-      one["contributions"].push_back(
-          {{"name", contribution.name}, {"best_ms", in_ms(contribution.best)}, {"worst_ms", in_ms(contribution.worst)}});
+      one["contributions"].push_back({{"name", contribution.name},
+                                      {"best_ms", in_ms(contribution.best)},
+                                      {"worst_ms", in_ms(contribution.worst)}});
     json["ages"].push_back(std::move(one));
   }
   fmt::print("{}\n", json.dump(2));
@@ -145,19 +153,22 @@ void add_schedule(CLI::App& app, Action& action) {
   CLI::App* checking = command->add_subcommand("check", "Prove a cluster consistent and bound its measurements' ages");
   checking->footer(
       "Example: ttfusion schedule check schedules/paper_synchronised.yaml\n"
-      "         ttfusion schedule check schedules/paper_synchronised.yaml --against drive.pcapng");
+      "         ttfusion schedule check schedules/paper_synchronised.yaml --against drive.pcapng\n"
+      "         ttfusion schedule check schedules/paper_synchronised.yaml --medium can-fd:1M/5M --time-scale 3");
   checking->add_option("file", options->file, "Cluster file")->required();
   checking->add_flag("--json", options->json, "Result as JSON on standard output");
   add_capture_arguments(*checking, options->capture);
+  add_medium_arguments(*checking, options->medium);
+  checking->get_option("--medium")->excludes("--against");
   checking->callback([options, &action] { action = [options] { return check(*options); }; });
   CLI::App* showing = command->add_subcommand("show", "Draw one communication cycle as text, or as a picture with -o");
   showing->footer("Example: ttfusion schedule show schedules/paper_synchronised.yaml -o schedule.svg");
   showing->add_option("file", options->file, "Cluster file")->required();
   showing->add_option("-o,--out", options->out, "Picture to write: .svg, .png or .pdf");
   showing->callback([options, &action] { action = [options] { return show(*options); }; });
-  CLI::App* exporting = command->add_subcommand(
-      "export",
-      "Write a cluster as FIBEX 3.1, its CANs as DBC, or a FIBEX file's FlexRay cluster as the beginning of a cluster file");
+  CLI::App* exporting = command->add_subcommand("export",
+                                                "Write a cluster as FIBEX 3.1, its CANs as DBC, or a FIBEX file's "
+                                                "FlexRay cluster as the beginning of a cluster file");
   exporting->footer(
       "Examples: ttfusion schedule export schedules/paper_synchronised.yaml --format fibex -o cluster.xml\n"
       "          ttfusion schedule export schedules/paper_synchronised.yaml --format dbc -o cluster.dbc\n"

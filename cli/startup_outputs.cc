@@ -24,7 +24,8 @@ std::string startup_text(const std::vector<StrategyResult>& results, bool cold) 
                  on_flexray ? fmt::format("{}: {}", node.state, node.why) : "not on FlexRay"});
     }
     const std::string name(nodes::name_of(result.strategy)), body = table.text();
-    const auto same = std::find_if(tables.begin(), tables.end(), [&](const auto& other) { return other.second == body; });
+    const auto same =
+        std::find_if(tables.begin(), tables.end(), [&](const auto& other) { return other.second == body; });
     if (same != tables.end())
       same->first += ", " + name;
     else

@@ -5,7 +5,7 @@ add_library(ttf_options INTERFACE)
 # contraction. -mno-fma besides, because g++ 12's vectoriser joins a*b-c*d, a*b+c*d into vfmaddsub even then, and so that
 # Eigen's packets round as its scalars do.
 target_compile_options(ttf_options INTERFACE
-  -march=x86-64-v3 -mno-fma -ffp-contract=off
+  -march=x86-64-v3 -mno-fma -ffp-contract=off -pthread
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wdouble-promotion
   -Wcast-qual -Wformat=2 -Wimplicit-fallthrough -Werror)
 target_include_directories(ttf_options INTERFACE ${PROJECT_SOURCE_DIR})
@@ -24,34 +24,72 @@ if(TTF_FUZZ)
   target_compile_options(ttf_options INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
+# g++ collects its garbage as if memory were scarce: a twelfth of a build's time.
+target_compile_options(ttf_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=1000000>)
+
+# What nearly every source includes is read once for the rooms and once for the tests. A source includes all the same
+# what it needs: presets without this (clang, sanitizers) find out.
+set(TTF_COMMON_HEADERS
+  <algorithm> <array> <chrono> <cmath> <cstdint> <filesystem> <fstream> <functional> <limits> <map> <memory> <numeric>
+  <optional> <set> <span> <sstream> <string> <string_view> <utility> <variant> <vector> <fmt/format.h> <Eigen/Core>)
+# ttf_common_headers(<name> [OPTIONS <options...>] [HEADERS <more...>] [DEPS <targets...>]): compiled headers to reuse.
+function(ttf_common_headers name)
+  cmake_parse_arguments(COMMON "" "" "OPTIONS;HEADERS;DEPS" ${ARGN})
+  file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/${name}.cc CONTENT "// The headers alone.\n")
+  add_library(${name} OBJECT ${CMAKE_BINARY_DIR}/${name}.cc)
+  target_link_libraries(${name} PRIVATE ttf_options fmt::fmt Eigen3::Eigen ${COMMON_DEPS})
+  target_compile_options(${name} PRIVATE ${COMMON_OPTIONS})
+  target_precompile_headers(${name} PRIVATE ${TTF_COMMON_HEADERS} ${COMMON_HEADERS})
+endfunction()
+ttf_common_headers(ttf_room_headers)
+
 # ttf_room(<name> SOURCES <files...> [DEPS <targets...>]): the static library of a folder.
 function(ttf_room name)
   cmake_parse_arguments(ROOM "" "" "SOURCES;DEPS" ${ARGN})
   if(ROOM_SOURCES)
     add_library(${name} STATIC ${ROOM_SOURCES})
     target_link_libraries(${name} PUBLIC ttf_options ${ROOM_DEPS})
+    target_precompile_headers(${name} REUSE_FROM ttf_room_headers)
   else()
     add_library(${name} INTERFACE)
     target_link_libraries(${name} INTERFACE ${ROOM_DEPS} ttf_options)
   endif()
 endfunction()
 
-# ttf_test(<name> SOURCES <files...> [DEPS <targets...>] [UNSANITIZED | UNSANITIZED_TESTS <patterns...>]): one GoogleTest
-# program, one ctest entry per test program. Sanitizers are spared what they would only make longer, statistics over
-# thousands of runs and whole drives of which others run: the program, or these tests of it.
+if(TTF_BUILD_TESTS)
+  find_package(GTest REQUIRED)
+  # What tests call in the rooms is optimised as ever.
+  set(TTF_TEST_OPTIONS $<$<CONFIG:Release>:-O1>)
+  ttf_common_headers(ttf_test_headers
+    OPTIONS ${TTF_TEST_OPTIONS} HEADERS <gtest/gtest.h> <gmock/gmock.h> DEPS GTest::gmock)
+endif()
+
+# ttf_as_test(<name>): compiles a program as tests are; their headers come with GoogleTest, whether it is called or not.
+function(ttf_as_test name)
+  target_compile_definitions(${name} PRIVATE GTEST_HAS_PTHREAD=1)
+  target_compile_options(${name} PRIVATE ${TTF_TEST_OPTIONS})
+  target_precompile_headers(${name} REUSE_FROM ttf_test_headers)
+endfunction()
+
+# ttf_test(<name> SOURCES <files...> [DEPS <targets...>] [UNSANITIZED | UNSANITIZED_TESTS <patterns...>] [COST <n>]):
+# one GoogleTest program, one ctest entry per test program. Sanitizers are spared what they would only make longer,
+# statistics over thousands of runs and whole drives of which others run: the program, or these tests of it.
 function(ttf_test name)
-  cmake_parse_arguments(TEST "UNSANITIZED" "" "SOURCES;DEPS;UNSANITIZED_TESTS" ${ARGN})
+  cmake_parse_arguments(TEST "UNSANITIZED" "COST" "SOURCES;DEPS;UNSANITIZED_TESTS" ${ARGN})
   if(TEST_UNSANITIZED AND TTF_SANITIZE)
     return()
   endif()
   add_executable(${name} ${TEST_SOURCES})
   target_link_libraries(${name} PRIVATE ${TEST_DEPS} ttf_options GTest::gmock GTest::gtest_main)
   target_compile_definitions(${name} PRIVATE TTF_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)   # what it calls in the rooms is optimised as ever
+  ttf_as_test(${name})
   set(filter)
   if(TTF_SANITIZE AND TEST_UNSANITIZED_TESTS)
     list(JOIN TEST_UNSANITIZED_TESTS ":" patterns)
     set(filter --gtest_filter=-${patterns})
   endif()
   add_test(NAME ${name} COMMAND ${name} ${filter} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+  if(TEST_COST)
+    set_tests_properties(${name} PROPERTIES COST ${TEST_COST})   # about its seconds: the longest begin first
+  endif()
 endfunction()

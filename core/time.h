@@ -6,7 +6,7 @@
 //
 // All are signed 64-bit nanosecond counts from the start of the run (about +-292 years). There is no conversion
 // between them here: converting needs a clock (timebase/) and is spelled out. Differences of one time are a
-// Duration. Floating point exists only as a filter's dt, `Duration::seconds()`, and in what people read, `in_ms()` and
+// Duration. Floating point exists only as a filter's dt, `Duration::seconds()`, and in what people read, `in_us()`, `in_ms()` and
 // `in_units_of()`.
 #pragma once
 
@@ -70,7 +70,8 @@ using TrueTime = Instant<struct TrueScale>;
 using LocalTime = Instant<struct LocalScale>;
 using GlobalTime = Instant<struct GlobalScale>;
 
-// Milliseconds, and how often one lasts within another (cycles, mostly), for people: never to compute with.
+// Microseconds, milliseconds, and how often one lasts within another (cycles, mostly), for people: never to compute with.
+constexpr double in_us(Duration d) { return static_cast<double>(d.ns) * 1e-3; }
 constexpr double in_ms(Duration d) { return static_cast<double>(d.ns) * 1e-6; }
 template <class Tag>
 constexpr double in_ms(Instant<Tag> t) {

@@ -84,11 +84,7 @@ void DriveMeasures::on(const records::FeatureUsed& used) {
   ++summary_.uses;
   if (used.stale) ++summary_.stale_uses;
   if (const Image* image = used.stale ? nullptr : image_of(used.image_sequence))
-    for (const Fused& newest : image->newest) {
-      const Duration age = used.stamp.true_time - newest.measured;
-      summary_.age_used.add(age);
-      summary_.age_used_by_sensor[newest.id.sensor].add(age);
-    }
+    judge_age(*image, used.stamp.true_time);
   Use use{used.stamp.true_time, used.image_sequence, used.fresh, {}};
   bool warned = false;
   for (const records::FeatureObject& object : used.objects) {
@@ -100,6 +96,20 @@ void DriveMeasures::on(const records::FeatureUsed& used) {
   if (warned) ++summary_.warnings;
   reference_.use(use.at, use.objects);
   pending_ = std::move(use);
+}
+
+void DriveMeasures::judge_age(const Image& image, TrueTime used) {
+  if (image.newest.empty()) return;
+  Duration oldest = used - image.newest.front().measured, youngest = oldest;
+  for (const Fused& newest : image.newest) {
+    const Duration age = used - newest.measured;
+    summary_.age_used.add(age);
+    summary_.age_used_by_sensor[newest.id.sensor].add(age);
+    oldest = std::max(oldest, age);
+    youngest = std::min(youngest, age);
+  }
+  summary_.age_used_oldest.add(oldest);
+  summary_.age_used_newest.add(youngest);
 }
 
 void DriveMeasures::on(const records::TruthState& truth) {

@@ -16,6 +16,7 @@
 #include "core/ids.h"
 #include "core/time.h"
 #include "experiments/reference_judge.h"
+#include "recording/records/binned_durations.h"
 #include "recording/records/records.h"
 
 namespace ttf::experiments {
@@ -55,6 +56,9 @@ struct DriveSummary {
   AgeStatistics age_used;
   std::map<SensorId, AgeStatistics> age_fused_by_sensor;
   std::map<SensorId, AgeStatistics> age_used_by_sensor;
+  // Of these, at every use of an image: the oldest and the newest, each as a distribution.
+  records::BinnedDurations age_used_oldest;
+  records::BinnedDurations age_used_newest;
   // Observation lists over the whole drive.
   std::uint64_t received = 0;              // lists the fusion node took in
   std::uint64_t out_of_sequence = 0;       // of them older than one taken in before
@@ -107,6 +111,7 @@ class DriveMeasures final : public records::Sink {
     std::vector<PlaneEstimate> objects;
   };
   void judge(const Use& use);
+  void judge_age(const Image& image, TrueTime used);
   void judge_consistency(const Predicted& predicted, const records::TruthState& truth);
 
   TrueTime from_;

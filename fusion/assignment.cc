@@ -18,7 +18,7 @@ Assignment::Assignment(std::size_t max_rows, std::size_t max_columns) : max_rows
   column_of_.resize(max_rows);
   parent_.resize(max_rows + max_columns);
   component_rows_.reserve(max_rows);
-  component_columns_.reserve(max_columns);
+  component_columns_.reserve(max_rows * max_columns);   // of every candidate, before they are made unique
   local_column_.resize(max_columns);
   sorted_.reserve(max_rows * max_columns);
   // Each row also has a column of its own that stands for "unassigned".

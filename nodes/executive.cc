@@ -109,6 +109,7 @@ const timebase::CycleClock* Executive::clock() const {
 records::Stamp Executive::stamp(Microticks at) const {
   records::Stamp stamp;
   stamp.true_time = config_.oscillator.time_of(at);
+  if (config_.true_clock != nullptr) stamp.true_time = std::max(stamp.true_time, config_.true_clock->now());
   stamp.local = config_.oscillator.local_time(at);
   // A node that knows no global time has only its own.
   stamp.global = clock() != nullptr ? clock()->global_time(at) : GlobalTime{stamp.local.ns};
@@ -129,6 +130,11 @@ void Executive::rise(Microticks now) {
   for (const auto command :
        {bus::PocEventKind::kConfig, bus::PocEventKind::kConfigComplete, bus::PocEventKind::kWakeup})
     flexray_->command(command, now);
+}
+
+void Executive::start_anew(Microticks now) {
+  flexray_->start_cold(now);
+  arm_cycle();
 }
 
 // However the wake-up ended, its host lets the controller start up then.
@@ -243,8 +249,13 @@ void Executive::trigger(SensorId sensor, Microticks now) {
 
 void Executive::strobe(SensorId sensor, std::uint32_t sequence, Microticks now) {
   // Without global time there is no time of measuring: as if the strobe had not been seen.
-  if (const timebase::CycleClock* global = clock())
-    strobes_[index_of(sensor)].strobe(sequence, global->global_time(now));
+  const timebase::CycleClock* global = clock();
+  if (global == nullptr) return;
+  // In real time a strobe may be heard of when the cycle that it came in is over.
+  const Microticks since = std::max(now, global->cycle_start());
+  strobes_[index_of(sensor)].strobe(
+      sequence, global->global_time(since) -
+                    Duration{(since - now).value * config_.oscillator.nominal_period_ps() / 1000});
 }
 
 void Executive::activate(std::size_t task, Microticks now) {

@@ -41,6 +41,14 @@ class SensorLines {
   virtual void strobe(SensorId sensor, std::uint32_t sequence) = 0;
 };
 
+// What an ideal observer's clock shows. In virtual time things happen when they are due, and the oscillator says when
+// that is; in real time they happen later.
+class TrueClock {
+ public:
+  virtual ~TrueClock() = default;
+  virtual TrueTime now() const = 0;
+};
+
 struct ExecutiveConfig {
   const schedules::Cluster* cluster = nullptr;
   NodeId node{};
@@ -51,6 +59,7 @@ struct ExecutiveConfig {
   Microticks power_on{};                   // free-running sensors count their phase from here, too
   ColdStart cold{};                        // of a node that does not begin integrated
   Duration boots{};                        // of a sleeping node: from the end of the wake-up pattern to its start-up
+  const TrueClock* true_clock = nullptr;   // null: what is due happens
 };
 
 struct ExecutiveCounts {
@@ -84,11 +93,14 @@ class Executive final : private bus::ControllerEvents {
   // next_event() then asks for.
   void receive(const bus::Reception& reception);
   void receive_can(std::size_t can_bus, const bus::CanFrame& frame, Microticks now);
-  // A frame of this node has left, `now`. `frame` is what the medium knows of it, its sequence number as on the wire; the
-  // node reports it with its own clock's times and the list and measurement it is of.
+  // A frame of this node has left, `now`. `frame` is what the medium knows of it: bus, start, when it has left in true
+  // time, identifier and data; the node reports it with its own clock's times and the list and measurement it is of.
   void can_frame_sent(records::CanFrameSent frame, Microticks now);
   void trigger(SensorId sensor, Microticks now);                          // at a device
   void strobe(SensorId sensor, std::uint32_t sequence, Microticks now);   // at a host
+
+  // The host has its controller begin anew, cold, where that has halted. What was to happen by the global time is lost.
+  void start_anew(Microticks now);
 
   // The node's oscillator has changed its drift; its ticks so far are the same.
   void drift(const timebase::Oscillator& oscillator) { config_.oscillator = oscillator; }
@@ -97,6 +109,8 @@ class Executive final : private bus::ControllerEvents {
   bool asleep() const { return asleep_; }
   // The node's clock of the cluster, null while it has none: off FlexRay, or before it has integrated.
   const timebase::CycleClock* clock() const;
+  // Null off FlexRay.
+  const bus::FlexRayController* controller() const { return flexray_.get(); }
   const timebase::Oscillator& oscillator() const { return config_.oscillator; }
   records::Stamp stamp(Microticks at) const;
   const ExecutiveCounts& counts() const { return counts_; }
@@ -129,6 +143,7 @@ class Executive final : private bus::ControllerEvents {
   // The shortest time from an arrival on that medium that activates a task to the task's end.
   Microticks soonest_end(bool on_can) const;
   void fill_inputs(TaskState& task);
+  void identify(records::CanFrameSent& frame) const;
   void hop(const records::Stamp& at, records::Hop what, PduId pdu, std::uint32_t sequence, int can_bus);
   bus::IncomingList& incoming(const schedules::PortBinding& binding);
   Microticks ticks(Duration duration) const;

@@ -23,20 +23,35 @@ void Executive::frame_sent(const bus::Transmission& transmission, std::int64_t c
   if (last) hop(sent.end, records::Hop::kSent, pdu, sequence, -1);
 }
 
+// The message a frame is of; none for a foreign frame, which receivers ignore, too.
+void Executive::identify(records::CanFrameSent& frame) const {
+  for (const schedules::CanMessage& message : cluster_.can_buses[frame.bus].messages) {
+    if (message.identifier != frame.identifier) continue;
+    const schedules::PduLayout& layout = cluster_.pdu(message.pdu);
+    const auto bytes = static_cast<std::size_t>(layout.fragment_bytes);
+    if (frame.data.size() < bytes) return;
+    const auto payload = frame.data.first(bytes);
+    frame.pdu = message.pdu;
+    frame.sensor = layout.sensor;
+    frame.fragment = static_cast<std::uint8_t>(
+        wire::read_header_raw(layout, payload, wire::header_signal(layout, "fragment")));
+    frame.sequence = cans_[frame.bus]->sent_sequence(
+        frame.pdu, static_cast<std::uint32_t>(
+                       wire::read_header_raw(layout, payload, wire::header_signal(layout, "sequence"))));
+  }
+}
+
 void Executive::can_frame_sent(records::CanFrameSent frame, Microticks now) {
   const TrueTime end = frame.end.true_time;
   frame.end = stamp(now);
   frame.end.true_time = end;
-  bool last = false;
-  if (frame.pdu != kNoPdu) {
-    const schedules::PduLayout& layout = cluster_.pdu(frame.pdu);
-    const auto payload = frame.data.first(static_cast<std::size_t>(layout.fragment_bytes));
-    const auto count = wire::read_header_raw(layout, payload, wire::header_signal(layout, "count"));
-    last = frame.fragment == layout.fragments_of(static_cast<int>(count)) - 1;
-    frame.sensor = layout.sensor;
-    frame.sequence = cans_[frame.bus]->sent_sequence(frame.pdu, frame.sequence);
-  }
+  identify(frame);
   sink_.on(frame);
+  if (frame.pdu == kNoPdu) return;
+  const schedules::PduLayout& layout = cluster_.pdu(frame.pdu);
+  const auto payload = frame.data.first(static_cast<std::size_t>(layout.fragment_bytes));
+  const auto count = wire::read_header_raw(layout, payload, wire::header_signal(layout, "count"));
+  const bool last = frame.fragment == layout.fragments_of(static_cast<int>(count)) - 1;
   if (last) hop(frame.end, records::Hop::kSent, frame.pdu, frame.sequence, frame.bus);
 }
 
@@ -49,7 +64,11 @@ void Executive::slot_problem(std::int64_t cycle, int slot, schedules::Channel ch
 
 void Executive::clock_corrected(std::int64_t cycle, const timebase::Correction& offset,
                                 const timebase::Correction& rate, Microticks at) {
-  sink_.on(records::ClockCorrected{stamp(at), cycle, offset.value, rate.value, offset.missing, rate.missing,
+  // One instant by both clocks, from which others take what they were apart by: true time is when this one showed that,
+  // however late it was looked at.
+  records::Stamp both = stamp(at);
+  both.true_time = config_.oscillator.time_of(at);
+  sink_.on(records::ClockCorrected{both, cycle, offset.value, rate.value, offset.missing, rate.missing,
                                    offset.limit_reached, rate.limit_reached});
 }
 

@@ -111,8 +111,8 @@ class CaptureChecker {
     const bool coding = (packet.errors & (kTssViolation | kCodingError | kFrameEndError)) != 0;
     if (packet.kind == FlexRayPacket::Kind::kFrame && !packet.whole_header && coding)
       return report(Contradiction::kCoding, frame.number,
-                    fmt::format("on {}: coding errors are flagged ({:#04x}), and there is no header", letter(packet.channel),
-                                packet.errors));
+                    fmt::format("on {}: coding errors are flagged ({:#04x}), and there is no header",
+                                letter(packet.channel), packet.errors));
     if (packet.kind != FlexRayPacket::Kind::kFrame || !packet.whole_header)
       return report(Contradiction::kMalformed, frame.number, "holds neither a symbol nor a whole frame header");
     const wire::FrameHeader& header = packet.header;

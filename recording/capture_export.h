@@ -5,9 +5,9 @@
 //            no decoder makes out is a packet without header and payload, or with the bytes that were there before it
 //            broke off. Symbols are packets of their own kind. A packet's comment names the measurement its frame
 //            carries something of, and the list and fragment. The start of the run is 1970-01-01 00:00:00 UTC.
-//   candump  canplayer, log2asc: the private CANs' frames, `(1000000001.234567) laser_can 100##1DEADBEEF`; microseconds,
-//            as these programs read no more. The start of the run is second 1000000000: log2asc takes second 0 for
-//            "no start yet". A CAN whose name cannot be a network interface's is called canN by its index.
+//   candump  canplayer, log2asc: the private CANs' frames, `(1000000001.234567) laser_can 100##1DEADBEEF`;
+//            microseconds, as these programs read no more. The start of the run is second 1000000000: log2asc takes
+//            second 0 for "no start yet". A CAN whose name cannot be a network interface's is called canN by its index.
 //   csv      one row per frame of any bus, nanoseconds since the start of the run; see kCsvHeader
 #pragma once
 
@@ -20,9 +20,9 @@
 namespace ttf::recording {
 
 // id: slot or CAN identifier, decimal. kind: frame, null, noise, symbol (FlexRay), can, can_fd. flags: names joined by
-// '+': sync, startup, preamble, header_crc_error, frame_crc_error, coding_error, frame_end_error (FlexRay), extended, brs
-// (CAN); of a symbol cas, wakeup or media_test. measurement: sensor and sequence. payload: hex. What no controller sent
-// has no cycle, noise no id, and what came out of nothing no sender; a symbol has neither cycle nor id.
+// '+': sync, startup, preamble, header_crc_error, frame_crc_error, coding_error, frame_end_error (FlexRay), extended,
+// brs (CAN); of a symbol cas, wakeup or media_test. measurement: sensor and sequence. payload: hex. What no controller
+// sent has no cycle, noise no id, and what came out of nothing no sender; a symbol has neither cycle nor id.
 inline constexpr std::string_view kCsvHeader =
     "time_ns,bus,channel,cycle,id,sender,kind,flags,pdu,sequence,fragment,measurement,payload\n";
 

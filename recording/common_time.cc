@@ -139,5 +139,8 @@ void OnCommonTime::on(const records::ChannelFrame& r) {
   else
     pass(r, &records::ChannelFrame::start, &records::ChannelFrame::end, &records::ChannelFrame::sent);
 }
+void OnCommonTime::on(const records::TimingProblem& r) { pass(r, &records::TimingProblem::stamp); }
+void OnCommonTime::on(const records::LatenessHistogram& r) { pass(r, &records::LatenessHistogram::stamp); }
+void OnCommonTime::on(const records::MediumCounts& r) { pass(r, &records::MediumCounts::stamp); }
 
 }  // namespace ttf::recording

@@ -81,6 +81,9 @@ class OnCommonTime final : public records::Sink {
   void on(const records::FaultActivity&) override;
   void on(const records::GuardianIntervention&) override;
   void on(const records::ChannelFrame&) override;
+  void on(const records::TimingProblem&) override;
+  void on(const records::LatenessHistogram&) override;
+  void on(const records::MediumCounts&) override;
 
  private:
   void put(TrueTime& at) const { at = time_(at); }

@@ -19,9 +19,9 @@ namespace ttf::recording {
 
 class ContentHash {
  public:
-  // What only somebody who sees all clocks knows is passed over: a node set of separate processes has nobody who does.
+  // What does not count (recording/log_manifest.h) is passed over.
   void add(std::uint64_t log_time, std::uint8_t kind, std::string_view payload) {
-    if (kind == static_cast<std::uint8_t>(RecordKind::kPrecision)) return;
+    if (!counts_in_hash(static_cast<RecordKind>(kind))) return;
     std::uint64_t hash = mix(log_time ^ mix((static_cast<std::uint64_t>(payload.size()) << 8) | kind));
     std::size_t at = 0;
     for (; at + 8 <= payload.size(); at += 8) hash = mix(hash ^ word(payload.data() + at, 8));

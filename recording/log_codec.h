@@ -45,6 +45,9 @@ struct Payloads {
   ttfusion::Fault fault;
   ttfusion::Guardian guardian;
   ttfusion::ChannelFrame channel_frame;
+  ttfusion::TimingProblem timing_problem;
+  ttfusion::Lateness lateness;
+  ttfusion::Medium medium;
 
   // The payload of each kind; null for a value that is no kind.
   google::protobuf::Message* of(RecordKind kind);
@@ -79,6 +82,9 @@ Encoded encode(const records::PowerChanged&, Payloads&);
 Encoded encode(const records::FaultActivity&, Payloads&);
 Encoded encode(const records::GuardianIntervention&, Payloads&);
 Encoded encode(const records::ChannelFrame&, Payloads&);
+Encoded encode(const records::TimingProblem&, Payloads&);
+Encoded encode(const records::LatenessHistogram&, Payloads&);
+Encoded encode(const records::MediumCounts&, Payloads&);
 
 class Decoder {
  public:
@@ -91,6 +97,7 @@ class Decoder {
   std::vector<records::ImageObject> image_objects_;
   std::vector<MeasurementId> newest_;
   std::vector<records::FeatureObject> feature_objects_;
+  std::vector<std::uint64_t> counts_;
 };
 
 }  // namespace ttf::recording

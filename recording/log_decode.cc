@@ -3,6 +3,7 @@
 #include <type_traits>
 
 #include "recording/log_codec.h"
+#include "recording/records/lateness_bins.h"
 
 namespace ttf::recording {
 namespace {
@@ -113,6 +114,12 @@ google::protobuf::Message* Payloads::of(RecordKind kind) {
       return &guardian;
     case RecordKind::kChannelFrame:
       return &channel_frame;
+    case RecordKind::kTimingProblem:
+      return &timing_problem;
+    case RecordKind::kLateness:
+      return &lateness;
+    case RecordKind::kMedium:
+      return &medium;
   }
   return nullptr;
 }
@@ -291,6 +298,28 @@ bool Decoder::decode(RecordKind kind, std::string_view bytes, records::Sink& sin
           narrow.to<std::uint8_t>(in.channel()), narrow.to<std::uint8_t>(in.state(), std::uint8_t{0}, kAllStates),
           narrow.to<std::uint16_t>(in.slot()), narrow.to<std::uint8_t>(in.cycle_counter()), TrueTime{in.sent()},
           narrow.to<std::uint8_t>(in.sent_channel()), bytes_of(in.bytes())});
+    }
+    case RecordKind::kTimingProblem: {
+      const auto& in = payloads_.timing_problem;
+      return hand_on(records::TimingProblem{
+          stamp_of(in.stamp(), narrow),
+          narrow.to<std::uint8_t>(in.what(), records::kLateWakeUp, records::kFramesLost), Duration{in.late()},
+          in.cycle(), narrow.to<std::uint16_t>(in.slot()),
+          narrow.to<std::uint8_t>(in.channel(), std::uint8_t{0}, std::uint8_t{1}), in.count()});
+    }
+    case RecordKind::kLateness: {
+      const auto& in = payloads_.lateness;
+      if (static_cast<std::size_t>(in.counts_size()) > records::kLatenessBins) return false;
+      counts_.assign(in.counts().begin(), in.counts().end());
+      return hand_on(records::LatenessHistogram{
+          stamp_of(in.stamp(), narrow),
+          narrow.to<std::uint8_t>(in.of(), records::kLatenessOfWakeUps, records::kLatenessOfTransits),
+          Duration{in.longest()}, counts_});
+    }
+    case RecordKind::kMedium: {
+      const auto& in = payloads_.medium;
+      return hand_on(records::MediumCounts{stamp_of(in.stamp(), narrow), in.sent(), in.received(), in.not_sent(),
+                                           in.lost(), in.foreign(), in.malformed(), in.dropped()});
     }
   }
   return false;

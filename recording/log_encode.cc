@@ -337,4 +337,39 @@ Encoded encode(const records::ChannelFrame& in, Payloads& payloads) {
   return {RecordKind::kChannelFrame, &out, {in.start.ns, in.start.ns}};
 }
 
+Encoded encode(const records::TimingProblem& in, Payloads& payloads) {
+  auto& out = payloads.timing_problem;
+  fill(*out.mutable_stamp(), in.stamp);
+  out.set_what(in.what);
+  out.set_late(in.late.ns);
+  out.set_cycle(in.cycle);
+  out.set_slot(in.slot);
+  out.set_channel(in.channel);
+  out.set_count(in.count);
+  return {RecordKind::kTimingProblem, &out, times_of(in.stamp)};
+}
+
+Encoded encode(const records::LatenessHistogram& in, Payloads& payloads) {
+  auto& out = payloads.lateness;
+  fill(*out.mutable_stamp(), in.stamp);
+  out.set_of(in.of);
+  out.set_longest(in.longest.ns);
+  out.clear_counts();
+  for (const std::uint64_t count : in.counts) out.add_counts(count);
+  return {RecordKind::kLateness, &out, times_of(in.stamp)};
+}
+
+Encoded encode(const records::MediumCounts& in, Payloads& payloads) {
+  auto& out = payloads.medium;
+  fill(*out.mutable_stamp(), in.stamp);
+  out.set_sent(in.sent);
+  out.set_received(in.received);
+  out.set_not_sent(in.not_sent);
+  out.set_lost(in.lost);
+  out.set_foreign(in.foreign);
+  out.set_malformed(in.malformed);
+  out.set_dropped(in.dropped);
+  return {RecordKind::kMedium, &out, times_of(in.stamp)};
+}
+
 }  // namespace ttf::recording

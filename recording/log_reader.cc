@@ -81,8 +81,9 @@ LogInfo read_log_bytes(std::string_view bytes, const std::string& name, records:
   info.chunks_lost = report.chunks_lost;
   info.content_hash = info.records.value();
   if (!collector.has_manifest() && report.chunks_read + report.chunks_lost == 0)
-    throw InputError({name, 0, "", "", fmt::format("holds nothing of a log but its beginning: {} bytes, no manifest, no record",
-                                                   bytes.size())});
+    throw InputError(
+        {name, 0, "", "",
+         fmt::format("holds nothing of a log but its beginning: {} bytes, no manifest, no record", bytes.size())});
   if (!collector.has_manifest())
     report.warnings.push_back("the manifest is missing: names and seed are unknown");
   else if (!info.manifest_sound)

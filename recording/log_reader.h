@@ -42,8 +42,8 @@ struct LogInfo {
   std::uint64_t count(RecordKind kind) const { return counts[static_cast<std::size_t>(kind) - 1]; }
 };
 
-// Throws InputError if the file cannot be read, is not MCAP, is MCAP but no log of this program, or is cut off before its
-// manifest. Spans
+// Throws InputError if the file cannot be read, is not MCAP, is MCAP but no log of this program, or is cut off before
+// its manifest. Spans
 // handed to the sink are valid during the call only.
 LogInfo read_log(const std::string& path, records::Sink& sink);
 

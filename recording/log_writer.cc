@@ -4,10 +4,12 @@
 #include <google/protobuf/descriptor.pb.h>
 
 #include <algorithm>
+#include <optional>
 #include <set>
 
 #include "core/check.h"
 #include "recording/content_hash.h"
+#include "recording/log_behind.h"
 #include "recording/log_codec.h"
 #include "recording/manifest_codec.h"
 #include "recording/mcap_writer.h"
@@ -49,15 +51,22 @@ std::string ContentHash::text(std::uint64_t hash) { return fmt::format("{:016x}"
 struct LogWriter::Impl {
   explicit Impl(const std::string& path) : mcap(path, kLogProfile, "ttfusion") {}
 
+  void store(const LogMessage& message) {
+    hash.add(message.log_time, message.kind, message.payload);
+    mcap.add_message(message.kind, message.log_time, message.publish_time, message.payload);
+    ++records;
+  }
+
   McapWriter mcap;
   Payloads payloads;
   std::string bytes;
   ContentHash hash;
   std::uint64_t records = 0;
   bool closed = false;
+  std::optional<LogBehind> behind;   // last: its thread ends before what it writes to
 };
 
-LogWriter::LogWriter(const std::string& path, const LogManifest& manifest)
+LogWriter::LogWriter(const std::string& path, const LogManifest& manifest, Writing writing)
     : impl_(std::make_unique<Impl>(path)) {
   McapWriter& mcap = impl_->mcap;
   mcap.add_metadata(kManifestName, manifest_entries(manifest));
@@ -69,6 +78,7 @@ LogWriter::LogWriter(const std::string& path, const LogManifest& manifest)
     mcap.add_channel(id, id, topic_of(kind), "protobuf");
   }
   impl_->bytes.reserve(64 * 1024);
+  if (writing == Writing::kBehind) impl_->behind.emplace([this](const LogMessage& message) { impl_->store(message); });
 }
 
 LogWriter::~LogWriter() {
@@ -86,6 +96,7 @@ void LogWriter::attach(std::string_view name, std::string_view media_type, std::
 void LogWriter::close() {
   if (impl_->closed) return;
   impl_->closed = true;
+  if (impl_->behind) impl_->behind->close();
   impl_->mcap.flush();
   impl_->mcap.add_metadata(
       kResultName, {{"content_hash", content_hash_text()}, {"records", std::to_string(impl_->records)}});
@@ -101,11 +112,12 @@ void LogWriter::write(const Record& record) {
   // No maps and no unknown fields in our payloads: fields are written in the order of their numbers, always.
   impl_->bytes.clear();
   TTF_CHECK(encoded.payload->AppendToString(&impl_->bytes), "kind {}", static_cast<int>(encoded.kind));
-  const std::uint64_t log_time = unsigned_time(encoded.times.log);
-  impl_->hash.add(log_time, static_cast<std::uint8_t>(encoded.kind), impl_->bytes);
-  impl_->mcap.add_message(static_cast<std::uint16_t>(encoded.kind), log_time,
-                          unsigned_time(encoded.times.publish), impl_->bytes);
-  ++impl_->records;
+  const LogMessage message{static_cast<std::uint8_t>(encoded.kind), unsigned_time(encoded.times.log),
+                           unsigned_time(encoded.times.publish), impl_->bytes};
+  if (impl_->behind)
+    impl_->behind->add(message);
+  else
+    impl_->store(message);
 }
 
 void LogWriter::on(const records::Measured& record) { write(record); }
@@ -131,5 +143,8 @@ void LogWriter::on(const records::PowerChanged& record) { write(record); }
 void LogWriter::on(const records::FaultActivity& record) { write(record); }
 void LogWriter::on(const records::GuardianIntervention& record) { write(record); }
 void LogWriter::on(const records::ChannelFrame& record) { write(record); }
+void LogWriter::on(const records::TimingProblem& record) { write(record); }
+void LogWriter::on(const records::LatenessHistogram& record) { write(record); }
+void LogWriter::on(const records::MediumCounts& record) { write(record); }
 
 }  // namespace ttf::recording

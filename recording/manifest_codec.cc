@@ -55,6 +55,11 @@ bool read_entry(std::string_view key, const std::string& value, LogManifest& man
     manifest.seed = seed.value_or(0);
     return seed.has_value();
   }
+  if (key == "time_scale_ppm") {
+    const auto scale = whole<std::int64_t>(value);
+    if (!scale || *scale <= 0) return false;   // it is divided by
+    return manifest.time_scale_ppm = *scale, true;
+  }
   if (key == "cycle_ns") {
     const auto cycle = whole<std::int64_t>(value);
     manifest.cycle_ns = cycle.value_or(0);
@@ -105,6 +110,8 @@ ManifestEntries manifest_entries(const LogManifest& manifest) {
   if (!manifest.recording_name.empty()) entries.emplace_back("recording", manifest.recording_name);
   if (!manifest.clock.empty()) entries.emplace_back("clock", manifest.clock);
   if (!manifest.host.empty()) entries.emplace_back("host", manifest.host);
+  if (manifest.time_scale_ppm != 1'000'000)
+    entries.emplace_back("time_scale_ppm", std::to_string(manifest.time_scale_ppm));
   for (const auto& [what, hash] : manifest.hashes) entries.emplace_back("hash." + what, hash);
   const auto list = [&entries](std::string_view prefix, const std::vector<std::string>& names) {
     for (std::size_t i = 0; i < names.size(); ++i)

@@ -18,7 +18,8 @@ inline constexpr std::string_view kResultName =
 using ManifestEntries = std::vector<std::pair<std::string, std::string>>;
 
 // Keys: version, seed, scenario, cluster, strategy, cycle_ns, bit_ps, hash.<what>, node.<i>, node.<i>.task.<j>,
-// pdu.<i>, sensor.<i>, can_bus.<i>, and crc32 over all of it.
+// pdu.<i>, pdu_sensor.<i>, sensor.<i>, can_bus.<i>, where they say something recording, clock, host and time_scale_ppm,
+// and crc32 over all of it.
 ManifestEntries manifest_entries(const LogManifest& manifest);
 
 // Reads what it can; false if the checksum does not match (metadata has none of its own) or a number is

@@ -11,12 +11,13 @@ namespace {
 
 // Causes before effects.
 constexpr std::array<RecordKind, kRecordKinds> kCausalOrder{
-    RecordKind::kFault,          RecordKind::kPower,       RecordKind::kGuardian,   RecordKind::kChannelFrame,
-    RecordKind::kSlotFrame,      RecordKind::kSymbol,      RecordKind::kCanFrame,   RecordKind::kSlotProblem,
-    RecordKind::kClockCorrected, RecordKind::kStateChange, RecordKind::kListHop,    RecordKind::kMeasured,
-    RecordKind::kFusionInput,    RecordKind::kObservation, RecordKind::kListFused,  RecordKind::kTrack,
-    RecordKind::kFusionStep,     RecordKind::kReference,   RecordKind::kImage,      RecordKind::kFeature,
-    RecordKind::kTruth,          RecordKind::kTaskRun,     RecordKind::kPrecision};
+    RecordKind::kFault,       RecordKind::kPower,          RecordKind::kGuardian,    RecordKind::kChannelFrame,
+    RecordKind::kSlotFrame,   RecordKind::kSymbol,         RecordKind::kCanFrame,    RecordKind::kTimingProblem,
+    RecordKind::kSlotProblem, RecordKind::kClockCorrected, RecordKind::kStateChange, RecordKind::kListHop,
+    RecordKind::kMeasured,    RecordKind::kFusionInput,    RecordKind::kObservation, RecordKind::kListFused,
+    RecordKind::kTrack,       RecordKind::kFusionStep,     RecordKind::kReference,   RecordKind::kImage,
+    RecordKind::kFeature,     RecordKind::kTruth,          RecordKind::kTaskRun,     RecordKind::kPrecision,
+    RecordKind::kLateness,    RecordKind::kMedium};
 
 constexpr std::array<std::uint8_t, kRecordKinds> ranks() {
   std::array<std::uint8_t, kRecordKinds> ranks{};
@@ -76,5 +77,12 @@ void Placing::on(const records::GuardianIntervention& r) {
 void Placing::on(const records::ChannelFrame& r) {
   of_run(RecordKind::kChannelFrame, r.start, std::uint64_t{r.channel} << 8 | index_of(r.sender));
 }
+void Placing::on(const records::TimingProblem& r) {
+  of_node(RecordKind::kTimingProblem, r.stamp.true_time, r.stamp.node);
+}
+void Placing::on(const records::LatenessHistogram& r) {
+  of_node(RecordKind::kLateness, r.stamp.true_time, r.stamp.node);
+}
+void Placing::on(const records::MediumCounts& r) { of_node(RecordKind::kMedium, r.stamp.true_time, r.stamp.node); }
 
 }  // namespace ttf::recording

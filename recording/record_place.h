@@ -55,6 +55,9 @@ class Placing : public records::Sink {
   void on(const records::FaultActivity&) override;
   void on(const records::GuardianIntervention&) override;
   void on(const records::ChannelFrame&) override;
+  void on(const records::TimingProblem&) override;
+  void on(const records::LatenessHistogram&) override;
+  void on(const records::MediumCounts&) override;
 
  private:
   void of_node(RecordKind kind, TrueTime at, NodeId node);

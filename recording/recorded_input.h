@@ -57,8 +57,8 @@ struct RecordedScan {
 std::vector<RecordedScan> read_lidar_scans(const std::string& path);
 std::vector<RecordedScan> parse_lidar_scans(const std::string& text, const std::string& name);
 
-// Which reader a file is for, told by how it begins: by no more than its first kRecordingHead bytes, which must reach to
-// the first row or heading. Throws InputError if by none.
+// Which reader a file is for, told by how it begins: by no more than its first kRecordingHead bytes, which must reach
+// to the first row or heading. Throws InputError if by none.
 inline constexpr std::size_t kRecordingHead = 64 * 1024;
 enum class RecordingFormat : std::uint8_t { kLog = 1, kLaserRadar = 2, kLidarScans = 3 };
 RecordingFormat sniff_recording(const std::string& path);

@@ -87,6 +87,16 @@ struct TimingData {
     TrueTime sent;
     std::uint8_t sent_channel;
   };
+  struct Problem {        // records::TimingProblem
+    TrueTime at;
+    NodeId node;
+    std::uint8_t what;
+    Duration late;
+    std::int64_t cycle;
+    std::uint16_t slot;
+    std::uint8_t channel;
+    std::uint32_t count;
+  };
 
   std::vector<Measurement> measurements;
   std::vector<CanFrame> can_frames;
@@ -99,6 +109,7 @@ struct TimingData {
   std::vector<Use> uses;
   std::vector<Fault> faults;         // begins and ends of the whole log up to the window, acts in it
   std::vector<OnChannel> on_channel;
+  std::vector<Problem> problems;
 };
 
 }  // namespace ttf::report

@@ -74,6 +74,11 @@ void TimingDiagram::on(const records::ChannelFrame& r) {
     data_.on_channel.push_back({r.start, r.end, r.sender, r.channel, r.state, r.slot, r.sent, r.sent_channel});
 }
 
+void TimingDiagram::on(const records::TimingProblem& r) {
+  if (near(r.stamp.true_time, r.stamp.true_time))
+    data_.problems.push_back({r.stamp.true_time, r.stamp.node, r.what, r.late, r.cycle, r.slot, r.channel, r.count});
+}
+
 std::string TimingDiagram::svg() const {
   // These make the lanes; what was fused or used is drawn between them.
   const bool nothing = data_.measurements.empty() && data_.can_frames.empty() && data_.slot_frames.empty() &&

@@ -6,7 +6,8 @@
 // measurement from its instant over CAN, preprocessing, gateway and slots to the fusion step that used it,
 // coloured per sensor and dashed where it arrived out of sequence (after a newer one); black arrows follow
 // the image to the feature service. Faults have a lane each on top, with marks where they act; frames that were on a channel
-// otherwise than they were sent are outlined, and crossed out if nothing of them arrived. Time is TrueTime.
+// otherwise than they were sent are outlined, and crossed out if nothing of them arrived. In runs in real time, marks
+// show what was late, early or lost. Time is TrueTime.
 #pragma once
 
 #include <string>
@@ -35,6 +36,7 @@ class TimingDiagram : public records::Sink {
   void on(const records::FeatureUsed& r) override;
   void on(const records::FaultActivity& r) override;
   void on(const records::ChannelFrame& r) override;
+  void on(const records::TimingProblem& r) override;
 
   // The picture; one that says so if the window holds no records.
   std::string svg() const;

@@ -11,6 +11,7 @@
 #include "report/axes.h"
 #include "report/timing_cycles.h"
 #include "report/timing_faults.h"
+#include "report/timing_problems.h"
 #include "report/timing_ways.h"
 
 namespace ttf::report {
@@ -65,6 +66,7 @@ class TimingPainter {
       if (const ChannelMark mark = channel_mark(r, names_);
           visible(mark.start, mark.end) && centre_.contains({LaneKey::Kind::kChannel, mark.channel, 0}))
         marks_.push_back(mark);
+    problems_.emplace(data_, names_, lanes_, from_, to_);
     mark_legend();
   }
 
@@ -92,6 +94,7 @@ class TimingPainter {
     svg.close_group();
     svg.open_group("events", plot_);
     instants();
+    problems_->draw(svg, [&](const LaneKey& lane, TrueTime at) { return Point{x(at), y(lane)}; });
     svg.close_group();
     labels();
     svg.rect(plot_, {.stroke = kBlack, .width = 0.8});
@@ -194,6 +197,7 @@ class TimingPainter {
     };
     if (any(false)) legend_.push_back({K::kBox, std::string(kChangedFrameWords), std::string(kVermilion), {}, false});
     if (any(true)) legend_.push_back({K::kMarker, std::string(kMissingFrameWords), std::string(kVermilion), Marker::kCross});
+    problems_->add_to(legend_);
   }
 
   void can() {
@@ -348,6 +352,7 @@ class TimingPainter {
   std::vector<Way> ways_, images_;
   FaultLanes faults_;
   std::vector<ChannelMark> marks_;
+  std::optional<ProblemMarks> problems_;   // when the lanes are known
   std::vector<Lane> lanes_;
   std::vector<LegendEntry> legend_;
   std::map<LaneKey, double> centre_;

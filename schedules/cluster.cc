@@ -46,6 +46,14 @@ std::optional<SensorId> Cluster::find_sensor(std::string_view sensor_name) const
   return find_named<SensorId>(sensors, sensor_name);
 }
 
+bool is_on_can(const Node& node, std::size_t can_bus) {
+  const auto leads_there = [can_bus](const PortBinding& port) { return port.can_bus == can_bus; };
+  return std::any_of(node.tasks.begin(), node.tasks.end(), [&](const Task& task) {
+    return std::any_of(task.reads.begin(), task.reads.end(), leads_there) ||
+           std::any_of(task.writes.begin(), task.writes.end(), leads_there);
+  });
+}
+
 GlobalTime time_of(const GlobalParameters& flexray, std::int64_t cycle, Macroticks offset) {
   const Int128 ps = static_cast<Int128>(cycle) * flexray.cycle_ps() +
                     static_cast<Int128>(offset.value) * flexray.gdMacrotick_ps;

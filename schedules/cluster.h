@@ -167,6 +167,15 @@ enum class Topology : std::uint8_t {
   kStar,   // every node on a branch of its own, an active star in the middle
 };
 
+// What real-time media keep instead of FlexRay's own windows, which an ordinary kernel misses by its wake-ups alone: how
+// long before and after the action point of its slot, on the receiver's clock, a frame may come. In real time: a stretched
+// schedule (--time-scale) has no wider windows. The schedule has room for it where the last static slot in use has that
+// long until the static segment ends.
+struct ArrivalWindow {
+  Duration early{};
+  Duration late{};
+};
+
 struct Cluster {
   std::string name;
   std::string file;              // for messages
@@ -180,6 +189,7 @@ struct Cluster {
   std::vector<FrameSlot> frames; // ordered by slot, then base cycle
   std::vector<CanBus> can_buses;
   std::vector<Sensor> sensors;
+  std::optional<ArrivalWindow> arrival_window;   // `real_time`; none: this schedule is for virtual time only
   std::map<std::string, int, std::less<>> parameter_lines;   // "nodes", "guardian", "flexray.gdNIT", "nodes.fusion.flexray.pKeySlotId"
 
   const Node& node(NodeId id) const { return nodes[index_of(id)]; }
@@ -192,6 +202,9 @@ struct Cluster {
   // After which all that the schedule does repeats, to the nanosecond.
   Duration round() const { return {kCycles * flexray.cycle_ps() / 1000}; }
 };
+
+// Whether a task of the node reads or writes there.
+bool is_on_can(const Node& node, std::size_t can_bus);
 
 // Global time of an instant in the n-th cycle since the start (n counts on beyond gCycleCountMax).
 GlobalTime time_of(const GlobalParameters& flexray, std::int64_t cycle, Macroticks offset);

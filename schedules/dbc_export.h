@@ -8,6 +8,12 @@
 // in comments: fragments, and the shortest period; and in attributes: which CAN a message is on, and that it is a CAN
 // FD frame.
 //
+// Two messages more per sensor, NAME_strobe and NAME_trigger on the CAN of its raw data, are its wires in real time
+// (sensor_lines.h); those whose identifiers the cluster's messages have are left out.
+//
+// Identifier 0, if no CAN of the cluster uses it, is what has that identifier where the FlexRay channels are on CAN FD
+// (docs/socketcan.md): symbols and follow-ups, told apart by a multiplexor. It is in files of all CANs only.
+//
 // The format has no public standard; what is written is its common core. Names are C identifiers there: other
 // characters become '_', and a name that another has already gets a number.
 #pragma once

@@ -14,6 +14,9 @@ inline constexpr int kLastSlot = 2047;                // cSlotIDMax
 inline constexpr int kMostFragments = 256;            // a fragment's number is a byte in records
 inline constexpr int kMostFragmentBytes = 254;        // cPayloadLengthMax, in two-byte words: 127
 
+// Of a CAN, in bit/s: ISO 11898-1 and -2.
+inline constexpr int kSlowestCan = 10'000, kFastestNominal = 1'000'000, kFastestData = 8'000'000;
+
 // Of a signal, in its own unit.
 inline constexpr int kMostSignalBits = 32;
 inline constexpr double kFinestResolution = 1e-9, kCoarsestResolution = 1e9;

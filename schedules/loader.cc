@@ -17,6 +17,7 @@ namespace ttf::schedules {
 namespace {
 
 constexpr Duration kLongest = Duration::milliseconds(10'000);
+constexpr Duration kWidestArrival = Duration::milliseconds(1'000);   // before or after an action point
 constexpr Range<Duration> kExecution{Duration::microseconds(1), kLongest};
 
 const Choices<Channels> kChannels{{"A", Channels::kA}, {"B", Channels::kB}, {"AB", Channels::kAB}};
@@ -33,7 +34,8 @@ class Loader {
     cluster_.synchronisation = root_.boolean("synchronisation");
     cluster_.topology = root_.choice_or("topology", Topology::kBus, {{"bus", Topology::kBus}, {"star", Topology::kStar}});
     cluster_.guardian = root_.boolean_or("guardian", false);
-    remember(root_, "guardian");
+    for (const char* key : {"topology", "guardian", "real_time"}) remember(root_, key);
+    if (auto window = root_.map_if("real_time")) load_arrival_window(*window);
     YamlMap globals = root_.map("flexray");
     load_globals(globals);
     YamlMap shared = root_.map("node_parameters");
@@ -95,6 +97,15 @@ class Loader {
       global.*p.member = map.scaled(p.name, p.scale, {p.low, p.high}, p.unit);
       remember(map, p.name);
     }
+    map.finish();
+  }
+
+  void load_arrival_window(YamlMap& map) {
+    ArrivalWindow& window = cluster_.arrival_window.emplace();
+    window.early = map.duration("early", {Duration{}, kWidestArrival});
+    window.late = map.duration("late", {Duration{1}, kWidestArrival});
+    remember(map, "early");
+    remember(map, "late");
     map.finish();
   }
 
@@ -225,10 +236,10 @@ class Loader {
   void load_can(YamlMap& map, CanBus& bus) {
     bus.line = map.line();
     bus.flexible_data_rate = map.boolean("flexible_data_rate");
-    bus.nominal_bit_rate = map.integer("nominal_bit_rate", {10'000, 1'000'000}, "bit/s");
+    bus.nominal_bit_rate = map.integer("nominal_bit_rate", {kSlowestCan, kFastestNominal}, "bit/s");
     bus.data_bit_rate = bus.nominal_bit_rate;
     if (bus.flexible_data_rate)
-      bus.data_bit_rate = map.integer("data_bit_rate", {bus.nominal_bit_rate, 8'000'000}, "bit/s");
+      bus.data_bit_rate = map.integer("data_bit_rate", {bus.nominal_bit_rate, kFastestData}, "bit/s");
     bus.other_load = map.number("other_load", {0.0, 0.95});
     for (YamlMap& entry : map.maps("messages")) {
       CanMessage message;

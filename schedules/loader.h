@@ -5,6 +5,7 @@
 //   synchronisation: true
 //   topology: bus|star                          how nodes are wired; bus if absent
 //   guardian: true                              the star has a guardian; false if absent
+//   real_time: {early: 100 us, late: 400 us}    arrival window; absent: virtual time only (real_time.h)
 //   flexray: {gColdStartAttempts: 8, ...}       global parameters; times in us, gdMaxMicrotick in ns
 //             pChannels (A, B or AB) and pWakeupChannel may be absent: AB, and A where the node is attached to it
 //   node_parameters: {pSamplesPerMicrotick: 2, ...}   what holds in every node that does not say otherwise

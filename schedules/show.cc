@@ -8,6 +8,7 @@
 #include "schedules/can_load.h"
 #include "schedules/dynamic_load.h"
 #include "schedules/minislots.h"
+#include "schedules/real_time.h"
 #include "schedules/slot_groups.h"
 
 namespace ttf::schedules {
@@ -104,6 +105,17 @@ void show_slots(const Cluster& cluster, std::string& text) {
   }
 }
 
+void show_real_time(const Cluster& cluster, std::string& text) {
+  text += "\nreal time\n";
+  if (const auto& window = cluster.arrival_window)
+    text += fmt::format(
+        "  frames come {:g} us before to {:g} us after their action point; at time scale 1 there is room for {:g} us\n",
+        1e3 * in_ms(window->early), 1e3 * in_ms(window->late), 1e3 * in_ms(arrival_room(cluster, kTimeScaleOne)));
+  for (const Finding& finding : check_real_time(cluster, kTimeScaleOne))
+    text += fmt::format("  not at time scale 1: {}{}{} {}\n", finding.key, finding.value.empty() ? "" : " = ",
+                        finding.value, finding.expected);
+}
+
 }  // namespace
 
 std::string show_text(const Cluster& cluster) {
@@ -117,6 +129,7 @@ std::string show_text(const Cluster& cluster) {
       g.gdSymbolWindow, g.gdNIT, bar(cluster), sent ? "D dynamic frames at most, " : "");
   show_slots(cluster, text);
   if (sent) text += "\n" + dynamic_text(cluster);
+  show_real_time(cluster, text);
   text += "\nsensors\n";
   for (const Sensor& sensor : cluster.sensors) {
     std::string when = fmt::format("runs freely, every {:g} ms", in_ms(sensor.period));

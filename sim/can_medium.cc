@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "bus/wire/can_timing.h"
-#include "bus/wire/pdu_codec.h"
 #include "core/check.h"
 
 namespace ttf::sim {
@@ -86,17 +85,6 @@ void CanMedium::report(const Pending& frame, TrueTime start, TrueTime end) {
   sent.identifier = frame.identifier;
   sent.flexible_data_rate = frame.flexible_data_rate;
   sent.data = pool_.bytes(frame.frame);
-  for (const schedules::CanMessage& message : cluster_.can_buses[bus_].messages) {
-    if (message.identifier != frame.identifier) continue;
-    const schedules::PduLayout& layout = cluster_.pdu(message.pdu);
-    const auto bytes = static_cast<std::size_t>(layout.fragment_bytes);
-    if (sent.data.size() < bytes) break;   // a foreign frame: receivers ignore it too
-    const auto payload = sent.data.first(bytes);
-    sent.pdu = message.pdu;
-    sent.sequence = wire::read_header_raw(layout, payload, wire::header_signal(layout, "sequence"));
-    sent.fragment = static_cast<std::uint8_t>(
-        wire::read_header_raw(layout, payload, wire::header_signal(layout, "fragment")));
-  }
   sink_.on(sent);
 }
 

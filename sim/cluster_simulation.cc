@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "core/check.h"
-#include "core/random.h"
+#include "nodes/node_clock.h"
 #include "sim/precision.h"
 
 namespace ttf::sim {
@@ -13,28 +13,6 @@ namespace {
 
 constexpr std::int64_t kNoCycle = -1;
 constexpr std::size_t kPendingEvents = 4096;   // on the private CANs, beside observations and strobes
-
-timebase::Oscillator make_oscillator(const schedules::Node& node, std::size_t index, const SimulationConfig& config) {
-  const auto entity = static_cast<std::uint16_t>(index);
-  RandomStream drift({config.seed, config.replication, Purpose::kClockDrift, entity, 0});
-  RandomStream phase({config.seed, config.replication, Purpose::kClockPhase, entity, 0});
-  const std::int64_t ppb = node.drift_ppb ? *node.drift_ppb : drift.integer(-node.max_drift_ppb, node.max_drift_ppb);
-  return {node.microtick_ps, ppb, phase.integer(0, node.microtick_ps - 1)};
-}
-
-// Integrated nodes agree on rate and offset to within their microticks: the rate correction makes the cycle last its
-// nominal time, and cycle 0 starts at the first microtick after kFirstCycle.
-bus::InitialClock integrated(const timebase::Oscillator& oscillator, const schedules::Cluster& cluster,
-                             const schedules::Node& node) {
-  bus::InitialClock clock;
-  clock.cycle_start = oscillator.ticks_at(kFirstCycle) + Microticks{1};
-  // Ticks in a thousand cycles, so that rounding to one microtick per cycle is all that is lost.
-  const std::int64_t thousand = (oscillator.ticks_at(kFirstCycle + cluster.cycle() * 1000) -
-                                 oscillator.ticks_at(kFirstCycle)).value;
-  if (cluster.synchronisation)
-    clock.rate = static_cast<int>((thousand + 500) / 1000 - node.flexray->pMicroPerCycle);
-  return clock;
-}
 
 std::uint8_t signal_of(bus::Signal signal) {
   switch (signal) {
@@ -140,16 +118,10 @@ ClusterSimulation::ClusterSimulation(const SimulationConfig& config, records::Si
       nodes_(cluster_.nodes.size()),
       watched_cycle_(cluster_.nodes.size(), kNoCycle) {
   medium_.set_log(&channel_log_);
-  std::vector<std::vector<bool>> on_can(cluster_.can_buses.size(), std::vector<bool>(cluster_.nodes.size()));
-  for (std::size_t n = 0; n < cluster_.nodes.size(); ++n)
-    for (const schedules::Task& task : cluster_.nodes[n].tasks)
-      for (const auto* bindings : {&task.reads, &task.writes})
-        for (const schedules::PortBinding& binding : *bindings)
-          if (binding.can_bus) on_can[*binding.can_bus][n] = true;
   for (std::size_t b = 0; b < cluster_.can_buses.size(); ++b) {
     std::vector<NodeId> members;
     for (std::size_t n = 0; n < cluster_.nodes.size(); ++n)
-      if (on_can[b][n]) members.push_back(static_cast<NodeId>(n));
+      if (is_on_can(cluster_.nodes[n], b)) members.push_back(static_cast<NodeId>(n));
     cans_.push_back(std::make_unique<CanMedium>(cluster_, b, members, queue_, pool_, *can_log_));
   }
   for (std::size_t n = 0; n < cluster_.nodes.size(); ++n) {
@@ -157,17 +129,17 @@ ClusterSimulation::ClusterSimulation(const SimulationConfig& config, records::Si
     const auto id = static_cast<NodeId>(n);
     flexray_taps_.push_back(node.flexray ? std::make_unique<FlexRayTap>(*this, id) : nullptr);
     for (std::size_t b = 0; b < cluster_.can_buses.size(); ++b)
-      if (on_can[b][n]) {
+      if (is_on_can(node, b)) {
         can_taps_.push_back(std::make_unique<CanTap>(*this, id, b));
         can_ports_[n][b] = can_taps_.back().get();
       }
     const std::optional<TrueTime> power_on = config_.power_on ? config_.power_on(id) : std::nullopt;
-    const timebase::Oscillator crystal = make_oscillator(node, n, config);
+    const timebase::Oscillator crystal = nodes::drawn_oscillator(node, n, config.seed, config.replication);
     seat(crystal, power_on);
     if (power_on) continue;
     if (others_ != nullptr) others_->outlook(n).begins(crystal.ticks_at(TrueTime{}));
     if (is_here(n))
-      make_node(n, node.flexray ? std::optional(integrated(crystal, cluster_, node)) : std::nullopt,
+      make_node(n, node.flexray ? std::optional(nodes::integrated_clock(crystal, cluster_, node, kFirstCycle)) : std::nullopt,
                 crystal.ticks_at(kFirstCycle), {});
     refresh(n);
   }
@@ -179,7 +151,8 @@ ClusterSimulation::ClusterSimulation(const SimulationConfig& config, records::Si
 void ClusterSimulation::make_guardian(schedules::Channel channel) {
   schedules::Node crystal;
   crystal.microtick_ps = StarCoupler::microtick_ps(cluster_, channel);
-  seat_guardian(channel, make_oscillator(crystal, cluster_.nodes.size() + index_of(channel), config_));
+  seat_guardian(channel, nodes::drawn_oscillator(crystal, cluster_.nodes.size() + index_of(channel), config_.seed,
+                                                 config_.replication));
   coupler(channel)->on_intervention([this](const StarCoupler::Intervention& one) { sink_.on(record_of(one)); });
   bool integrated = false;
   for (std::size_t n = 0; n < nodes_.size(); ++n) integrated |= cluster_.nodes[n].flexray && is_powered(n);

@@ -4,37 +4,12 @@
 
 #include "nodes/believed_schedule.h"
 #include "nodes/catalog.h"
-#include "nodes/recorded.h"
 #include "recording/records/tee.h"
-#include "sim/observer.h"
 #include "sim/share.h"
-#include "sim/world/reference.h"
+#include "sim/surroundings.h"
 
 namespace ttf::sim {
 namespace {
-
-// What the cluster drives through, and the reference beside it.
-struct Surroundings {
-  std::shared_ptr<const nodes::Scene> scene;
-  std::shared_ptr<const nodes::WorldScene> world;   // the same, unless it is recorded
-  std::optional<world::Reference> reference;        // in a world, of the first object that has one
-};
-
-Surroundings surroundings_of(const DriveConfig& config) {
-  const nodes::Scenario& scenario = *config.scenario;
-  const TrueTime start = drive_start(*config.cluster);
-  Surroundings around;
-  if (nodes::is_recorded(*config.cluster)) {
-    around.scene = std::make_shared<nodes::RecordedScene>(*config.recorded, start);
-    return around;
-  }
-  around.world = std::make_shared<nodes::WorldScene>(scenario.world, config.seed, config.replication, start);
-  around.scene = around.world;
-  for (const world::ObjectConfig& object : scenario.world.objects)
-    if (object.reference && !around.reference)
-      around.reference.emplace(scenario.reference, scenario.world, config.seed, config.replication);
-  return around;
-}
 
 // Who sleeps has its supply from the start on.
 void start_cold(SimulationConfig& config, const std::vector<nodes::NodeStart>& starts) {
@@ -99,10 +74,9 @@ DriveOutcome run_drive(const DriveConfig& config, records::Sink& out) {
   std::optional<Share> share;
   if (config.others != nullptr) share.emplace(config.others->self(), out);
   records::Sink& sink = share ? static_cast<records::Sink&>(*share) : out;
-  const Surroundings around = surroundings_of(config);
+  const Surroundings around = surroundings_of(scenario, cluster, config.seed, config.replication, config.recorded);
   Observer observer(*around.scene, cluster.nodes.size(), sink);
-  if (around.reference)
-    observer.follow(*around.reference, around.world->world(), drive_start(cluster), !scenario.startup.cold);
+  around.show(observer, scenario, cluster);
   records::Tee tee({&sink, &observer});
 
   const nodes::NodeSetConfig nodes{&scenario, &cluster, config.strategy, config.seed, config.replication, around.scene,

@@ -3,38 +3,27 @@
 // keeps what is of its own node, and one of them, that of the first node, what is of none; together they keep each once.
 #pragma once
 
+#include <type_traits>
+
 #include "core/ids.h"
-#include "recording/records/records.h"
+#include "recording/records/every.h"
 
 namespace ttf::sim {
 
-class Share final : public records::Sink {
+class Share final : public records::Every<Share> {
  public:
   Share(NodeId self, records::Sink& out) : self_(self), out_(out) {}
-
-  void on(const records::Measured& record) override { out_.on(record); }
-  void on(const records::CanFrameSent& record) override { out_.on(record); }
-  void on(const records::SlotFrameSent& record) override { out_.on(record); }
-  void on(const records::SlotProblem& record) override { out_.on(record); }
-  void on(const records::ListHop& record) override { out_.on(record); }
-  void on(const records::TaskRun& record) override { out_.on(record); }
-  void on(const records::ClockCorrected& record) override { out_.on(record); }
-  void on(const records::PrecisionSample& record) override { out_.on(record); }
-  void on(const records::FusionInput& record) override { out_.on(record); }
-  void on(const records::ListFused& record) override { out_.on(record); }
-  void on(const records::FusionStep& record) override { out_.on(record); }
-  void on(const records::TrackState& record) override { out_.on(record); }
-  void on(const records::ObservationSeen& record) override { out_.on(record); }
-  void on(const records::ImageWritten& record) override { out_.on(record); }
-  void on(const records::FeatureUsed& record) override { out_.on(record); }
-  void on(const records::ReferenceFix& record) override { out_.on(record); }
-  void on(const records::TruthState& record) override { out_.on(record); }
-  void on(const records::StateChanged& record) override { out_.on(record); }
-  void on(const records::SymbolSent& record) override { out_.on(record); }
-  void on(const records::PowerChanged& record) override { out_.on(record); }
-  void on(const records::FaultActivity& record) override { if (is_mine(record.node)) out_.on(record); }
-  void on(const records::GuardianIntervention& record) override { if (is_mine(record.branch)) out_.on(record); }
-  void on(const records::ChannelFrame& record) override { if (is_mine(record.sender)) out_.on(record); }
+  template <class Record>
+  void each(const Record& record) {
+    if constexpr (std::is_same_v<Record, records::FaultActivity>) {
+      if (!is_mine(record.node)) return;
+    } else if constexpr (std::is_same_v<Record, records::GuardianIntervention>) {
+      if (!is_mine(record.branch)) return;
+    } else if constexpr (std::is_same_v<Record, records::ChannelFrame>) {
+      if (!is_mine(record.sender)) return;
+    }
+    out_.on(record);
+  }
 
  private:
   bool is_mine(NodeId node) const { return node == self_ || (node == kNoNode && self_ == NodeId{}); }

@@ -4,5 +4,5 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 tools/install_deps.sh --gates
-tools/build.sh clang
-exec ctest --test-dir build/clang --output-on-failure -j"$(nproc)" -E 'test_report|mcap_official_reader'
+tools/build.sh clang --target all benchmarks
+exec ctest --test-dir build/clang --output-on-failure -j"$(nproc)" -LE slow -E 'test_report|mcap_official_reader'

@@ -99,8 +99,9 @@ export PATH=\$PATH:/usr/sbin:/sbin
 busybox mount -t proc proc /proc
 busybox mount -t sysfs sysfs /sys
 busybox mount -t tmpfs tmpfs /run
-mkdir -p /dev/shm
+mkdir -p /dev/shm /dev/pts
 busybox mount -t tmpfs tmpfs /dev/shm
+busybox mount -t devpts -o ptmxmode=666 devpts /dev/pts
 ln -sfn /proc/self/fd /dev/fd
 ip link set lo up
 for interface in vcan0 vcan1; do

@@ -1,14 +1,62 @@
 #!/usr/bin/env bash
 # The tests that need real SocketCAN, on the test bed (tools/test_bed.sh), whatever this machine's kernel has.
+#   tools/vcan_bed.sh                    exit code 1 if one fails
+#   tools/vcan_bed.sh --update-golden    only the drives whose hashes are kept in tests/golden/vcan_hashes: shows what
+#                                        has changed, and keeps what was computed
 set -euo pipefail
 cd "$(dirname "$0")/.."
 tools/install_deps.sh --gates
-tools/build.sh release --target test_socketcan vcan_peer
+tools/build.sh release --target test_socketcan vcan_peer ttfusion
 tools/test_bed.sh --build
 peer=$PWD/build/release/tests/test_bed/vcan_peer
+ttfusion=$PWD/build/release/ttfusion
 out=$PWD/build/test-bed/exchange
 rm -rf "$out"
 mkdir -p "$out"
+
+# Both beds' words in the order of the commands, each a script with its arguments in one word.
+two_at_once() {
+  local k=0 script beds=()
+  for script; do
+    k=$((k + 1))
+    # shellcheck disable=SC2086
+    tools/test_bed.sh --seconds 240 $script >"$out/bed_$k" 2>&1 &
+    beds+=($!)
+  done
+  for ((k = 0; k < $#; ++k)); do
+    wait "${beds[k]}" || { cat "$out/bed_$((k + 1))" >&2; exit 1; }
+    cat "$out/bed_$((k + 1))"
+  done
+}
+
+# The drives of processes on vcans that are the same, bit for bit, whenever and wherever they are run.
+golden=tests/golden/vcan_hashes
+made_with='g++-12 libc6 libfmt9 libprotobuf32 libstdc++6 libyaml-cpp0.7 libzstd1 linux-source-6.1'
+golden_drives() {
+  : >"$out/golden"
+  for script in node_set node_set_restart; do
+    echo "vcan bed: $script, twice, the same log"
+    two_at_once "env LOGS=$out/$script.1.mcap tests/test_bed/$script.sh $ttfusion" \
+      "env LOGS=$out/$script.2.mcap tests/test_bed/$script.sh $ttfusion"
+    cmp "$out/$script.1.mcap" "$out/$script.2.mcap" || exit 1
+    echo "$script $(sed -n 's/.*"content_hash": "\(.*\)"/\1/p' "$out/bed_1")" >>"$out/golden"
+  done
+  # What a process does between two looks at the clock is its libraries' and the kernel's business, too.
+  echo "made_with $(dpkg-query -W -f '${Package} ${Version}\n' $made_with | sha256sum | cut -c 1-16)" >>"$out/golden"
+  if [[ ${1:-} != --update-golden && $(grep ^made_with "$golden") != $(grep ^made_with "$out/golden") ]]; then
+    echo "vcan bed: $golden was made with other versions of $made_with: its hashes are not compared"
+    return
+  fi
+  if ! diff "$golden" "$out/golden"; then
+    [[ ${1:-} == --update-golden ]] && cp "$out/golden" "$golden" && return
+    echo "vcan bed: other hashes (>) than in $golden (<); if that is right: tools/vcan_bed.sh --update-golden" >&2
+    exit 1
+  fi
+}
+if [[ ${1:-} == --update-golden ]]; then
+  golden_drives --update-golden
+  exit
+fi
 
 echo "vcan bed: the bed itself"
 ends_with() {
@@ -21,12 +69,16 @@ ends_with 124 3 bash -c 'while :; do :; done'
 ends_with 125 60 busybox poweroff -f
 
 echo "vcan bed: the socket's tests, none skipped"
-tools/test_bed.sh --seconds 120 build/release/tests/socketcan/test_socketcan >"$out/tests" || { cat "$out/tests"; exit 1; }
+tools/test_bed.sh --seconds 300 build/release/tests/socketcan/test_socketcan >"$out/tests" || { cat "$out/tests"; exit 1; }
 tail -2 "$out/tests"
 if grep '^\[  SKIPPED' "$out/tests"; then exit 1; fi
 
 echo "vcan bed: strangers on the bus"
 tools/test_bed.sh --seconds 120 tests/test_bed/strangers.sh "$peer"
+
+golden_drives
+echo "vcan bed: strangers beside the node set, interfaces that go down"
+two_at_once "tests/test_bed/node_set_strangers.sh $ttfusion $peer" "tests/test_bed/node_set_down.sh $ttfusion"
 
 repeats=12
 echo "vcan bed: ten processes, $repeats times, two beds at once"

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bus/dds/exchange_sample.h"
+#include "bus/dds/qos.h"
 
 namespace ttf::dds {
 namespace {
@@ -18,10 +19,8 @@ constexpr std::size_t kBatch = 64;          // samples taken at a time
 constexpr std::int32_t kHistory = 256;      // kept for who comes back
 constexpr std::uint32_t kConnections = DDS_SUBSCRIPTION_MATCHED_STATUS | DDS_LIVELINESS_CHANGED_STATUS;
 
-using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
-
 Qos qualities() {
-  Qos qos(dds_create_qos(), dds_delete_qos);
+  Qos qos = new_qos();
   dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, DDS_INFINITY);
   dds_qset_history(qos.get(), DDS_HISTORY_KEEP_ALL, 0);
   dds_qset_resource_limits(qos.get(), DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
@@ -30,12 +29,6 @@ Qos qualities() {
                               DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
   dds_qset_writer_data_lifecycle(qos.get(), false);
   dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
-  return qos;
-}
-
-Qos partition(const std::string& session) {
-  Qos qos(dds_create_qos(), dds_delete_qos);
-  dds_qset_partition1(qos.get(), session.c_str());
   return qos;
 }
 

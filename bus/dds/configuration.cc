@@ -24,6 +24,7 @@ std::string loopback_configuration(std::chrono::milliseconds lease) {
       <LeaseDuration>{}ms</LeaseDuration>
     </Discovery>
     <Internal>
+      <SocketReceiveBufferSize max="{}B"/>
       <NackDelay>10ms</NackDelay>
       <WriterLingerDuration>0s</WriterLingerDuration>
       <Watermarks>
@@ -35,7 +36,8 @@ std::string loopback_configuration(std::chrono::milliseconds lease) {
   </Domain>
 </CycloneDDS>
 )",
-                     kMaxParticipants - 1, lease.count(), kMaxUnacknowledgedBytes, kMaxUnacknowledgedBytes);
+                     kMaxParticipants - 1, lease.count(), kReceiveBufferBytes, kMaxUnacknowledgedBytes,
+                     kMaxUnacknowledgedBytes);
 }
 
 }  // namespace ttf::dds

@@ -18,6 +18,10 @@ inline constexpr std::uint32_t kMaxDomain = 231;   // the last whose ports are a
 // this before its lease runs out.
 inline constexpr std::int64_t kMaxUnacknowledgedBytes = 8 << 20;
 
+// What is asked of the kernel for what has arrived and nobody has taken yet: about a second of two full channels. It
+// grants no more than net.core.rmem_max, without a word.
+inline constexpr std::int64_t kReceiveBufferBytes = 4 << 20;
+
 // `lease`: a participant from which nothing has come for so long is taken to be gone.
 std::string loopback_configuration(std::chrono::milliseconds lease);
 

@@ -27,15 +27,10 @@ std::vector<NodeId> without(std::vector<NodeId> members, NodeId self) {
   return members;
 }
 
-const Session& valid(const Session& session) {
-  validate(session);
-  return session;
-}
-
 }  // namespace
 
 Exchange::Member::Member(const Session& session, NodeId self)
-    : session_(valid(session)),
+    : session_(validate(session)),
       self_(self),
       participant_(session.domain, session.lease),
       data_(participant_, kDataTopic, session.name),

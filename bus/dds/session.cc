@@ -43,7 +43,7 @@ std::string sentence(const Session& session, std::chrono::milliseconds waited, c
 
 }  // namespace
 
-void validate(const Session& session) {
+const Session& validate(const Session& session) {
   Findings findings;
   if (session.domain > kMaxDomain)
     findings.add({"DDS", 0, "domain", std::to_string(session.domain), fmt::format("must be 0..{}", kMaxDomain)});
@@ -56,6 +56,7 @@ void validate(const Session& session) {
   if (session.lease < std::chrono::milliseconds{100} || session.lease > std::chrono::hours{1})
     findings.add({"DDS", 0, "lease", std::to_string(session.lease.count()), "must be 100..3600000 ms"});
   findings.throw_if_any();
+  return session;
 }
 
 NotReady::NotReady(const Session& session, std::chrono::milliseconds waited, std::vector<NodeId> absent,

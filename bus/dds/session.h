@@ -20,8 +20,8 @@ struct Session {
   std::chrono::milliseconds lease{10'000};
 };
 
-// Throws InputError with one finding for each value out of range.
-void validate(const Session& session);
+// Throws InputError with one finding for each value out of range; returns the session.
+const Session& validate(const Session& session);
 
 // Not everybody was there in time.
 class NotReady : public std::runtime_error {

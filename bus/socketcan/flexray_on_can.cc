@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <optional>
 
 #include "bus/wire/flexray_crc.h"
 #include "core/check.h"
@@ -11,7 +10,12 @@
 namespace ttf::socketcan {
 namespace {
 
-constexpr std::size_t kSymbolBytes = wire::kHeaderBytes + wire::kTrailerBytes;
+// What has identifier 0: what it says, then the CRC; a follow-up's is followed by one zero.
+constexpr std::size_t kSymbolSays = 5, kFollowUpSays = 8;
+constexpr std::size_t kSymbolBytes = kSymbolSays + wire::kTrailerBytes;
+constexpr std::size_t kFollowUpBytes = 12;
+constexpr unsigned kFollowUpKind = 4;
+constexpr int kLastCycle = 63;
 constexpr unsigned kFragmentMark = 0x80, kFragmentUnused = 0x40;
 
 std::span<const std::byte> data_of(const canfd_frame& can) { return std::as_bytes(std::span(can.data)).first(can.len); }
@@ -81,10 +85,23 @@ std::optional<Fragment> fragment_of(int slot, std::span<const std::byte> data) {
   return part;
 }
 
+void put_big_endian(canfd_frame& can, std::size_t at, std::uint32_t value, std::size_t bytes) {
+  for (std::size_t i = 0; i < bytes; ++i) can.data[at + i] = static_cast<std::uint8_t>(value >> (8 * (bytes - 1 - i)));
+}
+
+// Behind the bytes that it is over.
+void put_crc(canfd_frame& can, schedules::Channel channel, std::size_t says) {
+  put_big_endian(can, says, wire::frame_crc(channel, data_of(can).first(says)), wire::kTrailerBytes);
+}
+
 std::uint32_t big_endian(std::span<const std::byte> bytes) {
   std::uint32_t value = 0;
   for (const std::byte byte : bytes) value = value << 8 | static_cast<std::uint32_t>(byte);
   return value;
+}
+
+bool crc_holds(schedules::Channel channel, std::span<const std::byte> data, std::size_t says) {
+  return wire::frame_crc(channel, data.first(says)) == big_endian(data.subspan(says, wire::kTrailerBytes));
 }
 
 }  // namespace
@@ -122,9 +139,26 @@ canfd_frame symbol_to_can(schedules::Channel channel, bus::Signal symbol, Durati
   TTF_CHECK(duration.ns >= 0 && duration.ns <= std::numeric_limits<std::uint32_t>::max(), "{} ns", duration.ns);
   canfd_frame can = empty_frame(kSymbolIdentifier, kSymbolBytes);
   can.data[0] = symbol == bus::Signal::kCas ? 1 : symbol == bus::Signal::kWakeup ? 2 : 3;
-  for (int i = 0; i < 4; ++i) can.data[1 + i] = static_cast<std::uint8_t>((duration.ns >> (8 * (3 - i))) & 0xff);
-  const std::uint32_t crc = wire::frame_crc(channel, data_of(can).first(wire::kHeaderBytes));
-  for (int i = 0; i < 3; ++i) can.data[5 + i] = static_cast<std::uint8_t>((crc >> (8 * (2 - i))) & 0xff);
+  put_big_endian(can, 1, static_cast<std::uint32_t>(duration.ns), 4);
+  put_crc(can, channel, kSymbolSays);
+  return can;
+}
+
+bool can_be_told(Duration late) {
+  using Told = std::numeric_limits<std::int32_t>;
+  return late.ns >= Told::min() && late.ns <= Told::max();
+}
+
+canfd_frame follow_up_to_can(schedules::Channel channel, const FollowUp& follow_up) {
+  TTF_CHECK(follow_up.slot >= 1 && follow_up.slot <= kLastSlot, "slot {}", follow_up.slot);
+  TTF_CHECK(follow_up.cycle_counter <= kLastCycle, "cycle {}", follow_up.cycle_counter);
+  TTF_CHECK(can_be_told(follow_up.late), "{} ns", follow_up.late.ns);
+  canfd_frame can = empty_frame(kSymbolIdentifier, kFollowUpBytes);
+  can.data[0] = kFollowUpKind;
+  put_big_endian(can, 1, static_cast<std::uint32_t>(follow_up.slot), 2);
+  can.data[3] = follow_up.cycle_counter;
+  put_big_endian(can, 4, static_cast<std::uint32_t>(follow_up.late.ns), 4);
+  put_crc(can, channel, kFollowUpSays);
   return can;
 }
 
@@ -141,9 +175,10 @@ Arrival Reassembly::arrive(const canfd_frame& can) {
     if (slot != kSymbolIdentifier && (can.data[0] & kFragmentMark) != 0) {
       arrival = fragment(slot, data);
     } else {
-      arrival = slot == kSymbolIdentifier ? symbol(data) : whole(slot, data);
+      const bool said_later = slot == kSymbolIdentifier && data[0] == std::byte{kFollowUpKind};
+      arrival = said_later ? follow_up(data) : slot == kSymbolIdentifier ? symbol(data) : whole(slot, data);
       // Something else of ours where a fragment was due.
-      arrival.abandoned = arrival.outcome == Outcome::kComplete && next_ != 0;
+      arrival.abandoned = arrival.outcome == Outcome::kComplete && !said_later && next_ != 0;
       if (arrival.abandoned) next_ = 0;
     }
   }
@@ -157,11 +192,24 @@ Arrival Reassembly::symbol(std::span<const std::byte> data) const {
   if (data.size() != kSymbolBytes) return arrival;
   const auto kind = static_cast<unsigned>(data[0]);
   if (kind < 1 || kind > 3) return arrival;
-  if (wire::frame_crc(channel_, data.first(wire::kHeaderBytes)) != big_endian(data.last(wire::kTrailerBytes)))
-    return arrival;
+  if (!crc_holds(channel_, data, kSymbolSays)) return arrival;
   arrival.outcome = Outcome::kComplete;
   arrival.signal = kind == 1 ? bus::Signal::kCas : kind == 2 ? bus::Signal::kWakeup : bus::Signal::kUndecodable;
   arrival.duration = Duration::nanoseconds(big_endian(data.subspan(1, 4)));
+  return arrival;
+}
+
+Arrival Reassembly::follow_up(std::span<const std::byte> data) const {
+  Arrival arrival{.outcome = Outcome::kMalformed};
+  if (data.size() != kFollowUpBytes || !all_zero(data.subspan(kFollowUpSays + wire::kTrailerBytes))) return arrival;
+  if (!crc_holds(channel_, data, kFollowUpSays)) return arrival;
+  const auto slot = static_cast<int>(big_endian(data.subspan(1, 2)));
+  const auto cycle = static_cast<int>(data[3]);
+  if (slot < 1 || slot > kLastSlot || cycle > kLastCycle) return arrival;
+  arrival.outcome = Outcome::kComplete;
+  arrival.follow_up = FollowUp{.slot = slot,
+                               .cycle_counter = static_cast<std::uint8_t>(cycle),
+                               .late = {static_cast<std::int32_t>(big_endian(data.subspan(4, 4)))}};
   return arrival;
 }
 

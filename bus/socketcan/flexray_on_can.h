@@ -1,7 +1,8 @@
 // FlexRay on CAN FD: what of a FlexRay channel travels in which bytes on a CAN interface. Pure functions and one state;
 // docs/socketcan.md describes the same for those who look at the bus with candump.
 //
-//   identifier        11 bits: the slot in which the frame is sent, 1..2047; 0 for symbols, as no slot has that number
+//   identifier        11 bits: the slot in which the frame is sent, 1..2047; 0 for symbols and follow-ups, as no slot
+//                     has that number
 //   whole frame       header, payload, frame CRC, as FlexRay has them: 8..64 bytes
 //   fragments         of what does not fit, or is no frame by its own header: three bytes before up to 61 of the frame
 //                       byte 0   1 0 lll iii   number of the last fragment, of this one, both from 0
@@ -9,6 +10,9 @@
 //                       byte 2   nnnnnnnn      the frame's length in bytes, lower bits
 //   symbol            kind (1 CAS or MTS, 2 wake-up, 3 noise), duration in ns (4 bytes, most significant first), CRC-24
 //                     of these five with the channel's initial value
+//   follow-up         4, slot (2 bytes), cycle count (1), how late the sync frame sent there and then was in ns (4,
+//                     two's complement), CRC-24 of these eight as above; no FlexRay signal, and nothing to the
+//                     fragments around it
 //
 // CAN FD has no frame of, say, 26 bytes: zeros follow up to the next length there is. How long a whole frame is, its
 // header says, whose CRC must hold; bit 7 of byte 0, reserved in FlexRay and sent as 0, tells the two forms apart.
@@ -24,6 +28,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "bus/flexray_port.h"
@@ -53,8 +58,18 @@ CanFrames frame_to_can(int slot, std::span<const std::byte> frame);
 // Any signal but a frame; at most 4.29 s long.
 canfd_frame symbol_to_can(schedules::Channel channel, bus::Signal symbol, Duration duration);
 
+// What a sender says of a sync frame that it has sent before: how much later than it should have it left.
+struct FollowUp {
+  int slot = 0;                       // 1..2047
+  std::uint8_t cycle_counter = 0;     // 0..63
+  Duration late;                      // negative: earlier; within can_be_told()
+};
+// Whether it has room in a follow-up: up to 2.14 s either way.
+bool can_be_told(Duration late);
+canfd_frame follow_up_to_can(schedules::Channel channel, const FollowUp& follow_up);
+
 enum class Outcome : std::uint8_t {
-  kComplete,    // a FlexRay frame, or a symbol, is there
+  kComplete,    // a FlexRay frame, a symbol or a follow-up is there
   kFragment,    // part of a frame that is not complete yet
   kForeign,     // not this mapping's: classic CAN, 29-bit identifiers, remote and error frames
   kMalformed,   // a CAN FD frame with an 11-bit identifier that no sender of ours sends
@@ -66,9 +81,10 @@ struct Arrival {
   Outcome outcome{};
   bool abandoned = false;             // a frame whose first fragments were here will not be complete any more
   int slot = 0;                       // of a complete frame or a fragment, displaced or not
-  bus::Signal signal{};               // of what is complete
+  bus::Signal signal{};               // of what is complete and no follow-up
   Duration duration{};                // of a symbol
   std::span<const std::byte> frame{};   // of a complete frame: valid as long as what arrived is, until the next arrival
+  std::optional<FollowUp> follow_up{};   // if it is one
 };
 
 // One channel's receiver: one per interface.
@@ -84,6 +100,7 @@ class Reassembly {
 
  private:
   Arrival symbol(std::span<const std::byte> data) const;
+  Arrival follow_up(std::span<const std::byte> data) const;
   Arrival whole(int slot, std::span<const std::byte> data) const;
   Arrival fragment(int slot, std::span<const std::byte> data);
 

@@ -47,48 +47,67 @@ std::string bring_up(const std::string& name, bool flexible_data_rate) {
 
 InterfaceState interface_state(const std::string& name) {
   InterfaceState state;
-  const Descriptor socket(::socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC, CAN_RAW));
-  if (socket.value() < 0) {
-    if (errno != EAFNOSUPPORT && errno != EPROTONOSUPPORT) unexpected(name, "no CAN socket");
-    state.family = errno == EPROTONOSUPPORT;
-    return state;
-  }
-  state.family = state.raw = true;
+  if (Descriptor(::socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC, CAN_RAW)).value() < 0) state.refused = errno;
   ifreq request{};
   if (name.empty() || name.size() >= sizeof request.ifr_name || name.find('\0') != std::string::npos) return state;
   std::memcpy(request.ifr_name, name.data(), name.size());
-  if (ioctl(socket.value(), SIOCGIFHWADDR, &request) != 0) {
+  const Descriptor any(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0));   // any socket answers
+  if (ioctl(any.value(), SIOCGIFHWADDR, &request) != 0) {
     if (errno != ENODEV) unexpected(name, "no answer about its kind");
     return state;
   }
   state.there = true;
   state.can = request.ifr_hwaddr.sa_family == ARPHRD_CAN;
-  if (ioctl(socket.value(), SIOCGIFFLAGS, &request) != 0) unexpected(name, "no answer about its flags");
+  if (ioctl(any.value(), SIOCGIFFLAGS, &request) != 0) unexpected(name, "no answer about its flags");
   state.up = (static_cast<unsigned short>(request.ifr_flags) & IFF_UP) != 0;
-  if (ioctl(socket.value(), SIOCGIFMTU, &request) != 0) unexpected(name, "no answer about its MTU");
+  if (ioctl(any.value(), SIOCGIFMTU, &request) != 0) unexpected(name, "no answer about its MTU");
   state.mtu = request.ifr_mtu;
   return state;
 }
 
-std::string interface_problem(const std::string& name, const InterfaceState& state, bool flexible_data_rate) {
-  if (!state.family)
-    return "this kernel has no CAN sockets (AF_CAN): modprobe can_raw && modprobe vcan, in a container on its host";
-  if (!state.raw) return "this kernel has no raw CAN sockets (CAN_RAW): modprobe can_raw, in a container on its host";
+Problem kernel_problem(const InterfaceState& state) {
+  const char* const host = "in a container it is the host's kernel that counts";
+  switch (state.refused) {
+    case 0: return {};
+    case EAFNOSUPPORT:
+      return {fmt::format("has no CAN sockets (AF_CAN; {})", host), {"modprobe can_raw", "modprobe vcan"}};
+    case EPROTONOSUPPORT: return {fmt::format("has no raw CAN sockets (CAN_RAW; {})", host), {"modprobe can_raw"}};
+    default: return {fmt::format("gives no CAN socket: {}", std::system_category().message(state.refused)), {}};
+  }
+}
+
+Problem link_problem(const std::string& name, const InterfaceState& state, bool flexible_data_rate) {
+  const char* const others = "ip -details link show type can lists those there are";
   if (!state.there) {
     if (name.empty() || name.size() >= IFNAMSIZ)
-      return fmt::format("interfaces have names of 1..{} bytes", IFNAMSIZ - 1);
-    if (is_virtual(name))
-      return fmt::format("no such interface: ip link add dev {} type {} && {}", name, name[1] == 'x' ? "vxcan" : "vcan",
-                         bring_up(name, flexible_data_rate));
-    return "no such interface: ip -details link show type can lists those there are";
+      return {fmt::format("is no name of an interface: these have 1..{} bytes", IFNAMSIZ - 1), {}};
+    if (!is_virtual(name)) return {fmt::format("is not there; {}", others), {}};
+    return {"is not there", {fmt::format("ip link add dev {} type {}", name, name[1] == 'x' ? "vxcan" : "vcan"),
+                             bring_up(name, flexible_data_rate)}};
   }
-  if (!state.can) return "not a CAN interface: ip -details link show type can lists those there are";
-  const bool narrow = flexible_data_rate && state.mtu < static_cast<int>(CANFD_MTU);
-  if (narrow)
-    return fmt::format("carries no CAN FD frames (MTU {}, needs {}): {}{}", state.mtu, CANFD_MTU,
-                       state.up ? fmt::format("ip link set {} down && ", name) : "", bring_up(name, true));
-  if (!state.up) return fmt::format("not up: {}", bring_up(name, flexible_data_rate));
-  return "";
+  if (!state.can) return {fmt::format("is no CAN interface; {}", others), {}};
+  if (flexible_data_rate && state.mtu < static_cast<int>(CANFD_MTU)) {
+    Problem narrow{fmt::format("carries no CAN FD frames (MTU {}, needs {})", state.mtu, CANFD_MTU), {}};
+    if (state.up) narrow.commands.push_back(fmt::format("ip link set {} down", name));
+    narrow.commands.push_back(bring_up(name, true));
+    return narrow;
+  }
+  if (!state.up) return {"is down", {bring_up(name, flexible_data_rate)}};
+  return {};
+}
+
+std::vector<std::string> virtual_interface(const std::string& name, bool flexible_data_rate) {
+  return {fmt::format("ip link add dev {} type vcan", name),
+          fmt::format("ip link set {} mtu {} up", name, flexible_data_rate ? CANFD_MTU : CAN_MTU)};
+}
+
+std::string Problem::text() const {
+  return commands.empty() ? what : fmt::format("{}: {}", what, fmt::join(commands, " && "));
+}
+
+std::string interface_problem(const std::string& name, const InterfaceState& state, bool flexible_data_rate) {
+  if (const Problem kernel = kernel_problem(state)) return "the kernel " + kernel.text();
+  return link_problem(name, state, flexible_data_rate).text();
 }
 
 }  // namespace ttf::socketcan

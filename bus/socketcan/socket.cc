@@ -38,6 +38,11 @@ Socket::Socket(const SocketOptions& options) : interface_(options.interface) {
   TTF_CHECK(options.receive_buffer_frames > 0 && options.receive_buffer_frames <= 1'000'000, "{} frames",
             options.receive_buffer_frames);
   TTF_CHECK(options.filters.size() <= CAN_RAW_FILTER_MAX, "{} filters", options.filters.size());
+  when_down_ = fmt::format("{0}: the interface went down during the run: ip link set {0} up", interface_);
+  when_gone_ = fmt::format("{}: {}", interface_,
+                           Problem{"the interface was removed during the run",
+                                   link_problem(interface_, {}, options.flexible_data_rate).commands}
+                               .text());
   const InterfaceState state = interface_state(options.interface);
   if (std::string problem = interface_problem(options.interface, state, options.flexible_data_rate); !problem.empty())
     throw InputError(Finding{options.interface, 0, "", "", std::move(problem)});
@@ -57,8 +62,11 @@ void Socket::set_up(const SocketOptions& options) {
   };
   if (descriptor_ < 0) refuse("no CAN socket");
   const int on = 1;
-  if (options.flexible_data_rate && !set_option(descriptor_, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, on))
-    refuse("no CAN FD frames on this socket");
+  if (!set_option(descriptor_, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, on)) refuse("no CAN FD frames on this socket");
+  if (options.own_frames && !set_option(descriptor_, SOL_CAN_RAW, CAN_RAW_RECV_OWN_MSGS, on))
+    refuse("no frames of its own");
+  const can_err_mask_t all = CAN_ERR_MASK;
+  if (options.error_frames && !set_option(descriptor_, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, all)) refuse("no error frames");
   if (!options.filters.empty() &&
       setsockopt(descriptor_, SOL_CAN_RAW, CAN_RAW_FILTER, options.filters.data(),
                  static_cast<socklen_t>(options.filters.size() * sizeof(can_filter))) != 0)
@@ -96,6 +104,8 @@ Socket::Socket(Socket&& other) noexcept
       descriptor_(std::exchange(other.descriptor_, -1)),
       index_(other.index_),
       shortage_(std::move(other.shortage_)),
+      when_down_(std::move(other.when_down_)),
+      when_gone_(std::move(other.when_gone_)),
       lost_seen_(other.lost_seen_),
       state_(other.state_),
       error_(other.error_) {}
@@ -142,6 +152,7 @@ Status Socket::receive(Received& received) {
     if (failed(errno) == Status::kFailed) return state_;
   } while (size < 0);
   TTF_CHECK(size == CAN_MTU || size == CANFD_MTU, "{} bytes", size);
+  received.own = (message.msg_flags & MSG_CONFIRM) != 0;
   received.can.flags = static_cast<std::uint8_t>(size == CANFD_MTU ? received.can.flags | CANFD_FDF : 0);
   for (cmsghdr* head = CMSG_FIRSTHDR(&message); head != nullptr; head = CMSG_NXTHDR(&message, head)) {
     if (head->cmsg_level != SOL_SOCKET) continue;
@@ -156,6 +167,18 @@ Status Socket::receive(Received& received) {
     }
   }
   return Status::kDone;
+}
+
+Status Socket::receive_own(Received& received) {
+  msghdr message{};   // no room for anything: only its flags are looked at
+  ssize_t size = -1;
+  do {
+    size = recvmsg(descriptor_, &message, MSG_PEEK);
+    if (size >= 0 || errno == EINTR) continue;
+    if (errno == EAGAIN) return state_ == Status::kDone ? Status::kNothing : state_;
+    if (failed(errno) == Status::kFailed) return state_;
+  } while (size < 0);
+  return (message.msg_flags & MSG_CONFIRM) != 0 ? receive(received) : Status::kNothing;
 }
 
 void Socket::wait(Duration longest) const {
@@ -173,16 +196,20 @@ std::uint32_t Socket::lost() const {
 }
 
 std::string Socket::failure() const {
+  std::string text;
+  tell_failure(text);
+  return text;
+}
+
+void Socket::tell_failure(std::string& text) const {
   switch (state_) {
-    case Status::kDown:
-      return fmt::format("{0}: the interface went down during the run: ip link set {0} up", interface_);
-    case Status::kGone: return fmt::format("{}: the interface was removed during the run", interface_);
-    case Status::kFailed: return fmt::format("{}: {}", interface_, words_of(error_));
+    case Status::kDown: text += when_down_; break;
+    case Status::kGone: text += when_gone_; break;
+    case Status::kFailed: text.append(interface_).append(": ").append(strerrordesc_np(error_)); break;
     case Status::kDone:
     case Status::kNothing:
     case Status::kNoRoom: break;
   }
-  return "";
 }
 
 }  // namespace ttf::socketcan

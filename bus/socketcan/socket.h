@@ -20,7 +20,9 @@ namespace ttf::socketcan {
 
 struct SocketOptions {
   std::string interface;
-  bool flexible_data_rate = true;            // the interface must carry CAN FD; classic frames arrive in either case
+  bool flexible_data_rate = true;            // the interface must carry CAN FD; what it carries arrives in either case
+  bool own_frames = false;                   // those of this socket arrive here too, once they have left
+  bool error_frames = false;                 // what the driver says about the bus arrives as frames with CAN_ERR_FLAG
   // What the receive buffer should hold. The kernel's usual one has room for 278 CAN FD frames.
   int receive_buffer_frames = 16'384;
   std::vector<can_filter> filters;           // of which one must match, at most 512; none: everything arrives
@@ -38,6 +40,7 @@ enum class Status : std::uint8_t {
 struct Received {
   canfd_frame can{};              // CANFD_FDF is set in its flags if and only if it is a CAN FD frame
   std::int64_t stamp_ns = 0;      // CLOCK_REALTIME; 0 where the kernel gave none
+  bool own = false;               // sent by this very socket; stamped when it had left
   std::uint32_t lost_before = 0;  // frames that were lost just before this one, for want of room in the receive buffer
 };
 
@@ -53,6 +56,8 @@ class Socket {
   Status send(const canfd_frame& can);
   // Never blocks. What arrived before the interface went down is handed out first.
   Status receive(Received& received);
+  // The next thing that is there if it is a frame of this socket's own; else kNothing, and it stays there.
+  Status receive_own(Received& received);
   // Sleeps until receive() has something to say, for that long, or until a signal. The kernel may make
   // it up to a thousandth longer; for an instant, or for more than one socket: poll(descriptor()), with a timerfd.
   void wait(Duration longest) const;
@@ -62,8 +67,10 @@ class Socket {
   std::uint32_t lost() const;
   // One sentence with the command that helps where the kernel gave a smaller receive buffer than asked for; else empty.
   const std::string& shortage() const { return shortage_; }
-  // One sentence about the last status but kDone, kNothing and kNoRoom.
+  // One sentence about the last status but kDone, kNothing and kNoRoom, with the command that helps where one is known.
   std::string failure() const;
+  // Appends it; allocates nothing but what `text` needs.
+  void tell_failure(std::string& text) const;
 
  private:
   Status failed(int error);
@@ -73,7 +80,7 @@ class Socket {
   std::string interface_;
   int descriptor_ = -1;
   int index_ = 0;
-  std::string shortage_;
+  std::string shortage_, when_down_, when_gone_;
   std::uint32_t lost_seen_ = 0;       // as told by the frames received
   Status state_ = Status::kDone;      // once it is another it stays
   int error_ = 0;

@@ -65,7 +65,8 @@ Pair control_line() {
   return pair;
 }
 
-// What exec wants, put together before the fork: after it, in a process that may have threads, nothing may be allocated.
+// What exec wants, put together before the fork: after it, in a process that may have threads, nothing may be
+// allocated.
 class Strings {
  public:
   void add(std::string text) { texts_.push_back(std::move(text)); }

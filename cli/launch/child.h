@@ -69,8 +69,9 @@ class Child {
   // To the process and all of its group; nothing once it has been reaped.
   void signal_group(int signal);
 
-  // Up to `most` bytes of what it prints. Empty: nothing there now, or no more to come (output_fd() tells). The terminal
-  // itself stays until the end, because closing it would hang up on a child that has only redirected its output.
+  // Up to `most` bytes of what it prints. Empty: nothing there now, or no more to come (output_fd() tells). The
+  // terminal itself stays until the end, because closing it would hang up on a child that has only redirected its
+  // output.
   std::string read_output(std::size_t most);
   // One message; nothing: none there now, or no more to come (control_fd() tells). One that is longer than
   // kLongestMessage is cut, and no JSON any more.

@@ -2,7 +2,7 @@
 //
 //   node -> supervisor   {"ready": true}       everything is set up; waiting for the start
 //                        {"health": {...}}     how it goes, now and then (cli/launch/health_table.h)
-//                        {"done": {...}}       the drive is over; what came of it
+//                        {"done": {...}}       the drive is over, and nothing failed; what came of it
 //   supervisor -> node   {"start": {...}}      all are ready: begin, as it says
 #pragma once
 

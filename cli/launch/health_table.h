@@ -19,7 +19,9 @@ struct NodeHealth {
   std::optional<double> lateness_p99_us;
   std::optional<double> lateness_max_us;
   std::optional<double> sync_precision_us;      // largest deviation that clock synchronisation has seen
-  std::optional<std::uint64_t> drops;           // frames that were lost on the way in
+  // Frames that its medium lost on their way in or had no room to send, and those that had no room in its process: each
+  // once. What is known by its gap alone is not among them: its sender may have withheld it.
+  std::optional<std::uint64_t> drops;
   std::string state;                            // in the node's own words: "normal active"
 };
 

@@ -11,8 +11,8 @@ namespace {
 constexpr unsigned char byte_of(char c) { return static_cast<unsigned char>(c); }
 constexpr bool is_continuation(char c) { return (byte_of(c) & 0xc0u) == 0x80u; }
 
-// Length of the printable UTF-8 character that `text` begins with; 0 where there is none. RFC 3629: no overlong forms, no
-// surrogates, nothing above U+10FFFF; and no C1 control (U+0080..U+009F), which terminals obey.
+// Length of the printable UTF-8 character that `text` begins with; 0 where there is none. RFC 3629: no overlong forms,
+// no surrogates, nothing above U+10FFFF; and no C1 control (U+0080..U+009F), which terminals obey.
 std::size_t character(std::string_view text) {
   const unsigned char lead = byte_of(text[0]);
   if (lead < 0x80) return lead >= 0x20 && lead != 0x7f ? 1 : 0;

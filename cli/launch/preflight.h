@@ -20,6 +20,17 @@ struct Bus {
   std::string text() const;
 };
 
+// As the kernel takes it (dev_valid_name), and without the commas that --bus puts between two: 1..15 bytes, no '/', ':'
+// or white space, and neither "." nor "..".
+bool is_interface_name(std::string_view name);
+
+// A CAN between sensors and hosts, on SocketCAN.
+struct PrivateCan {
+  std::string name;                  // in the cluster file
+  std::string interface;
+  bool flexible_data_rate = false;   // it must carry CAN FD
+};
+
 // One thing that was looked at.
 struct PreflightItem {
   std::string what;                    // "vcan0"
@@ -28,8 +39,8 @@ struct PreflightItem {
   std::vector<std::string> commands;   // that mend it, to be given as root; none where none is known
 };
 
-// The interfaces that a bus runs over, as the kernel has them now.
-std::vector<PreflightItem> look_at(const Bus& bus);
+// The interfaces that a bus runs over, and on SocketCAN the private CANs', as the kernel has them now.
+std::vector<PreflightItem> look_at(const Bus& bus, const std::vector<PrivateCan>& cans);
 
 bool all_good(const std::vector<PreflightItem>& items);
 // One line per item, its commands below it.

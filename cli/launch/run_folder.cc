@@ -9,9 +9,12 @@
 #include <cstring>
 #include <ctime>
 #include <filesystem>
+#include <fstream>
 #include <stdexcept>
+#include <utility>
 
 #include "cli/output.h"
+#include "core/check.h"
 #include "core/errors.h"
 
 namespace ttf::launch {
@@ -48,6 +51,21 @@ std::string file_stem(std::string_view node) {
   return stem.empty() ? "%" : stem;
 }
 
+std::optional<EarlierLaunch> earlier_launch(const std::string& folder) {
+  std::ifstream file(folder + "/manifest.json");
+  const auto json = nlohmann::json::parse(file, nullptr, false);
+  if (!json.is_object() || !json.contains("nodes") || !json["nodes"].is_array()) return std::nullopt;
+  const auto text = [](const nlohmann::json& of, const char* key) {
+    return of.is_object() && of.contains(key) && of[key].is_string() ? of[key].get<std::string>() : std::string();
+  };
+  EarlierLaunch earlier{text(json, "strategy"), {}};
+  // Names of files are made of it: no such name leads elsewhere.
+  if (file_stem(earlier.strategy) != earlier.strategy) earlier.strategy.clear();
+  for (const nlohmann::json& node : json["nodes"])
+    if (std::string name = text(node, "name"); !name.empty()) earlier.nodes.push_back(std::move(name));
+  return earlier;
+}
+
 RunFolder::RunFolder(std::string folder, nlohmann::ordered_json facts, WallInstant now)
     : folder_(std::move(folder)), facts_(std::move(facts)), began_(now) {
   std::error_code failure;
@@ -59,6 +77,34 @@ RunFolder::RunFolder(std::string folder, nlohmann::ordered_json facts, WallInsta
 std::size_t RunFolder::add_node(const Entry& entry) {
   nodes_.push_back({entry, opened(folder_ + "/" + file_stem(entry.name) + ".txt"), {}});
   return nodes_.size() - 1;
+}
+
+std::vector<std::string> RunFolder::logs_of(std::string_view node) const {
+  std::vector<std::string> logs;
+  std::string log = log_path(node);
+  for (int n = 2; std::filesystem::exists(log); ++n) {
+    logs.push_back(log);
+    log = fmt::format("{}/{}.{}.mcap", folder_, file_stem(node), n);
+  }
+  return logs;
+}
+
+std::vector<std::string> RunFolder::logs() const {
+  std::vector<std::string> all;
+  for (const Node& node : nodes_)
+    for (std::string& log : logs_of(node.entry.name)) all.push_back(std::move(log));
+  return all;
+}
+
+void RunFolder::remove_logs(std::string_view node) const {
+  for (const std::string& log : logs_of(node)) std::filesystem::remove(log);
+}
+
+void RunFolder::remove(const std::string& name) const {
+  TTF_CHECK(name.find('/') == std::string::npos, "{} is not in the folder", name);
+  const std::filesystem::path path(folder_ + "/" + name);
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(path, ignored)) std::filesystem::remove(path, ignored);
 }
 
 Descriptor RunFolder::open_launch_log() const { return opened(folder_ + "/launch.log"); }
@@ -105,8 +151,11 @@ nlohmann::ordered_json RunFolder::json() const {
   json["nodes"] = nlohmann::ordered_json::array();
   for (const Node& node : nodes_) {
     const std::string stem = file_stem(node.entry.name);
-    nlohmann::ordered_json one{{"name", node.entry.name}, {"policy", node.entry.policy}, {"command", node.entry.command},
-                               {"log", stem + ".mcap"},   {"output", stem + ".txt"}};
+    nlohmann::ordered_json one{{"name", node.entry.name},
+                               {"policy", node.entry.policy},
+                               {"command", node.entry.command},
+                               {"log", stem + ".mcap"},
+                               {"output", stem + ".txt"}};
     one["processes"] = nlohmann::ordered_json::array();
     for (const Process& process : node.processes) {
       nlohmann::ordered_json p;

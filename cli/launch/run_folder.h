@@ -32,11 +32,19 @@ using WallInstant = std::chrono::system_clock::time_point;
 std::string utc_text(WallInstant instant);
 std::string file_stem(std::string_view node);
 
+// What the manifest of a folder says of the launch that was in it.
+struct EarlierLaunch {
+  std::string strategy;              // empty where it says none, or what could not be part of a file's name
+  std::vector<std::string> nodes;
+};
+// Nothing where there has been none, or what is there cannot be read.
+std::optional<EarlierLaunch> earlier_launch(const std::string& folder);
+
 class RunFolder {
  public:
-  // Makes the folder and the empty text files, and writes the manifest: `facts` (an object: command line, scenario, seed,
-  // hashes) first, then state and nodes. Throws InputError where the folder cannot be made, std::runtime_error where a
-  // file cannot be written.
+  // Makes the folder and the empty text files, and writes the manifest: `facts` (an object: command line, scenario,
+  // seed, hashes) first, then state and nodes. Throws InputError where the folder cannot be made, std::runtime_error
+  // where a file cannot be written.
   RunFolder(std::string folder, nlohmann::ordered_json facts, WallInstant now);
 
   struct Entry {
@@ -49,6 +57,13 @@ class RunFolder {
 
   const std::string& folder() const { return folder_; }
   std::string log_path(std::string_view node) const { return folder_ + "/" + file_stem(node) + ".mcap"; }
+  // What is there of a node's logs: NODE.mcap and, of processes that took its place, NODE.2.mcap, NODE.3.mcap and so
+  // on.
+  std::vector<std::string> logs_of(std::string_view node) const;
+  std::vector<std::string> logs() const;   // of all nodes, in the order of the launch
+  void remove_logs(std::string_view node) const;
+  // Of a file that launches leave here; one that is not there, or no plain file, is left alone.
+  void remove(const std::string& name) const;
   Descriptor open_launch_log() const;
 
   // A node's text file gets what its process printed.

@@ -1,7 +1,7 @@
 // Signals as something to poll: while it lives, SIGINT, SIGTERM and SIGHUP are blocked and readable from a descriptor,
 // and a write to whom nobody reads is an error, not a signal. Make it before other threads begin, so that they inherit
-// the mask: a signal goes to any thread that takes it. One may live within another's life. SIGHUP stays ignored where it
-// is (nohup).
+// the mask: a signal goes to any thread that takes it. One may live within another's life. SIGHUP stays ignored where
+// it is (nohup).
 #pragma once
 
 #include <signal.h>

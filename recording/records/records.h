@@ -1,8 +1,8 @@
 // What can happen in a run, as plain structs, and the port they are reported to.
 //
-// These records are the contract between what runs (simulator, real-time runner) and what looks at it (log writer, diagrams,
-// reports, measures). Spans are views that are valid during the call only. Coordinates follow ISO 8855, metres,
-// seconds, radians. Covariances are row-major.
+// These records are the contract between what runs (simulator, real-time runner) and what looks at it (log writer,
+// diagrams, reports, measures). Spans are views that are valid during the call only. Coordinates follow ISO 8855,
+// metres, seconds, radians. Covariances are row-major.
 #pragma once
 
 #include <cstddef>
@@ -15,9 +15,9 @@
 
 namespace ttf::records {
 
-// When and where something happened: on all three clocks. `global` is what the node's own clock of the cluster showed; where
-// it has none (off FlexRay, or while its controller is not in normal operation: starting up, integrating, halted), it is
-// `local` once more.
+// When and where something happened: on all three clocks. `global` is what the node's own clock of the cluster
+// showed; where it has none (off FlexRay, or while its controller is not in normal operation: starting up,
+// integrating, halted), it is `local` once more.
 struct Stamp {
   TrueTime true_time{};
   LocalTime local{};
@@ -30,8 +30,8 @@ struct Stamp {
 // comparable.
 constexpr TrueTime true_time_of(const Stamp& stamp, GlobalTime at) { return stamp.true_time + (at - stamp.global); }
 
-// A sensor measured, as its device saw it (`stamp.node`). The time stamp that travels with the observations is its host's
-// latched global time (FusionInput::measured).
+// A sensor measured, as its device saw it (`stamp.node`). The time stamp that travels with the observations is its
+// host's latched global time (FusionInput::measured).
 struct Measured {
   Stamp stamp;
   MeasurementId id;
@@ -40,8 +40,8 @@ struct Measured {
 inline constexpr ObjectId kClutterObject{0xffff};
 
 // What travels is a list: of a PDU, under a sequence number that counts on where the bus' field wraps, and (with that
-// number) of the measurement `sensor` made. kNoSensor: a list that descends from no single measurement, such as an image,
-// which ImageWritten ties to the measurements in it.
+// number) of the measurement `sensor` made. kNoSensor: a list that descends from no single measurement, such as an
+// image, which ImageWritten ties to the measurements in it.
 
 // One frame on a private CAN, as its sender saw it.
 struct CanFrameSent {
@@ -79,7 +79,7 @@ struct SlotFrameSent {
 inline constexpr std::uint8_t kChannelHeaderCrc = 1;   // it fails its header CRC
 inline constexpr std::uint8_t kChannelFrameCrc = 2;    // it fails its frame CRC, or is not as long as its header says
 inline constexpr std::uint8_t kChannelCoding = 4;      // nobody can make it out, or no more of it than `bytes`
-inline constexpr std::uint8_t kChannelCut = 8;         // it breaks off after `bytes`; a CRC that has not come is not wrong
+inline constexpr std::uint8_t kChannelCut = 8;         // it breaks off after `bytes`; a CRC that never came is not wrong
 inline constexpr std::uint8_t kChannelNothing = 16;    // nothing of it reached anybody; alone
 struct ChannelFrame {
   TrueTime start{};                  // first and last bit, as and where they left the sender, or appeared
@@ -132,10 +132,11 @@ struct TaskRun {
   bool deadline_met = true;
 };
 
-// The corrections computed from a double cycle. The offset correction acts from gOffsetCorrectionStart of this same cycle to
-// its end, the rate correction from the next cycle on.
+// The corrections computed from a double cycle. The offset correction acts from gOffsetCorrectionStart of this same
+// cycle to its end, the rate correction from the next cycle on.
 struct ClockCorrected {
-  Stamp stamp;                       // end of the odd cycle's static segment, before either is in force
+  Stamp stamp;                       // end of the odd cycle's static segment, before either is in force; what all
+                                     // clocks showed at that instant, however late it was looked at
   std::int64_t cycle = 0;
   std::int32_t offset_microticks = 0;
   std::int32_t rate_microticks = 0;
@@ -183,8 +184,8 @@ struct FaultActivity {
   std::string_view text;             // one sentence
 };
 
-// What the central guardian of one channel kept from the others, wholly or from `until` on. It belongs to no node, so its true
-// time is all there is.
+// What the central guardian of one channel kept from the others, wholly or from `until` on. It belongs to no node, so
+// its true time is all there is.
 inline constexpr std::uint8_t kSignalFrame = 1;
 inline constexpr std::uint8_t kSignalCas = 2;           // collision avoidance or media access test symbol
 inline constexpr std::uint8_t kSignalWakeup = 3;        // a wake-up pattern
@@ -200,8 +201,8 @@ struct GuardianIntervention {
   std::string_view why;              // the reason in words
 };
 
-// Largest difference between any two nodes' global times within a double cycle: seen by the simulator, which belongs to no
-// node, so its true time is all there is.
+// Largest difference between any two nodes' global times within a double cycle: seen by the simulator, which belongs
+// to no node, so its true time is all there is.
 struct PrecisionSample {
   TrueTime at{};
   std::int64_t cycle = 0;
@@ -259,8 +260,9 @@ struct ObservationSeen {
   double x = 0, y = 0, sxx = 0, sxy = 0, syy = 0;
 };
 
-// The real-time image of one object as decoded from the bus, in the sensor car's frame: velocities are relative to it. Status:
-// the sum of the bits below. Length and width are what is typical of vehicles where they were not measured.
+// The real-time image of one object as decoded from the bus, in the sensor car's frame: velocities are relative to
+// it. Status: the sum of the bits below. Length and width are what is typical of vehicles where they were not
+// measured.
 inline constexpr std::uint8_t kImageConfirmed = 1;   // else tentative
 inline constexpr std::uint8_t kImageCoasting = 2;    // not observed of late: predicted only
 inline constexpr std::uint8_t kImageHasLength = 4;   // length was measured
@@ -317,6 +319,50 @@ struct TruthState {
   NodeId node{};
 };
 
+// What a node's process did not do in its time, or what did not come to it in its time: of runs in real time, where the
+// schedule is kept by an ordinary kernel. Loss and lateness are told apart.
+inline constexpr std::uint8_t kLateWakeUp = 1;     // something was due for longer than the arrival window allows
+inline constexpr std::uint8_t kSlotMissed = 2;     // so late that nothing was sent in an own slot
+inline constexpr std::uint8_t kLateFrame = 3;      // a frame came after its window, and was not used
+inline constexpr std::uint8_t kEarlyFrame = 4;     // before it; not used either
+inline constexpr std::uint8_t kFramesLost = 5;     // `count` frames of a slot never came, as the next one's cycle shows
+struct TimingProblem {
+  Stamp stamp;                       // true time: when it was noticed; local and global: when it was due
+  std::uint8_t what = kLateWakeUp;
+  Duration late{};                   // in real time; negative: early; of frames lost: how late that was noticed
+  std::int64_t cycle = 0;
+  std::uint16_t slot = 0;            // 0: none
+  std::uint8_t channel = 0;          // 0 A, 1 B
+  std::uint32_t count = 1;
+};
+
+// How late a process was: how often by how much, in bins of recording/records/lateness_bins.h, since it began. Told at
+// its end, and now and then before.
+inline constexpr std::uint8_t kLatenessOfWakeUps = 1;     // of the node's process, at what it had to do
+inline constexpr std::uint8_t kLatenessOfFloor = 2;       // of a plain periodic thread beside it: the machine's own
+inline constexpr std::uint8_t kLatenessOfDepartures = 3;  // of its frames, behind their action points
+inline constexpr std::uint8_t kLatenessOfArrivals = 4;    // of others' frames, behind their action points on its clock
+inline constexpr std::uint8_t kLatenessOfTransits = 5;    // of what came from this host: from sender to process
+struct LatenessHistogram {
+  Stamp stamp;
+  std::uint8_t of = kLatenessOfWakeUps;
+  Duration longest{};
+  std::span<const std::uint64_t> counts;   // by bin, to the last that is not empty
+};
+
+// What the medium of a node's process has counted since that began, as LatenessHistogram: of runs in real time.
+// Frames and signals of FlexRay, and CAN frames (bus/live_medium.h).
+struct MediumCounts {
+  Stamp stamp;
+  std::uint64_t sent = 0;
+  std::uint64_t received = 0;
+  std::uint64_t not_sent = 0;        // there was no room
+  std::uint64_t lost = 0;            // never heard, as the medium knows
+  std::uint64_t foreign = 0;         // not of this program
+  std::uint64_t malformed = 0;       // of its form, but wrong
+  std::uint64_t dropped = 0;         // no room in the process itself, on its way in or out
+};
+
 // The port. One function per kind of record; an implementation overrides what it cares for.
 class Sink {
  public:
@@ -344,6 +390,9 @@ class Sink {
   virtual void on(const FaultActivity&) {}
   virtual void on(const GuardianIntervention&) {}
   virtual void on(const ChannelFrame&) {}
+  virtual void on(const TimingProblem&) {}
+  virtual void on(const LatenessHistogram&) {}
+  virtual void on(const MediumCounts&) {}
 };
 
 }  // namespace ttf::records

@@ -5,24 +5,7 @@ set -u
 program=$1
 source=$2
 split_log=$3
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-failures=0
-
-fail() {
-  echo "FAILED: $*"
-  failures=$((failures + 1))
-}
-
-# expect CODE PATTERN ARGS...: exit code, and a pattern in what is printed on either stream.
-expect() {
-  local code=$1 pattern=$2 output actual
-  shift 2
-  output=$("$program" "$@" 2>&1)
-  actual=$?
-  [[ $actual -eq $code ]] || fail "$* exits with $actual, not $code: $output"
-  grep -Eq -- "$pattern" <<<"$output" || fail "$* does not say '$pattern': $output"
-}
+source "$(dirname "$0")/expect.sh"
 
 # mutate FROM SED TO: a shipped file with one mistake.
 mutate() {
@@ -90,7 +73,8 @@ expect 2 'png' schedule show "$source/schedules/paper_synchronised.yaml" -o "$wo
 # The CANs as DBC, all or one.
 expect 0 'BO_ 256 laser_scan: 64 laser' schedule export "$source/schedules/paper_synchronised.yaml" --format dbc
 expect 0 '' schedule export "$source/schedules/paper_synchronised.yaml" --format dbc --can camera_can -o "$work/camera.dbc"
-[[ $(grep -c '^BO_ ' "$work/camera.dbc") -eq 1 ]] || fail "--can camera_can writes something else"
+[[ $(grep -c "^BO_ [0-9]* camera_" "$work/camera.dbc") -eq 3 && $(grep -c "^BO_ " "$work/camera.dbc") -eq 3 ]] ||
+  fail "--can camera_can writes something else: a frame, its strobe and its trigger are there"
 expect 2 '--can = no_can: must be one of' schedule export "$source/schedules/paper_synchronised.yaml" --format dbc --can no_can
 expect 2 'command line: --can = laser_can: goes with --format dbc only' \
   schedule export "$source/schedules/paper_synchronised.yaml" --format fibex --can laser_can
@@ -188,6 +172,10 @@ expect 2 'command line: --from = 1e.300: must be 0..1000000000 s' \
 expect 2 'must be after --from' diagram "$work/a/tt.mcap" --from 1.5 --to 1.5 -o "$work/timing.pdf"
 expect 0 '' diagram "$work/a/tt.mcap" "$work/a/adva.mcap" --kind plane -o "$work/plane.svg"
 expect 2 '--from = 50 s: must be before the end of the log' diagram "$work/a/tt.mcap" --from 50 -o "$work/none.svg"
+expect 2 'tt.mcap: tells of no lateness: the run was not in real time' \
+  diagram "$work/a/tt.mcap" --kind lateness -o "$work/none.svg"
+expect 2 '--to = 1.5 s: does not go with --kind lateness' \
+  diagram "$work/a/tt.mcap" --kind lateness --to 1.5 -o "$work/none.svg"
 expect 2 '--frame = 3: goes with --kind boxes' diagram "$work/a/tt.mcap" --frame 3 -o "$work/none.svg"
 head -c 100 "$work/a/tt.mcap" >"$work/empty.mcap"
 expect 2 'empty.mcap: holds nothing of a log but its beginning: 100 bytes, no manifest, no record' \
@@ -241,6 +229,39 @@ expect 2 'README.md: is no capture' schedule check "$schedule" --against "$sourc
 expect 2 'absent.pcapng: cannot be read' schedule check "$schedule" --against "$work/absent.pcapng"
 expect 2 'no FlexRay frame' schedule check "$schedule" --against "$work/drive.pcapng" --from 1000
 expect 2 '--against' schedule check "$schedule" --channels A
+
+# On real CAN FD: what does not hold, and the time scale at which all does.
+expect 1 'paper_synchronised on can-fd:1M/5M at time scale 1: 34 of 34 slots do not hold' schedule check "$schedule" --medium can-fd:1M/5M
+expect 1 '^ +1-5  AB +2 +232.2 +84.0$' schedule check "$schedule" --medium can-fd:1M/5M
+expect 1 '^smallest time scale at which all hold: 2.764286$' schedule check "$schedule" --medium can-fd:1000k/5000000
+expect 0 'at time scale 2.764286: all 34 slots hold$' schedule check "$schedule" --medium can-fd:1M/5M --time-scale 2.764286
+expect 1 'at time scale 2.764285: 5 of 34 slots do not hold$' schedule check "$schedule" --medium can-fd:1M/5M --time-scale 2.764285
+expect 1 '^ +21-24  AB +1 +168.6 +84.0  dynamic$' schedule check "$source/schedules/flexray_demo.yaml" --medium can-fd:1M/5M
+mutate schedules/paper_synchronised.yaml 's/late: 500 us/late: 168599 ns/' "$cluster"
+expect 1 '^every frame of 168.6 us comes too late: real_time.late is 168.599 us' schedule check "$cluster" --medium can-fd:1M/5M --time-scale 3
+expect 0 'all 34 slots hold' schedule check "$source/schedules/paper_synchronised.yaml" --medium can-fd:1M/5M --time-scale 3
+"$program" schedule check "$source/schedules/flexray_demo.yaml" --medium can-fd:0.5M/8M --time-scale 2.5 --json >"$work/medium.json"
+[[ $? -eq 1 ]] || fail "slots that do not hold, as JSON, do not exit with 1"
+python3 - "$work/medium.json" <<'PY' || fail "slots that do not hold are no JSON"
+import json, sys
+check = json.load(open(sys.argv[1]))
+assert check["holds"] is False and check["time_scale"] == 2.5 and check["smallest_time_scale"] == 4.3175, check
+assert (check["nominal_bit_rate"], check["data_bit_rate"], check["slots"]) == (500000, 8000000, 14), check
+static = [slot for slot in check["not_holding"] if slot["segment"] == "static"]
+assert [slot["slot"] for slot in static] == list(range(1, 11)), static
+assert static[0] == {"slot": 1, "segment": "static", "channels": "AB", "can_frames": 2, "needs_us": 215.875, "has_us": 125.0}, static
+assert check["late_us"] is None and check["window_holds"] is True, check
+PY
+for medium in "" can-fd can-fd: can-fd:1M can-fd:1M/ can-fd:/5M can-fd:2M/5M can-fd:1M/8000001 can-fd:1M/0.9M can-fd:9999/1M \
+              can-fd:1m/5M can-fd:1M/5M/2M dds vcan0; do
+  expect 2 "--medium( = .*)?: must be can-fd:NOMINAL/DATA in bit/s, as in can-fd:1M/5M" schedule check "$schedule" --medium "$medium"
+done
+expect 2 '--medium = can:1M: must be can-fd: a frame of classic CAN holds 8 bytes' schedule check "$schedule" --medium can:1M
+expect 2 '--time-scale = 0.05: must be a decimal number 0.1..1000' schedule check "$schedule" --medium can-fd:1M/5M --time-scale 0.05
+expect 2 '--time-scale requires --medium' schedule check "$schedule" --time-scale 2
+expect 2 '--medium excludes --against|--against excludes --medium' \
+  schedule check "$schedule" --medium can-fd:1M/5M --against "$work/drive.pcapng"
+expect 0 'schedule check .* --medium can-fd:1M/5M --time-scale 3' schedule check --help
 
 # The logs of a run's processes are merged: what is made of them is what is made of the one log of the run.
 mkdir "$work/nodes"

@@ -4,29 +4,12 @@
 set -u
 program=$1
 source=$2
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-failures=0
+source "$(dirname "$0")/expect.sh"
 drive=$source/scenarios/paper_scenario1.yaml
 cluster=$source/schedules/paper_synchronised.yaml
 
-fail() {
-  echo "FAILED: $*"
-  failures=$((failures + 1))
-}
-
-# expect CODE PATTERN ARGS...: exit code, and a pattern in what is printed on either stream.
-expect() {
-  local code=$1 pattern=$2 output actual
-  shift 2
-  output=$("$program" "$@" 2>&1)
-  actual=$?
-  [[ $actual -eq $code ]] || fail "$* exits with $actual, not $code: $output"
-  grep -Eq -- "$pattern" <<<"$output" || fail "$* does not say '$pattern': $output"
-}
-
 expect 0 'Example: ttfusion launch' launch --help
-expect 0 'Example: ttfusion node' node --help
+expect 0 'Examples: ttfusion node' node --help
 expect 2 'required' launch
 expect 2 'required' node fusion
 expect 2 'absent.yaml: cannot be read' launch "$work/absent.yaml"
@@ -48,9 +31,73 @@ for command in launch "node fusion"; do
       expect 2 "--duration = $duration: must be a decimal number 0.1..3600 s" $command "$drive" --duration "$duration"
     done
     expect 2 '--duration = 1.4: must be at least 1.5 s: from there on .*paper_scenario1.yaml is evaluated' $command "$drive" --duration 1.4
+    expect 2 '--can = laser_can=can2: goes with --bus socketcan' $command "$drive" --can laser_can=can2
+    can="$command $drive --bus socketcan:vcan0,vcan1 --can"
+    for option in laser_can laser_can= =can2 laser_can=a/b laser_can=sixteen_letters_; do
+      expect 2 "--can = $option: must (be NAME=IF, a CAN of|name a CAN of) .*paper_synchronised.yaml" $can "$option"
+    done
+    expect 2 '--can = lidar_can=can2: must name a CAN of .*: laser_can, camera_can, observation_can' $can lidar_can=can2
+    expect 2 '--can = laser_can=can3: must be given once for each CAN' $can laser_can=can2 --can laser_can=can3
+    expect 2 '--can = laser_can=vcan1: must be another interface than that of channel B' $can laser_can=vcan1
+    expect 2 '--can = camera_can=laser_can: must be another interface than that of laser_can' $can camera_can=laser_can
     expect 2 'a recording is played by `ttfusion run --input`' $command "$source/scenarios/laser_radar_recorded.yaml"
   }
 done
+# In real time: what the cluster must be fit for, at the time scale; no faults.
+edited() { sed "$1" "$cluster" >"$work/edited.yaml"; cmp -s "$cluster" "$work/edited.yaml" && fail "'$1' changes nothing"; }
+expect 2 'flexray_demo.yaml:[0-9]+: topology = star: must be bus in real time' launch "$source/schedules/flexray_demo.yaml" --dry-run
+expect 0 'node fusion' launch "$source/schedules/flexray_demo.yaml" --virtual-time --dry-run
+edited '/^real_time:/d'
+expect 2 'edited.yaml:[0-9]+: real_time: is missing: .* for virtual time only' launch "$work/edited.yaml" --dry-run
+expect 0 'node fusion' launch "$work/edited.yaml" --virtual-time --dry-run
+edited 's/late: 500 us/late: 2 ms/'
+expect 2 'edited.yaml:10: real_time.late = 2000 us: must be at most 581 us at time scale 1, .*; --time-scale 3.442341 or more' \
+  node fusion "$work/edited.yaml"
+expect 2 'must be at most 1999.999 us at time scale 3.44234,' \
+  node fusion "$work/edited.yaml" --time-scale 3.44234
+expect 0 'node fusion .* --time-scale 3.442341 ' launch "$work/edited.yaml" --time-scale 3.442341 --dry-run
+edited 's/observation_can/observation_can_/g'
+expect 2 'edited.yaml:[0-9]+: can.observation_can_: needs --can NAME=IF on SocketCAN' launch "$work/edited.yaml" --bus socketcan:vcan0 --dry-run
+expect 0 'can observation_can_=vcan4' launch "$work/edited.yaml" --bus socketcan:vcan0 --can observation_can_=vcan4 --dry-run
+edited '0,/slot: 6, channels: AB/s//slot: 6, channels: B/'
+expect 2 '--bus = socketcan:vcan0: must name an interface for channel B, too: slot 6 of .*edited.yaml is sent on B alone' \
+  launch "$work/edited.yaml" --bus socketcan:vcan0 --dry-run
+expect 0 'node fusion' launch "$work/edited.yaml" --bus socketcan:vcan0,vcan1 --dry-run
+expect 2 'faulty_bus.yaml:[0-9]+: faults: must be run in virtual time' launch "$source/scenarios/faulty_bus.yaml" --dry-run
+expect 0 'node fusion' launch "$source/scenarios/faulty_bus.yaml" --virtual-time --dry-run
+
+# A node without a supervisor.
+expect 2 '--start-at = 1: must not be given with --virtual-time' node fusion "$drive" --start-at 1 --virtual-time
+expect 2 '--rejoin: must not be given with --virtual-time' node fusion "$drive" --rejoin --virtual-time
+expect 2 '--host = a: must not be given with --virtual-time' node fusion "$drive" --host a --virtual-time
+expect 2 '--host = two words: must be 1..255 letters, digits or signs, without blanks' node fusion "$drive" --host 'two words'
+expect 2 '--host: 1 required TEXT missing' node fusion "$drive" "--host="
+expect 2 'not expected: .*--host' launch "$drive" --host a
+for start in -1 1e9 4102444801 now 0.0000000001; do
+  expect 2 "--start-at = $start: must be a decimal number 0..4102444800 s" node fusion "$drive" "--start-at=$start"
+done
+for rejoin in '' --rejoin; do
+  # shellcheck disable=SC2086
+  expect 2 'command line: --start-at: must be given to a node in real time that has no supervisor' \
+    node fusion "$drive" $rejoin --out "$work/by_hand"
+done
+expect 2 '--start-at = 1: must be ahead' node fusion "$drive" --start-at 1 --no-topics --session "refused-$$" --out "$work/by_hand"
+[[ $(ls "$work/by_hand" 2>/dev/null) == '' ]] || fail "a node that is refused leaves a log"
+expect 2 'not expected: --rejoin' launch "$drive" --rejoin
+expect 2 'not expected: .*--start-at' launch "$drive" --start-at 1
+
+# What ROS 2's topics need is looked at before anything is started.
+for domain in 232 -1 0.5 one; do
+  export ROS_DOMAIN_ID=$domain
+  expect 2 "environment: ROS_DOMAIN_ID = $domain: must be a whole number 0..231" launch "$drive" --out "$work/real"
+  [[ -e $work/real ]] && fail "a launch that is refused leaves a folder"
+  expect 2 "environment: ROS_DOMAIN_ID = $domain: must be" node fusion "$drive" --start-at 4000000000 --out "$work/real"
+  [[ -e $work/real ]] && fail "a node that is refused leaves a folder"
+  expect 0 'node fusion .*--no-topics' launch "$drive" --no-topics --dry-run
+  expect 0 'node fusion .*--virtual-time' launch "$drive" --virtual-time --dry-run
+done
+unset ROS_DOMAIN_ID
+
 expect 2 'NAME = fusoin: must be a node of .*paper_synchronised.yaml: .*laser_pre, .*fusion' node fusoin "$drive" --virtual-time
 expect 2 '--policy = fusion: must be NODE=required, NODE=restart or NODE=optional' launch "$drive" --policy fusion
 expect 2 '--policy = fusion=never: must be NODE=' launch "$drive" --policy fusion=never
@@ -61,11 +108,9 @@ expect 2 'broken.yaml:[0-9]+: .*(gdNIT|gMacroPerCycle)' launch "$work/broken.yam
 sed "s#\.\./schedules#$source/schedules#; 0,/node: camera_pre/s//node: camera_per/" "$source/scenarios/faulty_bus.yaml" >"$work/typo.yaml"
 expect 2 'camera_per: must be a node' launch "$work/typo.yaml" --dry-run
 
-# What cannot run yet says so, and starts nothing.
-expect 2 'launch needs --virtual-time' launch "$drive" --out "$work/real"
-expect 2 'node needs --virtual-time' node fusion "$drive" --out "$work/real"
+# What cannot run says so, and starts nothing.
+expect 1 'ip link add dev vcan_absent type vcan' launch "$drive" --bus socketcan:vcan_absent --out "$work/real"
 [[ -e $work/real ]] && fail "a launch that cannot be leaves a folder"
-
 expect 2 '--policy = fusion=restart: must not be given with --virtual-time' \
   launch "$drive" --virtual-time --policy fusion=restart --out "$work/real"
 [[ -e $work/real ]] && fail "a launch that is refused leaves a folder"
@@ -83,19 +128,24 @@ while IFS= read -r line; do
   bash -c "$line --dry" >/dev/null 2>"$work/refused"
   grep -q 'not expected: --dry' "$work/refused" || fail "a shell does not take: $line"
 done <"$work/commands"
-"$program" launch "$drive" --strategy buff --time-scale 2.50 --bus socketcan:vcan_absent --policy fusion=restart --dry-run --json \
+"$program" launch "$drive" --strategy buff --time-scale 2.50 --bus socketcan:vcan_absent --can camera_can=can7 --policy fusion=restart --dry-run --json \
   >"$work/plan.json" || fail "the dry run's JSON fails"
 python3 - "$work/plan.json" <<'PY' || fail "the dry run's JSON is another"
 import json, sys
 plan = json.load(open(sys.argv[1]))
 assert plan["strategy"] == "buff" and plan["cluster"]["name"] == "paper_unsynchronised" and plan["time_scale"] == 2.5, plan
 assert plan["virtual_time"] is False and plan["bus"] == "socketcan:vcan_absent" and plan["duration_s"] == 3.0, plan
-absent = plan["preflight"][-1]
+looked_at = {item["what"]: item for item in plan["preflight"]}
+assert list(looked_at)[2:] == ["vcan_absent", "laser_can", "can7", "observation_can"], looked_at
+absent = looked_at["vcan_absent"]
 assert absent["good"] is False and "ip link add dev vcan_absent type vcan" in absent["commands"], absent
+assert looked_at["laser_can"]["commands"][0] == "ip link add dev laser_can type vcan", looked_at
 by_name = {node["name"]: node for node in plan["nodes"]}
 assert by_name["fusion"]["policy"] == "restart" and by_name["laser_pre"]["policy"] == "required", plan
 command = by_name["laser_pre"]["command"]
 assert command[1:3] == ["node", "laser_pre"] and command[-4:-2] == ["--time-scale", "2.5"], command
+cans = [value for option, value in zip(command, command[1:]) if option == "--can"]
+assert cans == ["laser_can=laser_can", "camera_can=can7", "observation_can=observation_can"], command
 PY
 
 # A cluster file takes the default scene.

@@ -5,43 +5,14 @@
 set -u
 program=$1
 source=$2
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-failures=0
+source "$(dirname "$0")/expect.sh"
+source "$(dirname "$0")/launching.sh"
+launch_options=(--virtual-time)
 drive=$source/scenarios/paper_scenario1.yaml
-
-fail() {
-  echo "FAILED: $*"
-  failures=$((failures + 1))
-}
 
 # hash_of FOLDER: of the drive that left its summary there.
 hash_of() {
   python3 -c 'import json, sys; print(json.load(open(sys.argv[1] + "/summary.json"))["strategies"][0]["content_hash"])' "$1"
-}
-
-# launch FOLDER ARGS...
-launch() {
-  local folder=$1
-  shift
-  "$program" launch "$@" --virtual-time --no-pictures --out "$folder" >"$folder.out" 2>"$folder.err"
-}
-
-# Until the nodes of the launch in FOLDER have begun.
-wait_begun() {
-  for _ in $(seq 600); do
-    grep -q 'all are ready' "$1/launch.log" 2>/dev/null && return
-    sleep 0.1
-  done
-  fail "the nodes of $1 do not begin: $(cat "$1.err")"
-}
-
-# pid_of FOLDER NODE
-pid_of() {
-  python3 -c '
-import json, sys
-manifest = json.load(open(sys.argv[1] + "/manifest.json"))
-print(next(node["processes"][-1]["pid"] for node in manifest["nodes"] if node["name"] == sys.argv[2]))' "$1" "$2"
 }
 
 for scenario in paper_scenario1 faulty_bus; do
@@ -66,14 +37,14 @@ PY
 cmp "$work/nodes.csv" "$work/run.csv" || fail "the nodes' logs, exported together, are not the run's"
 
 # Two launches at once, one of them stopped now and then.
-launch "$work/beside" "$drive" &
+begin "$work/beside" "$drive"
 beside=$!
-launch "$work/stopped" "$drive" &
+begin "$work/stopped" "$drive"
 stopped=$!
 wait_begun "$work/stopped"
+pids_of "$work/stopped"
 for node in fusion laser gateway camera_pre fusion feature; do
-  pid=$(pid_of "$work/stopped" "$node")
-  kill -STOP "$pid" 2>/dev/null && sleep 0.2 && kill -CONT "$pid"
+  kill -STOP "${pid[$node]}" 2>/dev/null && sleep 0.2 && kill -CONT "${pid[$node]}"
 done
 wait "$beside" || fail "a launch beside another one: $(cat "$work/beside.err")"
 wait "$stopped" || fail "a launch whose nodes are stopped: $(cat "$work/stopped.err")"
@@ -82,25 +53,36 @@ for folder in beside stopped; do
 done
 
 # A killed one: the others go on to the end; its log is readable.
-launch "$work/killed" "$drive" --duration 8 --policy camera=optional &
+begin "$work/killed" "$drive" --duration 8 --policy camera=optional
 killed=$!
 wait_begun "$work/killed"
+pids_of "$work/killed"
 sleep 0.3
-kill -9 "$(pid_of "$work/killed" camera)"
+kill -9 "${pid[camera]}"
 wait "$killed" || fail "the survivors of a killed node: $(cat "$work/killed.err")"
 grep -q 'camera: signal 9' "$work/killed.err" || fail "nobody says that camera was killed"
 "$program" diagram "$work/killed/camera.mcap" --kind timing --from 0 --to 0.05 -o "$work/killed.svg" >/dev/null 2>&1 ||
   "$program" export "$work/killed/camera.mcap" --format csv -o "$work/killed.csv" 2>/dev/null || fail "a killed node's log is not readable"
-launch "$work/required" "$drive" --duration 60 &
+# Into a folder that another launch has left, of another strategy with another node, and that the user has put files into.
+mkdir "$work/required"
+echo '{"strategy": "adva", "nodes": [{"name": "old one"}]}' >"$work/required/manifest.json"
+left="adva.mcap adva_timing.svg adva_lateness.png adva_startup.pdf adva_plane.svg adva_over_time.svg schedule.svg index.html
+  truth.mcap old%20one.mcap old%20one.2.mcap old%20one.txt"
+users="notes.txt adva.txt buff.mcap mine.mcap adva_mine.svg"
+for file in $left $users; do echo old >"$work/required/$file"; done
+begin "$work/required" "$drive" --duration 60
 required=$!
 wait_begun "$work/required"
-kill -9 "$(pid_of "$work/required" fusion)"
+pids_of "$work/required"
+kill -9 "${pid[fusion]}"
 wait "$required"
 code=$?
 [[ $code -eq 137 ]] || fail "a launch whose fusion is killed exits with $code"
+for file in $left; do [[ -e $work/required/$file ]] && fail "an earlier launch's $file is left"; done
+for file in $users; do [[ -s $work/required/$file ]] || fail "the user's $file is gone"; done
 
 # Interrupted, as by Ctrl-C, it stops in order and says so.
-"$program" launch "$drive" --virtual-time --duration 600 --no-pictures --out "$work/interrupted" >/dev/null 2>"$work/interrupted.err" &
+begin "$work/interrupted" "$drive" --duration 600
 interrupted=$!
 wait_begun "$work/interrupted"
 kill -INT "$interrupted"

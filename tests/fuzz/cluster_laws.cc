@@ -9,6 +9,7 @@
 #include "schedules/ages.h"
 #include "schedules/checker.h"
 #include "schedules/loader.h"
+#include "schedules/real_time.h"
 #include "schedules/show.h"
 #include "tests/fuzz/fibex_laws.h"
 #include "tests/fuzz/harness.h"
@@ -41,6 +42,19 @@ void check_ages(const schedules::Cluster& cluster) {
   schedules::ages_text(cluster);
 }
 
+// The time scale that is named makes room for the arrival window, the next smaller one does not.
+void check_time_scale(const schedules::Cluster& cluster) {
+  if (!cluster.arrival_window) return;
+  const auto window_fits = [&](std::int64_t time_scale) {
+    for (const Finding& finding : schedules::check_real_time(cluster, time_scale))
+      if (finding.key.starts_with("real_time")) return false;
+    return true;
+  };
+  const std::int64_t smallest = schedules::smallest_time_scale(cluster, *cluster.arrival_window);
+  TTF_CHECK(window_fits(smallest), "{} ppm", smallest);
+  TTF_CHECK(smallest == schedules::kSmallestTimeScale || !window_fits(smallest - 1), "{} ppm", smallest);
+}
+
 recording::RecordedInput some_recording() {
   return recording::parse_laser_radar(
       "L\t10\t0\t1000\t10\t0\t1\t0\t0\t0\nR\t10\t0\t1\t2000\t10\t0\t1\t0\t0\t0\n", "rows.txt");
@@ -54,6 +68,7 @@ void check_cluster(const std::string& text) {
   if (const auto findings = schedules::check(cluster); !findings.empty())
     return check_refusal(InputError(findings), kClusterFile);
   schedules::show_text(cluster);
+  check_time_scale(cluster);
   if (!accepted(kClusterFile, [&] { schedules::bind_ports(cluster, nodes::step_ports()); })) return;
   for (const schedules::PduLayout& layout : cluster.pdus) {
     check_signals(layout, layout.header);

@@ -6,7 +6,9 @@
 #include <algorithm>
 
 #include "core/check.h"
+#include "recording/lateness_sums.h"
 #include "recording/log_reader.h"
+#include "report/lateness_picture.h"
 #include "report/position_plot.h"
 #include "report/startup_diagram.h"
 #include "report/timing_diagram.h"
@@ -29,7 +31,10 @@ struct Pictures {
     recording::read_log_bytes(log, "drive.mcap", position);
     report::StartupDiagram startup(names, cycle, from, to);
     recording::read_log_bytes(log, "drive.mcap", startup);
-    return {timing.svg(), position.over_time_svg(), position.plane_svg(), startup.svg()};
+    recording::LatenessSums lateness;
+    recording::read_log_bytes(log, "drive.mcap", lateness);
+    return {timing.svg(), position.over_time_svg(), position.plane_svg(), startup.svg(),
+            report::lateness_svg(lateness.nodes(), names)};
   }
 };
 

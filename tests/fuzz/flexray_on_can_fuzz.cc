@@ -4,7 +4,7 @@
 //
 // First byte: channel (bit 0). Then frames, each begun by a byte: bits 0 and 1, where it comes from (any bytes as a
 // CAN frame; any bytes as a FlexRay frame that is sent; the same with right CRCs; a CAN frame sent before), bit 2,
-// one of its bytes is changed.
+// one of its bytes is changed, bit 3, with the first of these: a follow-up that is sent.
 #include <algorithm>
 #include <array>
 #include <vector>
@@ -33,6 +33,13 @@ canfd_frame any_frame(fuzz::Source& source) {
   const auto bytes = source.bytes(std::min<std::size_t>(can.len, CANFD_MAX_DLEN));
   std::transform(bytes.begin(), bytes.end(), can.data, [](std::byte byte) { return static_cast<std::uint8_t>(byte); });
   return can;
+}
+
+canfd_frame sent_follow_up(fuzz::Source& source, schedules::Channel channel) {
+  return socketcan::follow_up_to_can(
+      channel, {.slot = 1 + static_cast<int>(source.below(socketcan::kLastSlot)),
+                .cycle_counter = static_cast<std::uint8_t>(source.below(64)),
+                .late = Duration::nanoseconds(static_cast<std::int32_t>(source.take<std::uint32_t>()))});
 }
 
 // Sent as a frame of a drawn slot; with right CRCs by our own encoder.
@@ -73,6 +80,11 @@ class Laws {
 
  private:
   void complete(const canfd_frame& can, const socketcan::Arrival& arrival) {
+    if (arrival.follow_up) {   // what is begun goes on
+      TTF_CHECK(same(socketcan::follow_up_to_can(channel_, *arrival.follow_up), can), "another follow-up");
+      TTF_CHECK(!arrival.abandoned, "a follow-up ended a frame");
+      return;
+    }
     if (arrival.signal != bus::Signal::kFrame) {
       TTF_CHECK(same(socketcan::symbol_to_can(channel_, arrival.signal, arrival.duration), can), "another symbol");
       return;
@@ -101,7 +113,9 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   while (!source.empty()) {
     const auto how = source.take<std::uint8_t>();
     std::vector<canfd_frame> arriving;
-    if ((how & 3) == 0)
+    if ((how & 11) == 8)
+      arriving = {sent_follow_up(source, channel)};
+    else if ((how & 3) == 0)
       arriving = {any_frame(source)};
     else if ((how & 3) != 3)
       arriving = sent_frame(source, channel, (how & 3) == 2);

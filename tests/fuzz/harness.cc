@@ -30,7 +30,7 @@ void check_refusal(const InputError& error, std::string_view file) {
 }
 
 std::string shipped(const std::string& path) {
-  std::ifstream file(std::string(TTF_SOURCE_DIR) + "/" + path, std::ios::binary);
+  std::ifstream file(TTF_SOURCE_DIR "/" + path, std::ios::binary);
   TTF_CHECK(file.good(), "{} cannot be read", path);
   return {std::istreambuf_iterator<char>(file), {}};
 }

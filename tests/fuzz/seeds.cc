@@ -135,17 +135,19 @@ void frame_seeds(const fs::path& folder) {
   }
 }
 
-// Frames whole and in fragments, right and wrong; some with a byte changed, some CAN frames twice.
+// Frames whole and in fragments, right and wrong, and follow-ups; some with a byte changed, some CAN frames twice.
 void flexray_on_can_seeds(const fs::path& folder) {
   for (std::uint32_t i = 0; i < 24; ++i) {
     std::string input(1, static_cast<char>(i & 1));
     for (std::uint32_t k = 0; k < 6; ++k) {
       const std::uint32_t kind = (i + k) % 4;
-      const bool changed = (i + k) % 5 == 0;
-      input += static_cast<char>(kind | (changed ? 4 : 0));
+      const bool changed = (i + k) % 5 == 0, follow_up = kind == 0 && i % 2 == 1;
+      input += static_cast<char>(kind | (changed ? 4 : 0) | (follow_up ? 8 : 0));
       const std::uint16_t size = kind == 0 ? 64 : static_cast<std::uint16_t>((i * 6 + k) * 37 % 255);
       if (kind == 3) {
         put(input, static_cast<std::uint16_t>(k));
+      } else if (follow_up) {
+        input += drawn_bytes(700 + i * 6 + k, 8);
       } else {
         put(input, static_cast<std::uint16_t>(70 + i));
         if (kind == 0) input += '\1';
@@ -157,6 +159,12 @@ void flexray_on_can_seeds(const fs::path& folder) {
     }
     write(folder / "flexray_on_can" / ("drawn_" + std::to_string(i)), input);
   }
+}
+
+// Drawn arrivals at a node that is at work: every byte an act or what it takes.
+void live_seeds(const fs::path& folder) {
+  for (std::uint32_t i = 0; i < 16; ++i)
+    write(folder / "live" / ("drawn_" + std::to_string(i)), drawn_bytes(800 + i, 200 + 150 * i));
 }
 
 // A schedule's frames as pcapng and, from the same packets, as pcap; short enough to be edited.
@@ -326,6 +334,7 @@ int main(int argc, char** argv) {
   frame_seeds(folder);
   turn_seeds(folder);
   flexray_on_can_seeds(folder);
+  live_seeds(folder);
   capture_seeds(folder);
   drawn_seeds(folder);
   log_seeds(folder);

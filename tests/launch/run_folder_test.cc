@@ -94,6 +94,42 @@ TEST_F(Folder, TakesNamesThatAreNoText) {
   EXPECT_EQ(manifest()["nodes"][0]["output"], "%FF.txt");
 }
 
+TEST_F(Folder, TellsWhoHasBeenInIt) {
+  EXPECT_FALSE(launch::earlier_launch(path("run")));
+  {
+    RunFolder run(path("run"), {{"strategy", "adva"}}, at(0));
+    run.add_node({"a/b", "required", {"a"}});
+    run.add_node({"c", "required", {"c"}});
+    run.finish(0, "", at(1));
+  }
+  const auto earlier = launch::earlier_launch(path("run"));
+  ASSERT_TRUE(earlier);
+  EXPECT_EQ(earlier->strategy, "adva");
+  EXPECT_EQ(earlier->nodes, (std::vector<std::string>{"a/b", "c"}));
+  // What is no launch's.
+  for (const char* const other : {"", "{", "[]", "7", "{}", R"({"nodes": 3})"}) {
+    std::ofstream(path("run/manifest.json")) << other;
+    EXPECT_FALSE(launch::earlier_launch(path("run"))) << other;
+  }
+  std::ofstream(path("run/manifest.json")) << R"({"strategy": 3, "nodes": [1, {"name": 2}, {"name": "d"}]})";
+  const auto odd = launch::earlier_launch(path("run"));
+  ASSERT_TRUE(odd);
+  EXPECT_EQ(odd->strategy, "");
+  EXPECT_EQ(odd->nodes, std::vector<std::string>{"d"});
+  // Names of files are made of it.
+  std::ofstream(path("run/manifest.json")) << R"({"strategy": "../elsewhere/buff", "nodes": []})";
+  EXPECT_EQ(launch::earlier_launch(path("run"))->strategy, "");
+}
+
+TEST_F(Folder, RemovesPlainFilesOnly) {
+  const RunFolder run(path("run"), json::object(), at(0));
+  std::ofstream(path("run/truth.mcap")) << "old";
+  std::filesystem::create_directory(path("run/summary.json"));
+  for (const char* const name : {"truth.mcap", "summary.json", "nothing"}) EXPECT_NO_THROW(run.remove(name));
+  EXPECT_FALSE(std::filesystem::exists(path("run/truth.mcap")));
+  EXPECT_TRUE(std::filesystem::is_directory(path("run/summary.json")));
+}
+
 TEST_F(Folder, SaysWhyItCannotBe) {
   std::ofstream(path("file")) << "x";
   try {

@@ -20,7 +20,7 @@ struct NoCan final : bus::CanPort {
 // The paper's camera host with its own step, on wires of its own.
 struct CameraHost {
   schedules::Cluster cluster =
-      schedules::load_cluster(std::string(TTF_SOURCE_DIR) + "/schedules/paper_synchronised.yaml");
+      schedules::load_cluster(TTF_SOURCE_DIR "/schedules/paper_synchronised.yaml");
   NodeId id = *cluster.find_node("camera_pre");
   SensorId camera = *cluster.find_sensor("camera");
   const schedules::PduLayout& layout = cluster.pdu(*cluster.find_pdu("camera_frame"));

@@ -89,7 +89,7 @@ TEST(FaultPlan, EveryKindHasANameOfItsOwnAndAnEntryHere) {
 }
 
 TEST(FaultPlan, EveryKindAndItsKeysAreDocumented) {
-  std::ifstream file(std::string(TTF_SOURCE_DIR) + "/docs/faults.md");
+  std::ifstream file(TTF_SOURCE_DIR "/docs/faults.md");
   const std::string text((std::istreambuf_iterator<char>(file)), {});
   for (const auto& [kind, keys] : kFullEntries) {
     const auto row = text.find("\n| `" + kind + "` |");
@@ -214,7 +214,7 @@ TEST(FaultPlan, MistakesAreSaidInOneSentence) {
 }
 
 schedules::Cluster paper() {
-  return schedules::load_cluster(std::string(TTF_SOURCE_DIR) + "/schedules/paper_synchronised.yaml");
+  return schedules::load_cluster(TTF_SOURCE_DIR "/schedules/paper_synchronised.yaml");
 }
 
 std::vector<std::string> refused(const std::string& entries, const schedules::Cluster& cluster) {

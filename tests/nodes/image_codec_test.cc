@@ -13,7 +13,7 @@ namespace {
 
 struct Image {
   schedules::Cluster cluster =
-      schedules::load_cluster(std::string(TTF_SOURCE_DIR) + "/schedules/paper_synchronised.yaml");
+      schedules::load_cluster(TTF_SOURCE_DIR "/schedules/paper_synchronised.yaml");
   PduId pdu = *cluster.find_pdu("image");
   const schedules::PduLayout& layout = cluster.pdu(pdu);
   ImageSignals signals = bind_image(cluster, layout);

@@ -21,7 +21,7 @@ struct List {
   Output out;
 
   List(const std::string& file, std::string_view name)
-      : cluster(schedules::load_cluster(std::string(TTF_SOURCE_DIR) + "/schedules/" + file)),
+      : cluster(schedules::load_cluster(TTF_SOURCE_DIR "/schedules/" + file)),
         pdu(*cluster.find_pdu(name)),
         layout(cluster.pdu(pdu)),
         codec(cluster, pdu),

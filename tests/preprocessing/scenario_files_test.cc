@@ -15,7 +15,7 @@ namespace {
 
 std::vector<std::filesystem::path> shipped() {
   std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(std::string(TTF_SOURCE_DIR) + "/scenarios"))
+  for (const auto& entry : std::filesystem::directory_iterator(TTF_SOURCE_DIR "/scenarios"))
     if (entry.path().extension() == ".yaml") files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   return files;
@@ -55,7 +55,7 @@ TEST(ScenarioFiles, SensorAndCalibrationDefaultsAgree) {
 }
 
 TEST(ScenarioFiles, AnUnknownKeyAndATruncatedFileAreRefused) {
-  std::ifstream in(std::string(TTF_SOURCE_DIR) + "/scenarios/paper_scenario1.yaml");
+  std::ifstream in(TTF_SOURCE_DIR "/scenarios/paper_scenario1.yaml");
   const std::string text((std::istreambuf_iterator<char>(in)), {});
   const std::string path = ::testing::TempDir() + "broken_scenario.yaml";
   const auto refused = [&](const std::string& content) -> std::vector<Finding> {

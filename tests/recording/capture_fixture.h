@@ -16,7 +16,7 @@ namespace ttf::recording {
 using schedules::Channel;
 
 inline schedules::Cluster shipped_cluster(const std::string& name = "paper_synchronised") {
-  return schedules::load_checked_cluster(std::string(TTF_SOURCE_DIR) + "/schedules/" + name + ".yaml");
+  return schedules::load_checked_cluster(TTF_SOURCE_DIR "/schedules/" + name + ".yaml");
 }
 
 // One frame on the bus; `packet()` is what a capture has of it.

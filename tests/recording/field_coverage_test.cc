@@ -10,6 +10,7 @@
 
 #include "recording/log_codec.h"
 #include "recording/log_reader.h"
+#include "recording/records/every.h"
 #include "tests/recording/log_fixture.h"
 
 namespace ttf::recording {
@@ -36,14 +37,18 @@ class Fill {
   }
 
  private:
-  // Dispositions, hops, symbols, signals and what a fault does are small choices, an object's status has four bits, a guardian
-  // one of two channels; everything else takes the next number.
+  // Dispositions, hops, symbols, signals, what a fault does, what was not in its time and what a histogram is of are
+  // small choices, an object's status has four bits, a guardian and a timing problem one of two channels; everything else
+  // takes the next number.
   std::uint32_t whole(const FieldDescriptor& field) {
-    if (field.full_name() == "ttfusion.Guardian.channel") return 1;
+    if (field.full_name() == "ttfusion.Guardian.channel" || field.full_name() == "ttfusion.TimingProblem.channel")
+      return 1;
     const bool small = field.name() == "disposition" || field.name() == "hop" ||
                        field.full_name() == "ttfusion.ImageObject.status" ||
                        field.full_name() == "ttfusion.Symbol.kind" ||
-                       field.full_name() == "ttfusion.Guardian.signal" || field.full_name() == "ttfusion.Fault.what";
+                       field.full_name() == "ttfusion.Guardian.signal" || field.full_name() == "ttfusion.Fault.what" ||
+                       field.full_name() == "ttfusion.TimingProblem.what" ||
+                       field.full_name() == "ttfusion.Lateness.of";
     return small ? 3 : ++next_;
   }
   void set(Message& message, const FieldDescriptor& field) {
@@ -57,6 +62,9 @@ class Fill {
       }
       case FieldDescriptor::CPPTYPE_INT32:
         reflection.SetInt32(&message, &field, static_cast<std::int32_t>(++next_));
+        break;
+      case FieldDescriptor::CPPTYPE_UINT64:
+        many ? reflection.AddUInt64(&message, &field, ++next_) : reflection.SetUInt64(&message, &field, ++next_);
         break;
       case FieldDescriptor::CPPTYPE_INT64:
         reflection.SetInt64(&message, &field, ++next_);
@@ -83,38 +91,13 @@ class Fill {
 };
 
 // Encodes every record again.
-class Again final : public records::Sink {
+class Again final : public records::Every<Again> {
  public:
   Payloads payloads;
   int seen = 0;
 
-  void on(const records::Measured& r) override { again(r); }
-  void on(const records::CanFrameSent& r) override { again(r); }
-  void on(const records::SlotFrameSent& r) override { again(r); }
-  void on(const records::SlotProblem& r) override { again(r); }
-  void on(const records::ListHop& r) override { again(r); }
-  void on(const records::TaskRun& r) override { again(r); }
-  void on(const records::ClockCorrected& r) override { again(r); }
-  void on(const records::PrecisionSample& r) override { again(r); }
-  void on(const records::FusionInput& r) override { again(r); }
-  void on(const records::ListFused& r) override { again(r); }
-  void on(const records::FusionStep& r) override { again(r); }
-  void on(const records::TrackState& r) override { again(r); }
-  void on(const records::ObservationSeen& r) override { again(r); }
-  void on(const records::ImageWritten& r) override { again(r); }
-  void on(const records::FeatureUsed& r) override { again(r); }
-  void on(const records::ReferenceFix& r) override { again(r); }
-  void on(const records::TruthState& r) override { again(r); }
-  void on(const records::StateChanged& r) override { again(r); }
-  void on(const records::SymbolSent& r) override { again(r); }
-  void on(const records::PowerChanged& r) override { again(r); }
-  void on(const records::FaultActivity& r) override { again(r); }
-  void on(const records::GuardianIntervention& r) override { again(r); }
-  void on(const records::ChannelFrame& r) override { again(r); }
-
- private:
   template <class Record>
-  void again(const Record& record) {
+  void each(const Record& record) {
     encode(record, payloads);
     ++seen;
   }
@@ -220,6 +203,9 @@ TEST(LogFields, ARecordHasAsManyFieldsAsItsPayload) {
   expect_same_fields<records::FaultActivity, ttfusion::Fault>();
   expect_same_fields<records::GuardianIntervention, ttfusion::Guardian>();
   expect_same_fields<records::ChannelFrame, ttfusion::ChannelFrame>();
+  expect_same_fields<records::TimingProblem, ttfusion::TimingProblem>();
+  expect_same_fields<records::LatenessHistogram, ttfusion::Lateness>();
+  expect_same_fields<records::MediumCounts, ttfusion::Medium>();
 }
 
 }  // namespace

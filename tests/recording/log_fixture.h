@@ -46,12 +46,13 @@ inline LogManifest sample_manifest() {
   manifest.can_bus_names = {"laser_can", ""};
   manifest.clock = kWallClock;
   manifest.host = "bench";
+  manifest.time_scale_ppm = 2'500'000;
   return manifest;
 }
 
 // The kinds in turn, not in their order, all of them.
 inline int kind_of(std::uint32_t i) {
-  constexpr std::size_t kStride = 5;
+  constexpr std::size_t kStride = 7;
   static_assert(std::gcd(kStride, kRecordKinds) == 1);
   return static_cast<int>(i * kStride % kRecordKinds) + 1;
 }

@@ -9,6 +9,7 @@
 #include "core/file_bytes.h"
 #include "recording/common_time.h"
 #include "recording/merge.h"
+#include "recording/record_place.h"
 #include "tests/recording/log_fixture.h"
 #include "tests/recording/split_log.h"
 #include "tests/sim/drive_fixture.h"
@@ -33,6 +34,23 @@ TEST(CommonTime, IsLinearBetweenItsPointsAndGoesOnAtTheHostsRate) {
   constexpr std::int64_t kLast = std::numeric_limits<std::int64_t>::max();
   EXPECT_EQ(time(TrueTime{kLast}).ns, kLast);
   EXPECT_EQ(CommonTime({{ms(10), ms(0)}})(TrueTime{-kLast}).ns, -kLast - 1);
+}
+
+// Where a record stands among the others is by its own time: so every kind has to be put on the common scale.
+TEST(CommonTime, MovesEveryKindOfRecord) {
+  struct Where final : Placing {
+    TrueTime at{};
+    void placed(const RecordPlace& place) override { at = place.at; }
+  };
+  const CommonTime later({{ms(0), ms(1000)}});
+  for (int kind = 1; kind <= static_cast<int>(kRecordKinds); ++kind) {
+    Where before, after;
+    OnCommonTime moved(later, after);
+    emit(before, kind, Values::kDrawn, 3, 5'000'000);
+    emit(moved, kind, Values::kDrawn, 3, 5'000'000);
+    EXPECT_GE(before.at, ms(4)) << kind;
+    EXPECT_EQ(after.at - before.at, Duration::milliseconds(1000)) << kind;
+  }
 }
 
 // A host's clock by the simulator's time: ahead, and faster, for the first 100 s.

@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "core/random.h"
+#include "recording/records/lateness_bins.h"
 
 namespace ttf::recording {
 namespace {
@@ -238,6 +239,15 @@ void TextSink::on(const records::ChannelFrame& r) {
   lines.push_back(line("channel", r.start, r.end, r.sender, r.channel, r.state, r.slot, r.cycle_counter, r.sent,
                        r.sent_channel, r.bytes));
 }
+void TextSink::on(const records::TimingProblem& r) {
+  lines.push_back(line("timing", r.stamp, r.what, r.late, r.cycle, r.slot, r.channel, r.count));
+}
+void TextSink::on(const records::LatenessHistogram& r) {
+  lines.push_back(line("lateness", r.stamp, r.of, r.longest, r.counts));
+}
+void TextSink::on(const records::MediumCounts& r) {
+  lines.push_back(line("medium", r.stamp, r.sent, r.received, r.not_sent, r.lost, r.foreign, r.malformed, r.dropped));
+}
 
 void emit(records::Sink& sink, int kind, Values values, std::uint32_t index, std::int64_t at_ns) {
   Draw d(kind, values, index, at_ns);
@@ -245,6 +255,7 @@ void emit(records::Sink& sink, int kind, Values values, std::uint32_t index, std
   using U8 = std::uint8_t;
   using U16 = std::uint16_t;
   using U32 = std::uint32_t;
+  using U64 = std::uint64_t;
   using I32 = std::int32_t;
   using I64 = std::int64_t;
   // Braces evaluate from left to right, so the draws are in a defined order.
@@ -346,6 +357,18 @@ void emit(records::Sink& sink, int kind, Values values, std::uint32_t index, std
                                            d.choice(std::uint8_t{0}, records::kChannelNothing), d.get<U16>(),
                                            d.get<U8>(), d.get<TrueTime>(), d.get<U8>(), bytes});
     }
+    case 24:
+      return sink.on(records::TimingProblem{stamp, d.choice(records::kLateWakeUp, records::kFramesLost),
+                                            d.get<Duration>(), d.get<I64>(), d.get<U16>(), d.choice(U8{0}, U8{1}),
+                                            d.get<U32>()});
+    case 25: {
+      const auto counts = d.list<std::uint64_t>(records::kLatenessBins);
+      return sink.on(records::LatenessHistogram{
+          stamp, d.choice(records::kLatenessOfWakeUps, records::kLatenessOfTransits), d.get<Duration>(), counts});
+    }
+    case 26:
+      return sink.on(records::MediumCounts{stamp, d.get<U64>(), d.get<U64>(), d.get<U64>(), d.get<U64>(), d.get<U64>(),
+                                           d.get<U64>(), d.get<U64>()});
   }
 }
 

@@ -38,13 +38,16 @@ class TextSink final : public records::Sink {
   void on(const records::FaultActivity&) override;
   void on(const records::GuardianIntervention&) override;
   void on(const records::ChannelFrame&) override;
+  void on(const records::TimingProblem&) override;
+  void on(const records::LatenessHistogram&) override;
+  void on(const records::MediumCounts&) override;
 };
 
 // What the drawn fields look like. kSmallest and kLargest: every field at that end of its type, lists empty
 // and long; kDrawn: anything, with times near `at`.
 enum class Values { kSmallest, kLargest, kZero, kDrawn };
 
-// One record of `kind` (1..22), a pure function of the arguments, to `sink`.
+// One record of `kind` (1..25), a pure function of the arguments, to `sink`.
 void emit(records::Sink& sink, int kind, Values values, std::uint32_t index, std::int64_t at_ns);
 
 }  // namespace ttf::recording

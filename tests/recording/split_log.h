@@ -9,41 +9,16 @@
 
 #include "recording/log_reader.h"
 #include "recording/log_writer.h"
+#include "recording/records/every.h"
 
 namespace ttf::recording {
 
 // Node n is in process n modulo how many there are.
-class ByNode final : public records::Sink {
+class ByNode final : public records::Every<ByNode> {
  public:
   explicit ByNode(std::vector<records::Sink*> processes) : processes_(std::move(processes)) {}
-
-  void on(const records::Measured& r) override { pass(r); }
-  void on(const records::CanFrameSent& r) override { pass(r); }
-  void on(const records::SlotFrameSent& r) override { pass(r); }
-  void on(const records::SlotProblem& r) override { pass(r); }
-  void on(const records::ListHop& r) override { pass(r); }
-  void on(const records::TaskRun& r) override { pass(r); }
-  void on(const records::ClockCorrected& r) override { pass(r); }
-  void on(const records::PrecisionSample& r) override { pass(r); }
-  void on(const records::FusionInput& r) override { pass(r); }
-  void on(const records::ListFused& r) override { pass(r); }
-  void on(const records::FusionStep& r) override { pass(r); }
-  void on(const records::TrackState& r) override { pass(r); }
-  void on(const records::ObservationSeen& r) override { pass(r); }
-  void on(const records::ImageWritten& r) override { pass(r); }
-  void on(const records::FeatureUsed& r) override { pass(r); }
-  void on(const records::ReferenceFix& r) override { pass(r); }
-  void on(const records::TruthState& r) override { pass(r); }
-  void on(const records::StateChanged& r) override { pass(r); }
-  void on(const records::SymbolSent& r) override { pass(r); }
-  void on(const records::PowerChanged& r) override { pass(r); }
-  void on(const records::FaultActivity& r) override { pass(r); }
-  void on(const records::GuardianIntervention& r) override { pass(r); }
-  void on(const records::ChannelFrame& r) override { pass(r); }
-
- private:
   template <class Record>
-  void pass(const Record& record) {
+  void each(const Record& record) {
     std::size_t node = 0;
     if constexpr (requires { record.stamp; })
       node = index_of(record.stamp.node);
@@ -53,6 +28,8 @@ class ByNode final : public records::Sink {
       node = index_of(record.node);
     processes_[node % processes_.size()]->on(record);
   }
+
+ private:
   std::vector<records::Sink*> processes_;
 };
 

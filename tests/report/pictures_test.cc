@@ -1,9 +1,12 @@
 // Makes the pictures for looking at when TTF_PICTURES names a folder.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 
+#include "core/random.h"
 #include "report/boxes_picture.h"
+#include "report/lateness_picture.h"
 #include "report/position_plot.h"
 #include "report/render.h"
 #include "report/schedule_picture.h"
@@ -38,8 +41,19 @@ TEST(Pictures, ForLookingAt) {
   write_picture(schedule_svg(synthetic_cluster()), to + "/schedule.png");
   for (const std::string name : {"paper_unsynchronised", "laser_radar"})
     write_picture(
-        schedule_svg(schedules::load_cluster(std::string(TTF_SOURCE_DIR) + "/schedules/" + name + ".yaml")),
+        schedule_svg(schedules::load_cluster(TTF_SOURCE_DIR "/schedules/" + name + ".yaml")),
         to + "/" + name + ".png");
+  std::map<NodeId, recording::NodeLateness> lateness;
+  RandomStream stream({.seed = 1, .purpose = Purpose::kTest});
+  const auto late = [&stream](double median_us, double spread) {
+    return Duration{static_cast<std::int64_t>(1000.0 * median_us * std::exp(spread * stream.normal()))};
+  };
+  for (std::uint8_t n = 0; n < 8; ++n)
+    for (int i = 0; i < 20'000; ++i) {
+      lateness[NodeId{n}].wake_ups.add(late(70 + 4.0 * n, 0.3 + 0.5 * stream.uniform()));
+      lateness[NodeId{n}].floor.add(late(55, 0.2));
+    }
+  write_picture(lateness_svg(lateness, synthetic_names()), to + "/lateness.png");
   std::vector<Point> points;
   for (int i = 0; i < 60; ++i)
     points.push_back({10 + 0.03 * i, 2 + (i % 7) * 0.01}),

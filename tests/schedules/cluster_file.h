@@ -19,7 +19,7 @@ inline const std::vector<std::string>& shipped_clusters() {
 }
 
 inline std::string shipped_path(const std::string& name) {
-  return std::string(TTF_SOURCE_DIR) + "/schedules/" + name + ".yaml";
+  return TTF_SOURCE_DIR "/schedules/" + name + ".yaml";
 }
 
 inline std::string shipped_text(const std::string& name) {

@@ -6,8 +6,10 @@
 #include <vector>
 
 #include "bus/wire/pdu_codec.h"
+#include "bus/wire/strobe.h"
 #include "core/random.h"
 #include "schedules/can_load.h"
+#include "schedules/sensor_lines.h"
 #include "tests/schedules/cluster_file.h"
 #include "tests/schedules/dbc_reader.h"
 
@@ -15,7 +17,7 @@ namespace ttf::schedules {
 namespace {
 
 std::string read_shipped(const std::string& file) {
-  std::ifstream stream(std::string(TTF_SOURCE_DIR) + "/schedules/" + file, std::ios::binary);
+  std::ifstream stream(TTF_SOURCE_DIR "/schedules/" + file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
@@ -65,7 +67,11 @@ TEST_P(DbcOfShipped, DecodesEveryFrameAsWeDo) {
                  wire::read_element_raw(layout, payload, e, s));
       }
     }
-  EXPECT_EQ(file.messages.size(), messages);
+  std::size_t sensors = 0;
+  for (std::size_t s = 0; s < cluster_.sensors.size(); ++s)
+    if (can_of_lines(cluster_, static_cast<SensorId>(s))) ++sensors;
+  EXPECT_EQ(file.messages.size(), messages + 2 * sensors + 1);   // and what is on the channels
+  EXPECT_EQ(file.messages.at(0).name, "flexray_symbol");
 }
 
 TEST_P(DbcOfShipped, NamesWhoReads) {
@@ -84,7 +90,11 @@ TEST_P(DbcOfShipped, NamesWhoReads) {
 TEST_P(DbcOfShipped, OneCanAlone) {
   for (const CanBus& bus : cluster_.can_buses) {
     const DbcFile file = read_dbc(dbc_text(cluster_, bus.name));
-    EXPECT_EQ(file.messages.size(), bus.messages.size());
+    std::size_t lines = 0;
+    for (std::size_t s = 0; s < cluster_.sensors.size(); ++s)
+      if (const auto can = can_of_lines(cluster_, static_cast<SensorId>(s)); can && &cluster_.can_buses[*can] == &bus)
+        lines += 2;
+    EXPECT_EQ(file.messages.size(), bus.messages.size() + lines);
     for (const CanMessage& message : bus.messages) EXPECT_EQ(file.messages.count(message.identifier), 1u);
   }
 }
@@ -124,7 +134,59 @@ TEST(Dbc, CommentsSayHowListsAreCut) {
             "least 79 ms apart.");
   const DbcFile alone = read_dbc(dbc_text(load_cluster(shipped_path("laser_radar"))));
   for (const auto& [identifier, message] : alone.messages)
-    EXPECT_EQ(message.comment.rfind("One frame is a list", 0), 0u) << identifier;
+    if (identifier > 0 && !message.name.ends_with("_strobe") && !message.name.ends_with("_trigger")) {
+      EXPECT_EQ(message.comment.rfind("One frame is a list", 0), 0u) << identifier;
+    }
+}
+
+// tests/socketcan holds it against the bytes that are sent.
+TEST(Dbc, TheChannelsSymbolsAreThereUnlessACanHasTheirIdentifier) {
+  Cluster cluster = load_cluster(shipped_path("paper_synchronised"));
+  const DbcMessage with = read_dbc(dbc_text(cluster)).messages.at(0);
+  EXPECT_EQ(with.attributes.at("CAN"), "FlexRay");
+  EXPECT_EQ(with.signal("kind").multiplexed, "M");
+  for (const DbcSignal& one : with.signals) EXPECT_EQ(one.name == "kind", one.multiplexed == "M");
+  cluster.can_buses[0].messages[0].identifier = 0;
+  const DbcMessage without = read_dbc(dbc_text(cluster)).messages.at(0);
+  EXPECT_EQ(without.attributes.at("CAN"), cluster.can_buses[0].name);
+}
+
+TEST(Dbc, ASensorsLinesAreMessagesOfItsCan) {
+  const Cluster cluster = load_cluster(shipped_path("paper_synchronised"));
+  const DbcFile file = read_dbc(dbc_text(cluster));
+  for (const auto& [sensor, device, host, can, first] :
+       {std::tuple{"laser", "laser", "laser_pre", "laser_can", 1u}, {"camera", "camera", "camera_pre", "camera_can", 3u}}) {
+    const DbcMessage &strobe = file.messages.at(first), &trigger = file.messages.at(first + 1);
+    EXPECT_EQ(strobe.name, std::string(sensor) + "_strobe");
+    EXPECT_EQ(trigger.name, std::string(sensor) + "_trigger");
+    EXPECT_EQ(strobe.sender, device);
+    EXPECT_EQ(trigger.sender, host);
+    for (const DbcMessage* one : {&strobe, &trigger}) {
+      EXPECT_EQ(one->attributes.at("CAN"), can);
+      EXPECT_EQ(one->attributes.count("VFrameFormat"), 0u);   // classic
+      EXPECT_NE(one->comment.find("In real time"), std::string::npos);
+    }
+    EXPECT_EQ(trigger.length, 0);
+    EXPECT_TRUE(trigger.signals.empty());
+    ASSERT_EQ(strobe.signals.size(), 1u);
+    EXPECT_EQ(strobe.length, 4);
+    EXPECT_EQ(strobe.signals[0].receivers, host);
+    const auto data = wire::strobe_data(0x1234'5678);
+    EXPECT_EQ(strobe.signals[0].raw(data), 0x1234'5678u);
+  }
+}
+
+// In virtual time they are nobody's, and messages may have them.
+TEST(Dbc, WhatAMessageHasIsNoLinesIdentifier) {
+  Cluster cluster = load_cluster(shipped_path("paper_synchronised"));
+  cluster.can_buses[2].messages[0].identifier = 1;
+  cluster.can_buses[0].messages[0].identifier = 2;
+  const DbcFile all = read_dbc(dbc_text(cluster)), laser = read_dbc(dbc_text(cluster, "laser_can"));
+  EXPECT_EQ(all.messages.at(1).name, cluster.pdu(cluster.can_buses[2].messages[0].pdu).name);
+  EXPECT_EQ(all.messages.at(2).name, "laser_scan");
+  EXPECT_EQ(all.messages.at(3).name, "camera_strobe");
+  EXPECT_EQ(laser.messages.at(1).name, "laser_strobe");
+  EXPECT_EQ(laser.messages.at(2).name, "laser_scan");
 }
 
 TEST(Dbc, NamesAreCIdentifiersAndUnique) {

@@ -17,6 +17,8 @@ namespace ttf::schedules {
 
 struct DbcSignal {
   std::string name, unit, receivers;
+  std::string multiplexed;           // "M": the multiplexor; "m4": there if that is 4; empty: always there
+  bool is_signed = false;
   int start = 0, bits = 0;
   double factor = 0, offset = 0, low = 0, high = 0;
 
@@ -30,7 +32,12 @@ struct DbcSignal {
     }
     return value;
   }
-  double physical(std::span<const std::byte> data) const { return offset + factor * static_cast<double>(raw(data)); }
+  double physical(std::span<const std::byte> data) const {
+    const std::uint64_t value = raw(data);
+    const bool negative = is_signed && (value >> (bits - 1) & 1) != 0;
+    const double beyond = negative ? static_cast<double>(std::uint64_t{1} << bits) : 0;
+    return offset + factor * (static_cast<double>(value) - beyond);
+  }
 };
 
 struct DbcMessage {
@@ -55,12 +62,12 @@ struct DbcFile {
 inline DbcFile read_dbc(const std::string& text) {
   static const std::string kName = "([A-Za-z_][A-Za-z0-9_]*)", kNumber = "(-?[0-9.]+(?:[eE][-+]?[0-9]+)?)";
   static const std::regex kMessage("BO_ ([0-9]+) " + kName + ": ([0-9]+) " + kName);
-  static const std::regex kSignal(" SG_ " + kName + " : ([0-9]+)\\|([0-9]+)@0\\+ \\(" + kNumber + "," + kNumber +
-                                  "\\) \\[" + kNumber + "\\|" + kNumber + "\\] \"([^\"]*)\" ([A-Za-z0-9_,]+)");
+  static const std::regex kSignal(" SG_ " + kName + "(?: (M|m[0-9]+))? : ([0-9]+)\\|([0-9]+)@0([+-]) \\(" + kNumber +
+                                  "," + kNumber + "\\) \\[" + kNumber + "\\|" + kNumber + "\\] \"([^\"]*)\" ([A-Za-z0-9_,]+)");
   static const std::regex kComment("CM_ BO_ ([0-9]+) \"([^\"]*)\";");
   static const std::regex kAttribute("BA_ \"([A-Za-z]+)\" BO_ ([0-9]+) (?:\"([^\"]*)\"|([0-9]+));");
   static const std::regex kNodes("BU_:((?: [A-Za-z_][A-Za-z0-9_]*)*)");
-  static const std::regex kOther("|VERSION \"[^\"]*\"|NS_ :|BS_:|BA_DEF_ BO_ .*;|BA_DEF_DEF_ .*;");
+  static const std::regex kOther("|VERSION \"[^\"]*\"|NS_ :|BS_:|BA_DEF_ BO_ .*;|BA_DEF_DEF_ .*;|VAL_ .* ;");
   DbcFile file;
   DbcMessage* latest = nullptr;
   std::istringstream lines(text);
@@ -78,14 +85,16 @@ inline DbcFile read_dbc(const std::string& text) {
     } else if (std::regex_match(line, part, kSignal) && latest != nullptr) {
       for (const DbcSignal& other : latest->signals) EXPECT_NE(other.name, part[1]) << line;
       latest->signals.push_back({.name = part[1],
-                                 .unit = part[8],
-                                 .receivers = part[9],
-                                 .start = static_cast<int>(number(2)),
-                                 .bits = static_cast<int>(number(3)),
-                                 .factor = real(4),
-                                 .offset = real(5),
-                                 .low = real(6),
-                                 .high = real(7)});
+                                 .unit = part[10],
+                                 .receivers = part[11],
+                                 .multiplexed = part[2],
+                                 .is_signed = part[5] == "-",
+                                 .start = static_cast<int>(number(3)),
+                                 .bits = static_cast<int>(number(4)),
+                                 .factor = real(6),
+                                 .offset = real(7),
+                                 .low = real(8),
+                                 .high = real(9)});
     } else if (std::regex_match(line, part, kComment)) {
       file.messages.at(static_cast<std::uint32_t>(number(1))).comment = part[2];
     } else if (std::regex_match(line, part, kAttribute)) {

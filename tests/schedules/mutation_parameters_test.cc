@@ -71,7 +71,7 @@ TEST(Mutations, OfParameters) {
       node_parameter("pSamplesPerMicrotick", "3", "one of 1, 2, 4"),
       node_parameter("pOffsetCorrectionOut", "3888", "274..3887 microticks"),
       {"single_slot", "pKeySlotOnlyEnabled: false", "pKeySlotOnlyEnabled: true", {"pKeySlotOnlyEnabled: true",
-       "nodes.gateway.flexray.pKeySlotOnlyEnabled", "true", "must be false: gateway also has slot 6 (line 301)"}},
+       "nodes.gateway.flexray.pKeySlotOnlyEnabled", "true", "must be false: gateway also has slot 6 (line 304)"}},
       {"drift", inside("gateway", "max_drift_ppm") + "1500", "$01100\n    drift_ppm: -200", {"drift_ppm: -200",
        "nodes.gateway.drift_ppm", "-200", "max_drift_ppm = 100"}},
       {"startup_nodes", "pKeySlotUsedForStartup: true", "pKeySlotUsedForStartup: false", {"laser:", "nodes", "0",

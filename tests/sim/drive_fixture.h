@@ -13,7 +13,7 @@
 
 namespace ttf::testing_support {
 
-inline std::string shipped(const std::string& path) { return std::string(TTF_SOURCE_DIR) + "/" + path; }
+inline std::string shipped(const std::string& path) { return TTF_SOURCE_DIR "/" + path; }
 
 struct Drive {
   nodes::Scenario scenario;

@@ -2,11 +2,15 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bus/socketcan/flexray_on_can.h"
+#include "bus/wire/flexray_crc.h"
+#include "tests/schedules/dbc_reader.h"
 #include "tests/socketcan/frames.h"
 
 namespace ttf::socketcan {
@@ -21,7 +25,7 @@ struct Line {
 
 // "    vcan0  005  [08]  00 05 ...", indented by four as examples are.
 std::vector<Line> candump_lines() {
-  std::ifstream page(std::string(TTF_SOURCE_DIR) + "/docs/socketcan.md");
+  std::ifstream page(TTF_SOURCE_DIR "/docs/socketcan.md");
   std::vector<Line> lines;
   for (std::string text; std::getline(page, text);) {
     std::istringstream words(text);
@@ -40,7 +44,6 @@ std::vector<Line> candump_lines() {
 
 TEST(DocumentedExamples, AreWhatTheyAreSaidToBe) {
   const std::vector<Line> lines = candump_lines();
-  ASSERT_EQ(lines.size(), 8u);
   Reassembly a(Channel::kA), b(Channel::kB);
   struct Said {
     Outcome outcome;
@@ -60,9 +63,11 @@ TEST(DocumentedExamples, AreWhatTheyAreSaidToBe) {
       {Outcome::kComplete, bus::Signal::kCas, 0, 0, 0, false, false, 0, 5'700},
       {Outcome::kComplete, bus::Signal::kWakeup, 0, 0, 0, false, false, 0, 1'980'000},
   };
-  for (std::size_t i = 0; i < lines.size(); ++i) {
+  ASSERT_EQ(lines.size(), said.size() + 1);
+  for (std::size_t i = 0; i < said.size(); ++i) {
     const Arrival arrival = (lines[i].channel == Channel::kA ? a : b).arrive(lines[i].can);
     ASSERT_EQ(arrival.outcome, said[i].outcome) << i;
+    EXPECT_FALSE(arrival.follow_up) << i;
     EXPECT_EQ(arrival.slot, said[i].slot) << i;
     if (said[i].outcome == Outcome::kFragment) continue;
     EXPECT_EQ(arrival.signal, said[i].signal) << i;
@@ -78,12 +83,17 @@ TEST(DocumentedExamples, AreWhatTheyAreSaidToBe) {
     EXPECT_EQ(frame.header.null_frame, said[i].null_frame) << i;
     EXPECT_EQ(frame.payload.empty() ? -1 : static_cast<int>(frame.payload[0]), said[i].first_byte) << i;
   }
+  const Arrival arrival = a.arrive(lines.back().can);
+  ASSERT_TRUE(arrival.outcome == Outcome::kComplete && arrival.follow_up);
+  EXPECT_EQ(arrival.follow_up->slot, 1);
+  EXPECT_EQ(arrival.follow_up->cycle_counter, 0);
+  EXPECT_EQ(arrival.follow_up->late.ns, 45'163);
 }
 
 // And sending the same again gives the same lines.
 TEST(DocumentedExamples, AreWhatIsSent) {
   const std::vector<Line> lines = candump_lines();
-  ASSERT_EQ(lines.size(), 8u);
+  ASSERT_EQ(lines.size(), 9u);
   const auto same = [](const canfd_frame& one, const canfd_frame& other) {
     return one.can_id == other.can_id && one.flags == other.flags && bytes_of(data_of(one)) == bytes_of(data_of(other));
   };
@@ -91,6 +101,10 @@ TEST(DocumentedExamples, AreWhatIsSent) {
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const Arrival arrival = (lines[i].channel == Channel::kA ? a : b).arrive(lines[i].can);
     if (arrival.outcome != Outcome::kComplete) continue;
+    if (arrival.follow_up) {
+      EXPECT_TRUE(same(follow_up_to_can(lines[i].channel, *arrival.follow_up), lines[i].can)) << i;
+      continue;
+    }
     if (arrival.signal != bus::Signal::kFrame) {
       EXPECT_TRUE(same(symbol_to_can(lines[i].channel, arrival.signal, arrival.duration), lines[i].can)) << i;
       continue;
@@ -98,6 +112,39 @@ TEST(DocumentedExamples, AreWhatIsSent) {
     const CanFrames again = frame_to_can(arrival.slot, arrival.frame);
     for (std::size_t k = 0; k < again.count; ++k)
       EXPECT_TRUE(same(again.frames[k], lines[i + 1 - again.count + k].can)) << i << " " << k;
+  }
+}
+
+// Other people's tools read what has identifier 0 by the shipped DBC files.
+TEST(ShippedDbc, ReadsSymbolsAndFollowUpsAsTheyAreSent) {
+  for (const char* name : {"paper_synchronised", "laser_radar"}) {
+    std::ifstream file(TTF_SOURCE_DIR "/schedules/" + name + ".dbc");
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    const schedules::DbcMessage message = schedules::read_dbc(text).messages.at(0);
+    const auto reads = [&](const canfd_frame& can, int kind, const std::string& signal) {
+      std::vector<std::byte> data = bytes_of(data_of(can));
+      data.resize(static_cast<std::size_t>(message.length));
+      EXPECT_EQ(message.signal("kind").raw(data), static_cast<std::uint64_t>(kind)) << signal;
+      EXPECT_EQ(message.signal(signal).multiplexed, "m" + std::to_string(kind)) << signal;
+      return message.signal(signal).physical(data);
+    };
+    const auto crc = [](const canfd_frame& can, std::size_t says) {
+      return static_cast<double>(wire::frame_crc(Channel::kB, data_of(can).first(says)));
+    };
+    const std::vector<std::pair<bus::Signal, std::string>> symbols{
+        {bus::Signal::kCas, "cas"}, {bus::Signal::kWakeup, "wakeup"}, {bus::Signal::kUndecodable, "noise"}};
+    for (std::size_t i = 0; i < symbols.size(); ++i) {
+      const canfd_frame can = symbol_to_can(Channel::kB, symbols[i].first, Duration::nanoseconds(3'141'592'653));
+      EXPECT_EQ(reads(can, static_cast<int>(i + 1), symbols[i].second + "_duration"), 3'141'592'653.0);
+      EXPECT_EQ(reads(can, static_cast<int>(i + 1), symbols[i].second + "_crc"), crc(can, 5));
+    }
+    const canfd_frame can =
+        follow_up_to_can(Channel::kB, {.slot = 1'543, .cycle_counter = 61, .late = Duration::nanoseconds(-1'234'567)});
+    EXPECT_EQ(message.length, can.len);
+    EXPECT_EQ(reads(can, 4, "slot"), 1'543.0);
+    EXPECT_EQ(reads(can, 4, "cycle"), 61.0);
+    EXPECT_EQ(reads(can, 4, "late"), -1'234'567.0);
+    EXPECT_EQ(reads(can, 4, "follow_up_crc"), crc(can, 8));
   }
 }
 

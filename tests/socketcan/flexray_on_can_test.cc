@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "bus/wire/flexray_crc.h"
 #include "core/random.h"
 #include "tests/socketcan/frames.h"
 #include "tests/support/allocation_counter.h"
@@ -214,6 +215,71 @@ TEST(FlexRayOnCan, ASymbolWithACorruptedByteIsNone) {
     }
 }
 
+TEST(FlexRayOnCan, FollowUpsArriveAsTheyWereSaid) {
+  for (const Channel channel : {Channel::kA, Channel::kB})
+    for (const int slot : {1, 255, 256, 2047})
+      for (const std::uint8_t cycle : {std::uint8_t{0}, std::uint8_t{63}})
+        for (const std::int64_t ns : {std::int64_t{0}, std::int64_t{1}, std::int64_t{-1}, std::int64_t{1'234'567},
+                                      std::int64_t{-0x8000'0000LL}, std::int64_t{0x7fff'ffff}}) {
+          const canfd_frame can =
+              follow_up_to_can(channel, {.slot = slot, .cycle_counter = cycle, .late = Duration::nanoseconds(ns)});
+          EXPECT_EQ(can.can_id, 0u);
+          EXPECT_EQ(can.len, 12);
+          Reassembly receiver(channel);
+          const Arrival arrival = receiver.arrive(can);
+          ASSERT_EQ(arrival.outcome, Outcome::kComplete);
+          ASSERT_TRUE(arrival.follow_up);
+          EXPECT_EQ(arrival.follow_up->slot, slot);
+          EXPECT_EQ(arrival.follow_up->cycle_counter, cycle);
+          EXPECT_EQ(arrival.follow_up->late.ns, ns);
+          Reassembly other(channel == Channel::kA ? Channel::kB : Channel::kA);
+          EXPECT_EQ(other.arrive(can).outcome, Outcome::kMalformed);
+        }
+}
+
+TEST(FlexRayOnCan, AFollowUpHasRoomForFourBytesOfNanoseconds) {
+  EXPECT_TRUE(can_be_told(Duration::nanoseconds(0x7fff'ffff)));
+  EXPECT_FALSE(can_be_told(Duration::nanoseconds(0x8000'0000LL)));
+  EXPECT_TRUE(can_be_told(Duration::nanoseconds(-0x8000'0000LL)));
+  EXPECT_FALSE(can_be_told(Duration::nanoseconds(-0x8000'0001LL)));
+}
+
+// The one zero behind the CRC included.
+TEST(FlexRayOnCan, AFollowUpWithACorruptedByteIsNone) {
+  const canfd_frame can =
+      follow_up_to_can(Channel::kB, {.slot = 515, .cycle_counter = 21, .late = Duration::nanoseconds(-77)});
+  for (std::size_t at = 0; at < can.len; ++at)
+    for (unsigned flip = 1; flip < 256; ++flip) {
+      canfd_frame one = can;
+      one.data[at] = static_cast<std::uint8_t>(one.data[at] ^ flip);
+      EXPECT_EQ(Reassembly(Channel::kB).arrive(one).outcome, Outcome::kMalformed) << at;
+    }
+  for (unsigned length = 0; length < 256; ++length)
+    if (length != can.len) {
+      canfd_frame one = can;
+      one.len = static_cast<std::uint8_t>(length);
+      EXPECT_EQ(Reassembly(Channel::kB).arrive(one).outcome, Outcome::kMalformed) << length;
+    }
+}
+
+// Its CRC holds, and it says what no sender of ours says.
+TEST(FlexRayOnCan, AFollowUpOfNoSlotOrNoCycleIsNone) {
+  const auto says = [](unsigned slot, unsigned cycle) {
+    canfd_frame can = follow_up_to_can(Channel::kA, {.slot = 1, .cycle_counter = 0, .late = {}});
+    can.data[1] = static_cast<std::uint8_t>(slot >> 8);
+    can.data[2] = static_cast<std::uint8_t>(slot & 0xff);
+    can.data[3] = static_cast<std::uint8_t>(cycle);
+    const std::uint32_t crc = wire::frame_crc(Channel::kA, data_of(can).first(8));
+    for (unsigned i = 0; i < 3; ++i) can.data[8 + i] = static_cast<std::uint8_t>(crc >> (8 * (2 - i)));
+    return Reassembly(Channel::kA).arrive(can).outcome;
+  };
+  EXPECT_EQ(says(1, 63), Outcome::kComplete);
+  EXPECT_EQ(says(2047, 0), Outcome::kComplete);
+  EXPECT_EQ(says(0, 0), Outcome::kMalformed);
+  EXPECT_EQ(says(2048, 0), Outcome::kMalformed);
+  EXPECT_EQ(says(1, 64), Outcome::kMalformed);
+}
+
 TEST(FlexRayOnCan, NothingIsAllocated) {
   const Bytes frame = drawn_frame(Channel::kA, 5, 1, 127);
   Reassembly receiver(Channel::kA);
@@ -222,9 +288,10 @@ TEST(FlexRayOnCan, NothingIsAllocated) {
     const CanFrames can = frame_to_can(5, frame);
     for (const canfd_frame& one : can.all()) receiver.arrive(one);
     receiver.arrive(symbol_to_can(Channel::kA, bus::Signal::kCas, Duration::nanoseconds(5'700)));
+    receiver.arrive(follow_up_to_can(Channel::kA, {.slot = 5, .cycle_counter = 1, .late = Duration::nanoseconds(i)}));
   }
   EXPECT_EQ(support::allocations(), before);
-  EXPECT_EQ(receiver.count(Outcome::kComplete), 200u);
+  EXPECT_EQ(receiver.count(Outcome::kComplete), 300u);
 }
 
 }  // namespace

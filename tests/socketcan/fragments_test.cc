@@ -121,6 +121,21 @@ TEST_F(Fragments, GoOnOverWhatIsMalformed) {
   EXPECT_EQ(receiver_.abandoned(), 0u);
 }
 
+// It comes from another node, when that got to know, in nobody's slot. One whose CRC is wrong changes nothing either.
+TEST_F(Fragments, GoOnOverAFollowUp) {
+  const canfd_frame told = follow_up_to_can(Channel::kA, {.slot = 3, .cycle_counter = kCycle, .late = {1'000}});
+  canfd_frame broken = told;
+  broken.data[9] ^= 1;
+  for (std::size_t i = 0; i < can_.count; ++i) {
+    const Arrival arrival = receiver_.arrive(told);
+    EXPECT_EQ(arrival.outcome, Outcome::kComplete);
+    EXPECT_FALSE(arrival.abandoned);
+    EXPECT_EQ(receiver_.arrive(broken).outcome, Outcome::kMalformed);
+    EXPECT_EQ(arrive(i), i + 1 < can_.count ? Outcome::kFragment : Outcome::kComplete);
+  }
+  EXPECT_EQ(receiver_.abandoned(), 0u);
+}
+
 // One form only: what fits in one CAN FD frame is not taken in fragments, one or two.
 TEST_F(Fragments, AreNotForFramesThatGoWhole) {
   for (const int words : {4, 28}) {

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cerrno>
+#include <string>
+#include <vector>
+
 #include "bus/socketcan/socket.h"
 #include "core/errors.h"
 #include "tests/socketcan/vcan.h"
@@ -9,7 +13,7 @@
 namespace ttf::socketcan {
 namespace {
 
-constexpr InterfaceState kFine{.family = true, .raw = true, .there = true, .can = true, .up = true, .mtu = 72};
+constexpr InterfaceState kFine{.refused = 0, .there = true, .can = true, .up = true, .mtu = 72};
 
 InterfaceState but(void (*change)(InterfaceState&)) {
   InterfaceState state = kFine;
@@ -23,29 +27,55 @@ TEST(InterfaceProblem, IsNoneWhereAllHolds) {
 }
 
 TEST(InterfaceProblem, NamesWhatTheKernelLacks) {
-  EXPECT_EQ(interface_problem("vcan0", {}, true),
-            "this kernel has no CAN sockets (AF_CAN): modprobe can_raw && modprobe vcan, in a container on its host");
-  EXPECT_EQ(interface_problem("vcan0", but([](auto& s) { s.raw = false; }), true),
-            "this kernel has no raw CAN sockets (CAN_RAW): modprobe can_raw, in a container on its host");
+  EXPECT_EQ(interface_problem("vcan0", but([](auto& s) { s.refused = EAFNOSUPPORT; }), true),
+            "the kernel has no CAN sockets (AF_CAN; in a container it is the host's kernel that counts): "
+            "modprobe can_raw && modprobe vcan");
+  EXPECT_EQ(interface_problem("vcan0", but([](auto& s) { s.refused = EPROTONOSUPPORT; }), true),
+            "the kernel has no raw CAN sockets (CAN_RAW; in a container it is the host's kernel that counts): "
+            "modprobe can_raw");
+  EXPECT_EQ(interface_problem("vcan0", but([](auto& s) { s.refused = EACCES; }), true),
+            "the kernel gives no CAN socket: Permission denied");
+}
+
+// Each side is judged by itself: which commands are needed is known before the kernel has its modules.
+TEST(InterfaceProblem, OfTheLinkIsKnownWithoutCanSockets) {
+  const auto nothing = but([](auto& s) { s.refused = EAFNOSUPPORT, s.there = false; });
+  EXPECT_TRUE(kernel_problem(nothing));
+  const Problem link = link_problem("vcan0", nothing, true);
+  EXPECT_EQ(link.what, "is not there");
+  EXPECT_EQ(link.commands,
+            (std::vector<std::string>{"ip link add dev vcan0 type vcan", "ip link set vcan0 mtu 72 up"}));
+  EXPECT_FALSE(kernel_problem(kFine));
+  EXPECT_FALSE(link_problem("vcan0", but([](auto& s) { s.refused = EAFNOSUPPORT; }), true));
+}
+
+// lo is on every machine, and no CAN.
+TEST(InterfaceState, IsToldOfAnyInterface) {
+  const InterfaceState state = interface_state("lo");
+  EXPECT_TRUE(state.there);
+  EXPECT_FALSE(state.can);
+  EXPECT_GT(state.mtu, 72);
+  EXPECT_FALSE(interface_state("ttf_absent").there);
 }
 
 TEST(InterfaceProblem, ComesWithTheCommandThatHelps) {
   const auto absent = but([](auto& s) { s.there = false; });
   EXPECT_EQ(interface_problem("vcan0", absent, true),
-            "no such interface: ip link add dev vcan0 type vcan && ip link set vcan0 mtu 72 up");
+            "is not there: ip link add dev vcan0 type vcan && ip link set vcan0 mtu 72 up");
   EXPECT_EQ(interface_problem("vxcan1", absent, false),
-            "no such interface: ip link add dev vxcan1 type vxcan && ip link set vxcan1 mtu 16 up");
+            "is not there: ip link add dev vxcan1 type vxcan && ip link set vxcan1 mtu 16 up");
   EXPECT_EQ(interface_problem("can0", absent, true),
-            "no such interface: ip -details link show type can lists those there are");
-  EXPECT_EQ(interface_problem("a_name_of_20_bytes__", absent, true), "interfaces have names of 1..15 bytes");
+            "is not there; ip -details link show type can lists those there are");
+  EXPECT_EQ(interface_problem("a_name_of_20_bytes__", absent, true),
+            "is no name of an interface: these have 1..15 bytes");
   EXPECT_EQ(interface_problem("lo", but([](auto& s) { s.can = false; }), true),
-            "not a CAN interface: ip -details link show type can lists those there are");
+            "is no CAN interface; ip -details link show type can lists those there are");
   EXPECT_EQ(interface_problem("vcan0", but([](auto& s) { s.up = false; }), true),
-            "not up: ip link set vcan0 mtu 72 up");
+            "is down: ip link set vcan0 mtu 72 up");
   EXPECT_EQ(interface_problem("can0", but([](auto& s) { s.up = false; }), true),
-            "not up: ip link set can0 up type can bitrate 1000000 dbitrate 5000000 fd on");
+            "is down: ip link set can0 up type can bitrate 1000000 dbitrate 5000000 fd on");
   EXPECT_EQ(interface_problem("can0", but([](auto& s) { s.up = false; }), false),
-            "not up: ip link set can0 up type can bitrate 500000");
+            "is down: ip link set can0 up type can bitrate 500000");
   EXPECT_EQ(interface_problem("vcan0", but([](auto& s) { s.mtu = 16; }), true),
             "carries no CAN FD frames (MTU 16, needs 72): ip link set vcan0 down && ip link set vcan0 mtu 72 up");
   EXPECT_EQ(interface_problem("can1", but([](auto& s) { s.mtu = 16, s.up = false; }), true),
@@ -73,11 +103,11 @@ TEST(InterfaceProblem, EndsSetUp) {
 TEST_F(OwnVcan, IsMendedByTheCommands) {
   run(std::string("ip link del dev ") + kName);
   const auto problem = [] { return interface_problem(kName, interface_state(kName), true); };
-  EXPECT_EQ(problem().rfind("no such interface", 0), 0u);
+  EXPECT_EQ(problem().rfind("is not there", 0), 0u);
   ASSERT_TRUE(run(command_in(problem()))) << problem();
   EXPECT_EQ(problem(), "");
   ip("down");
-  EXPECT_EQ(problem().rfind("not up", 0), 0u);
+  EXPECT_EQ(problem().rfind("is down", 0), 0u);
   ASSERT_TRUE(run(command_in(problem()))) << problem();
   EXPECT_EQ(problem(), "");
   ip("down");

@@ -6,6 +6,8 @@
 
 #include <cstdlib>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "bus/socketcan/interface.h"
 
@@ -27,13 +29,46 @@ class OnVcan : public ::testing::Test {
   }
 };
 
+// Interfaces of the test's own, up for CAN FD; they go with it.
+class Vcans {
+ public:
+  explicit Vcans(std::vector<std::string> names) : names_(std::move(names)) {
+    for (const std::string& name : names_) {
+      if (missing_.empty()) missing_ = make(name);
+    }
+  }
+  ~Vcans() {
+    for (const std::string& name : made_) run("ip link del dev " + name);
+  }
+  Vcans(const Vcans&) = delete;
+  Vcans& operator=(const Vcans&) = delete;
+
+  const std::string& operator[](std::size_t i) const { return names_[i]; }
+  // Why there are none; empty: there are.
+  const std::string& missing() const { return missing_; }
+
+ private:
+  std::string make(const std::string& name) {
+    if (const Problem kernel = kernel_problem(interface_state(name))) return "the kernel " + kernel.text();
+    if (geteuid() != 0) return "only root makes interfaces";
+    run("ip link del dev " + name);
+    if (!run("ip link add dev " + name + " type vcan && ip link set " + name + " mtu 72 up"))
+      return "no vcan can be made here";
+    made_.push_back(name);
+    return "";
+  }
+
+  std::vector<std::string> names_, made_;
+  std::string missing_;
+};
+
 // An interface of the test's own, to be changed at will: needs a kernel with vcan, and CAP_NET_ADMIN.
 class OwnVcan : public ::testing::Test {
  protected:
   static constexpr const char* kName = "vcan97";
   void SetUp() override {
     const InterfaceState state = interface_state(kName);
-    if (!state.raw) GTEST_SKIP() << interface_problem(kName, state, true);
+    if (state.refused != 0) GTEST_SKIP() << interface_problem(kName, state, true);
     if (geteuid() != 0) GTEST_SKIP() << "only root makes interfaces";
     run(std::string("ip link del dev ") + kName);
     if (!run(std::string("ip link add dev ") + kName + " type vcan")) GTEST_SKIP() << "no vcan can be made here";

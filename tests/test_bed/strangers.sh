@@ -22,26 +22,7 @@ done
 
 run=$(mktemp -d)
 trap 'kill $(jobs -p) 2>/dev/null || true; rm -rf "$run"' EXIT
-fail() {
-  echo "FAILED: $*"
-  exit 1
-}
-# wait_for FILE TEXT: until a process in the background is ready, 10 s at most.
-wait_for() {
-  for _ in $(seq 1000); do
-    ! grep -q "$2" "$1" 2>/dev/null || return 0
-    sleep 0.01
-  done
-  fail "no '$2' in $1: $(cat "$1")"
-}
-# Until so many sockets on that interface have said that they want its frames.
-wait_for_receivers() {
-  for _ in $(seq 1000); do
-    [[ $(grep -c "^ *$1 " /proc/net/can/rcvlist_all) -lt $2 ]] || return 0
-    sleep 0.01
-  done
-  fail "fewer than $2 receivers on $1"
-}
+source tests/test_bed/waiting.bash
 # The page's examples for that interface, from the identifier on, as candump shows them.
 examples() { sed -nE "s/^    $1 +([0-9A-F]{3} .*)/\1/p" "$page"; }
 shown() { sed -E 's/^ *vcan[0-9]+ +//; s/ +$//' "$1"; }
@@ -56,14 +37,14 @@ for channel in A:vcan0 B:vcan1; do
   candump -L -T 1000 vcan1 >"$run/recorded" &
   wait_for_receivers vcan1 2
   "$peer" listen vcan0 "${channel%:*}" 500 vcan1 >"$run/heard" 2>"$run/ready" &
-  wait_for "$run/ready" listening
+  wait_for listening "$run/ready"
   as_cansend <"$run/expected" | while read -r frame; do cansend vcan0 "$frame"; done
   wait
   diff <(shown "$run/shown") "$run/expected" || fail "candump sees another frame on channel ${channel%:*}"
   grep -q ' foreign 0 malformed 0 displaced 0 abandoned 0 lost 0' "$run/heard" || fail "$(tail -1 "$run/heard")"
   # What candump -L recorded, canplayer says again.
   "$peer" listen vcan0 "${channel%:*}" 500 >"$run/replayed" 2>"$run/ready" &
-  wait_for "$run/ready" listening
+  wait_for listening "$run/ready"
   canplayer -I "$run/recorded" vcan0=vcan1
   wait
   diff "$run/heard" "$run/replayed" || fail "a replay is something else"
@@ -72,7 +53,7 @@ done
 echo "strangers' frames are counted and ignored, while three of ours go on"
 "$peer" listen vcan0 A 5000 >"$run/heard" 2>"$run/ready" &
 listener=$!
-wait_for "$run/ready" listening
+wait_for listening "$run/ready"
 start=$(($(date +%s) + 2))
 nodes=()
 for slot in 1 2 3; do
@@ -91,7 +72,7 @@ read -r _ complete _ _ _ foreign _ malformed _ displaced _ _ _ lost <<<"$(tail -
 
 echo "what nobody reads is counted"
 "$peer" deaf vcan0 64 3000 >"$run/deaf" 2>"$run/ready" &
-wait_for "$run/ready" listening
+wait_for listening "$run/ready"
 cangen vcan0 -g 0 -n 500 -I i -L 64 -f
 wait
 read -r _ heard _ lost <"$run/deaf"
@@ -104,7 +85,7 @@ if [[ $(id -u) -eq 0 ]]; then
   ip link set vcan98 mtu 72 up
   "$peer" listen vcan98 A 60000 >"$run/heard" 2>"$run/ready" &
   listener=$!
-  wait_for "$run/ready" listening
+  wait_for listening "$run/ready"
   ip link set vcan98 down
   code=0
   wait "$listener" || code=$?

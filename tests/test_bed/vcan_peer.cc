@@ -49,6 +49,8 @@ std::string hex(std::span<const std::byte> bytes) {
 }
 
 std::string described(Channel channel, const Arrival& arrival) {
+  if (const auto& told = arrival.follow_up)
+    return fmt::format("slot {} cycle {} left {} ns late", told->slot, told->cycle_counter, told->late.ns);
   if (arrival.signal != bus::Signal::kFrame)
     return fmt::format("{} of {} ns", arrival.signal == bus::Signal::kCas      ? "CAS"
                                       : arrival.signal == bus::Signal::kWakeup ? "wake-up"
@@ -90,9 +92,11 @@ int listen(const std::string& interface, Channel channel, std::int64_t idle_ms, 
     if (arrival.outcome != Outcome::kComplete) continue;
     fmt::print("{}\n", described(channel, arrival));
     if (out.empty()) continue;
-    const bool done = arrival.signal == bus::Signal::kFrame
+    const auto one = [&](const canfd_frame& can) { return out[0].send(can) == Status::kDone; };
+    const bool done = arrival.follow_up ? one(follow_up_to_can(channel, *arrival.follow_up))
+                      : arrival.signal == bus::Signal::kFrame
                           ? send_all(out[0], frame_to_can(arrival.slot, arrival.frame).all())
-                          : out[0].send(symbol_to_can(channel, arrival.signal, arrival.duration)) == Status::kDone;
+                          : one(symbol_to_can(channel, arrival.signal, arrival.duration));
     if (!done) return failed(out[0]);
   }
   fmt::print("complete {} fragments {} foreign {} malformed {} displaced {} abandoned {} lost {}\n",

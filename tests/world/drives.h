@@ -21,7 +21,7 @@ inline WorldConfig world_from(const std::string& text) {
 
 // Of "scenarios/<name>.yaml": the world only, with the drive's duration.
 inline WorldConfig drive(const std::string& name) {
-  const StrictYaml yaml = StrictYaml::load(std::string(TTF_SOURCE_DIR) + "/scenarios/" + name + ".yaml");
+  const StrictYaml yaml = StrictYaml::load(TTF_SOURCE_DIR "/scenarios/" + name + ".yaml");
   Findings findings;
   YamlMap root = yaml.root(findings);
   YamlMap map = root.map("world");

@@ -1,0 +1,22 @@
+// Qualities of service, held and released; and the partition that keeps sessions apart. Only sources of this room
+// include it.
+#pragma once
+
+#include <dds/dds.h>
+
+#include <memory>
+#include <string>
+
+namespace ttf::dds {
+
+using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
+
+inline Qos new_qos() { return {dds_create_qos(), dds_delete_qos}; }
+
+inline Qos partition(const std::string& session) {
+  Qos qos = new_qos();
+  dds_qset_partition1(qos.get(), session.c_str());
+  return qos;
+}
+
+}  // namespace ttf::dds

@@ -1,0 +1,92 @@
+// What waits to be published: copies of the records, made by the thread that records, in slots made beforehand.
+//
+// Laws: nothing here waits, locks or allocates; what finds no room is dropped and counted, and what is dropped is never
+// part of anything else. One thread records, one thread (that or another) tells healths, one thread takes.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "bus/dds/ros/health.h"
+#include "bus/dds/ros/options.h"
+#include "bus/dds/ros/ring.h"
+#include "recording/records/records.h"
+
+namespace ttf::ros {
+
+// A real-time image. Instants are the drive's true time.
+struct WaitingImage {
+  explicit WaitingImage(std::size_t most_objects) { objects.reserve(most_objects); }
+  TrueTime valid_at{}, written{};
+  std::optional<TrueTime> newest_measurement;   // none before the first
+  std::uint32_t sequence = 0;
+  std::vector<records::ImageObject> objects;
+};
+
+// A step of the fusion, and the tracks after it.
+struct WaitingTrack {
+  TrackId id{};
+  TrueTime valid_at{};
+  std::array<double, 6> state{};
+  std::array<double, 36> covariance{};
+};
+struct WaitingStep {
+  explicit WaitingStep(std::size_t most_tracks) { tracks.reserve(most_tracks); }
+  TrueTime at{};
+  std::uint32_t step = 0;
+  std::uint16_t confirmed = 0, tentative = 0;
+  std::vector<WaitingTrack> tracks;
+};
+
+struct WaitingTruth {
+  records::TruthState state;
+};
+
+inline constexpr std::size_t kHealthText = 4096;
+// All texts one after the other: name, message, then keys and values by turns, each ended by a zero.
+struct WaitingHealth {
+  TrueTime at{};
+  HealthLevel level = HealthLevel::kOk;
+  std::size_t values = 0;
+  std::array<char, kHealthText> text{};
+};
+
+class Outbox {
+ public:
+  explicit Outbox(const RosOptions& options);
+
+  // Each says whether there is something new to take.
+  bool put(const records::ImageWritten& image);
+  bool put(const records::TrackState& track);   // waits for the FusionStep it belongs to
+  bool put(const records::FusionStep& step);
+  bool put(const records::TruthState& truth);   // several nodes may tell of one instant: it is taken once
+  bool put(const Health& health);
+
+  // What had no room, and what was too long.
+  struct Dropped {
+    std::uint64_t images = 0, steps = 0, truths = 0, healths = 0;
+    std::uint64_t cut = 0;   // images and steps that had more objects or tracks than there is room for
+  };
+  Dropped dropped() const;   // from any thread
+
+  Ring<WaitingImage> images;
+  Ring<WaitingStep> steps;
+  Ring<WaitingTruth> truths;
+  Ring<WaitingHealth> healths;
+
+ private:
+  void begin(std::uint32_t step);
+
+  std::size_t most_objects_, most_tracks_;
+  std::optional<std::uint32_t> step_;          // whose tracks come
+  WaitingStep* waiting_ = nullptr;             // where they go: nullptr, there is no room
+  bool step_cut_ = false;
+  std::vector<std::optional<TrueTime>> last_truth_;   // by object
+  std::atomic<std::uint64_t> dropped_images_{0}, dropped_steps_{0}, dropped_truths_{0}, dropped_healths_{0}, cut_{0};
+};
+
+}  // namespace ttf::ros

@@ -1,0 +1,57 @@
+// The topics and who writes them to DDS: names, types and qualities as ROS 2 expects them (docs/ros.md has the table).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bus/dds/participant.h"
+#include "bus/dds/ros/messages.h"
+#include "bus/dds/ros/options.h"
+#include "bus/dds/ros/outbox.h"
+
+namespace ttf::ros {
+
+// One topic and its writer.
+class Writer {
+ public:
+  struct Counts {
+    std::uint64_t written = 0;
+    std::uint64_t refused = 0;              // DDS took it not: its memory is full, or whatever it said
+    std::uint64_t deadlines_missed = 0;     // promised, and not kept
+  };
+  Writer(const dds::Participant& participant, const void* type, const std::string& topic, Duration period,
+         bool kept_for_late_listeners, const RosOptions& options);
+  void write(const void* sample);   // never waits
+  Counts counts() const;
+
+ private:
+  dds::Handle writer_ = 0;
+  Counts counts_;
+};
+
+class Writers {
+ public:
+  // Throws std::runtime_error where DDS does not let us.
+  explicit Writers(const RosOptions& options);
+
+  void write(const WaitingImage& image);
+  void write(const WaitingStep& step);
+  void write(const WaitingTruth& truth);
+  void write(const WaitingHealth& health);
+
+  Writer::Counts images() const { return images_.counts(); }
+  Writer::Counts boxes() const { return boxes_.counts(); }
+  Writer::Counts tracks() const { return tracks_.counts(); }
+  Writer::Counts truths() const;   // of all objects
+  Writer::Counts healths() const { return healths_.counts(); }
+
+ private:
+  dds::Participant participant_;
+  Messages messages_;
+  Writer images_, boxes_, tracks_, healths_;
+  std::vector<Writer> truths_;   // by object
+};
+
+}  // namespace ttf::ros

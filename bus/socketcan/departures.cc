@@ -1,0 +1,30 @@
+#include "bus/socketcan/departures.h"
+
+#include <algorithm>
+
+namespace ttf::socketcan {
+
+void Departures::expect(const canfd_frame& last, int slot, std::uint8_t cycle_counter, bus::HostTime due) {
+  Departure& departure = ring_[next_];
+  if (!departure.expected) ++expected_;
+  departure = {.expected = true, .last = last, .slot = slot, .cycle_counter = cycle_counter, .due = due};
+  next_ = (next_ + 1) % kRoom;
+}
+
+std::optional<FollowUp> Departures::left(const canfd_frame& can, bus::HostTime at) {
+  // The oldest first. Flags are none of the data's: the driver may have changed them.
+  for (std::size_t i = 0; i < kRoom && expected_ > 0; ++i) {
+    Departure& departure = ring_[(next_ + i) % kRoom];
+    if (!departure.expected || departure.last.can_id != can.can_id || departure.last.len != can.len ||
+        !std::equal(can.data, can.data + std::min<std::size_t>(can.len, CANFD_MAX_DLEN), departure.last.data))
+      continue;
+    departure.expected = false;
+    --expected_;
+    const Duration late = at - departure.due;
+    if (!can_be_told(late)) return {};
+    return FollowUp{.slot = departure.slot, .cycle_counter = departure.cycle_counter, .late = late};
+  }
+  return {};
+}
+
+}  // namespace ttf::socketcan

@@ -1,0 +1,20 @@
+// Options with a decimal number.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "core/strict_yaml.h"
+
+namespace ttf::cli {
+
+// The number in units of 1 / scale, exactly: "2.5" with a scale of 10^6 is 2'500'000. Throws InputError that names the
+// option and the range where it is none, or out of it.
+std::int64_t decimal_option(const char* option, const std::string& text, std::int64_t scale,
+                            Range<std::int64_t> allowed, std::string_view unit);
+
+// --time-scale, in parts per million (schedules/real_time.h).
+std::int64_t time_scale_option(const std::string& text);
+
+}  // namespace ttf::cli

@@ -1,0 +1,34 @@
+#include "nodes/runner/floor.h"
+
+#include <time.h>
+
+namespace ttf::runner {
+
+Floor::Floor(Duration period, bus::HostTime first) : thread_([this, period, first] { run(period, first); }) {}
+
+Floor::~Floor() {
+  stopped_ = true;
+  thread_.join();
+}
+
+records::BinnedDurations Floor::lateness() const {
+  const std::lock_guard lock(mutex_);
+  return lateness_;
+}
+
+void Floor::run(Duration period, bus::HostTime first) {
+  constexpr std::int64_t kSecond = 1'000'000'000;
+  for (bus::HostTime next = first; !stopped_; next += period) {
+    const timespec until{.tv_sec = next.ns / kSecond, .tv_nsec = next.ns % kSecond};
+    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) != 0) {}
+    const bus::HostTime now = bus::host_now();
+    {
+      const std::lock_guard lock(mutex_);
+      lateness_.add(now - next);
+    }
+    // What was slept through is one late wake-up, not many.
+    while (next + period <= now) next += period;
+  }
+}
+
+}  // namespace ttf::runner

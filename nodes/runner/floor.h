@@ -1,0 +1,35 @@
+// A plain periodic thread beside a node's own: it does nothing but be woken up, so what it is late by is the
+// machine's, not the node's. Scheduled as the thread that starts it is.
+#pragma once
+
+#include <atomic>
+#include <mutex>
+#include <thread>
+
+#include "bus/live_medium.h"
+#include "core/time.h"
+#include "recording/records/binned_durations.h"
+
+namespace ttf::runner {
+
+class Floor {
+ public:
+  // Woken up at `first`, and every period from then on.
+  Floor(Duration period, bus::HostTime first);
+  ~Floor();
+  Floor(const Floor&) = delete;
+  Floor& operator=(const Floor&) = delete;
+
+  // So far.
+  records::BinnedDurations lateness() const;
+
+ private:
+  void run(Duration period, bus::HostTime first);
+
+  mutable std::mutex mutex_;
+  records::BinnedDurations lateness_;
+  std::atomic<bool> stopped_{false};
+  std::thread thread_;
+};
+
+}  // namespace ttf::runner

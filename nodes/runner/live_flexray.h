@@ -1,0 +1,49 @@
+// The FlexRay port of a node in real time: what its controller sends goes to the medium when it is due, or, where
+// that is so long ago that it would come outside its arrival window, not at all.
+//
+// The laws of bus/flexray_port.h hold but for L6 and the bits' own lengths: two nodes that send at once do not
+// collide on such a medium, and a frame is there at once. The runner hands it over when it would have ended
+// (nodes/runner/arrivals.h).
+#pragma once
+
+#include <cstdint>
+
+#include "bus/controller.h"
+#include "bus/flexray_port.h"
+#include "bus/live_medium.h"
+#include "nodes/runner/arrivals.h"
+#include "nodes/runner/drive_clock.h"
+#include "nodes/runner/timing_account.h"
+#include "timebase/oscillator.h"
+
+namespace ttf::runner {
+
+class LiveFlexRay final : public bus::FlexRayPort {
+ public:
+  // `latest`: behind the action point, in real time.
+  LiveFlexRay(const DriveClock& clock, const timebase::Oscillator& oscillator, Duration latest,
+              bus::LiveMedium& medium, const Arrivals& arrivals, TimingAccount& account);
+
+  bool may_leave(schedules::Channel channel, int slot, Microticks start) override;
+  void transmit(const bus::Transmission& transmission) override;
+  bool carrier(schedules::Channel channel) const override { return arrivals_.carrier(channel, now_); }
+
+  // The node's instant, as of everything that is asked until the next one.
+  void set_now(Microticks now) { now_ = now; }
+  // Whose port this is: before anything is sent.
+  void bind(const bus::FlexRayController& controller) { controller_ = &controller; }
+
+ private:
+  bus::HostTime due(Microticks start) const { return clock_.host_time(oscillator_.time_of(start)); }
+
+  const DriveClock& clock_;
+  const timebase::Oscillator& oscillator_;
+  const Duration latest_;
+  bus::LiveMedium& medium_;
+  const Arrivals& arrivals_;
+  TimingAccount& account_;
+  Microticks now_{};
+  const bus::FlexRayController* controller_ = nullptr;
+};
+
+}  // namespace ttf::runner

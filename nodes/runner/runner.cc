@@ -1,0 +1,313 @@
+#include "nodes/runner/runner.h"
+
+#include <poll.h>
+#include <time.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <limits>
+#include <utility>
+
+#include "bus/wire/strobe.h"
+#include "nodes/node_clock.h"
+#include "recording/records/tee.h"
+#include "schedules/sensor_lines.h"
+
+namespace ttf::runner {
+namespace {
+
+constexpr Microticks kNever{std::numeric_limits<std::int64_t>::max()};
+constexpr Duration kHealthEvery = Duration::milliseconds(1000);
+constexpr Duration kRoomForHealth = Duration::microseconds(500);   // until the next thing is due
+constexpr Duration kFloorPeriod = Duration::milliseconds(5);
+constexpr Duration kFloorPhase = Duration::microseconds(3500);   // off whole milliseconds, where cycles begin
+constexpr std::uint64_t kDoneBetweenLooks = 1024;   // who has much to catch up with can be stopped all the same
+constexpr Duration kUntilTakenIn = Duration::milliseconds(1);
+constexpr std::size_t kListsWaiting = 4;   // on a CAN, of the largest
+
+bool readable(int descriptor) {
+  if (descriptor < 0) return false;
+  pollfd one{descriptor, POLLIN, 0};
+  return poll(&one, 1, 0) > 0;
+}
+
+std::size_t frames_waiting(const schedules::Cluster& cluster, const schedules::CanBus& bus) {
+  std::size_t most = 1;
+  for (const schedules::CanMessage& message : bus.messages)
+    most = std::max(most, static_cast<std::size_t>(cluster.pdu(message.pdu).max_fragments()));
+  return kListsWaiting * most;
+}
+
+}  // namespace
+
+class Runner::Watch final : public records::Sink {
+ public:
+  using records::Sink::on;
+  void on(const records::ClockCorrected& corrected) override {
+    largest = std::max(largest, std::abs(corrected.offset_microticks));
+  }
+  int largest = 0;   // offset correction [uT]
+  std::unique_ptr<records::Tee> out;
+};
+
+Runner::Runner(const RunnerConfig& config, std::vector<std::shared_ptr<nodes::Step>> steps, bus::LiveMedium& medium,
+               records::Sink& sink)
+    : config_(config),
+      cluster_(*config.cluster),
+      oscillator_(nodes::drawn_oscillator(cluster_.node(config.node), index_of(config.node), config.seed,
+                                          config.replication)),
+      medium_(medium),
+      watch_(std::make_unique<Watch>()),
+      account_([this](Microticks at) { return executive_->stamp(at); }, sink),
+      arrivals_(cluster_, config.node,
+                {ticks(config.clock.in_drive(cluster_.arrival_window->early)),
+                 ticks(config.clock.in_drive(cluster_.arrival_window->late))},
+                *this),
+      flexray_(config_.clock, oscillator_, cluster_.arrival_window->late, medium, arrivals_, account_),
+      floor_(kFloorPeriod, config.clock.next_turn(kFloorPeriod, kFloorPhase, bus::host_now())),
+      wake_up_(2 + cluster_.can_buses.size() + 1) {
+  const schedules::Node& node = cluster_.node(config.node);
+  watch_->out = std::make_unique<records::Tee>(std::vector<records::Sink*>{&sink, watch_.get()});
+  std::vector<bus::CanPort*> ports;
+  for (std::size_t b = 0; b < cluster_.can_buses.size(); ++b) {
+    const std::size_t most = frames_waiting(cluster_, cluster_.can_buses[b]);
+    cans_.push_back(!schedules::is_on_can(node, b)
+                        ? nullptr
+                        : std::make_unique<PacedCan>(cluster_, b, most, [this] { return executive_->stamp(last_); }));
+    ports.push_back(cans_.back().get());
+  }
+  for (std::size_t s = 0; s < cluster_.sensors.size(); ++s)
+    sensor_can_.push_back(schedules::can_of_lines(cluster_, static_cast<SensorId>(s)));
+  const bool integrated = !config.power_on.has_value();
+  const TrueTime begin = integrated ? config.first_cycle : std::max(*config.power_on, now());
+  last_ = ticks(begin);
+  const nodes::ExecutiveConfig executive{
+      &cluster_,
+      config.node,
+      oscillator_,
+      integrated && node.flexray
+          ? std::optional(nodes::integrated_clock(oscillator_, cluster_, node, config.first_cycle))
+          : std::nullopt,
+      config.seed,
+      config.replication,
+      last_,
+      config.cold.how,
+      config.cold.after,
+      this};
+  executive_ = std::make_unique<nodes::Executive>(executive, std::move(steps), node.flexray ? &flexray_ : nullptr,
+                                                  std::move(ports), static_cast<nodes::SensorLines&>(*this),
+                                                  *watch_->out);
+  if (node.flexray) flexray_.bind(*executive_->controller());
+  if (!integrated && !executive_->asleep()) watch_->out->on(records::PowerChanged{executive_->stamp(last_), true});
+  health_due_ = next_health(bus::host_now());
+}
+
+Runner::~Runner() = default;
+
+Microticks Runner::ticks(Duration drive) const {
+  const std::int64_t period = cluster_.node(config_.node).microtick_ps;
+  return {(drive.ns * 1000 + period - 1) / period};
+}
+
+Duration Runner::in_real(Microticks ticks) const {
+  return config_.clock.in_real({ticks.value * cluster_.node(config_.node).microtick_ps / 1000});
+}
+
+const timebase::CycleClock* Runner::schedule() const {
+  const bus::FlexRayController* controller = executive_->controller();
+  return controller != nullptr && controller->clock() ? &*controller->clock() : nullptr;
+}
+
+// ---- the sensor's wires, as frames on its CAN
+
+void Runner::trigger(SensorId sensor) {
+  if (const auto can = sensor_can_[index_of(sensor)])
+    (void)medium_.send_can(*can, {schedules::trigger_identifier(sensor), false, {}});
+}
+
+void Runner::strobe(SensorId sensor, std::uint32_t sequence) {
+  const auto data = wire::strobe_data(sequence);
+  if (const auto can = sensor_can_[index_of(sensor)])
+    (void)medium_.send_can(*can, {schedules::strobe_identifier(sensor), false, data});
+}
+
+// ---- what arrives
+
+void Runner::arrived(Microticks behind) { account_.arrivals.add(in_real(behind)); }
+
+void Runner::missed_window(std::int64_t cycle, int slot, schedules::Channel channel, Microticks behind) {
+  account_.missed_window(last_, in_real(behind), cycle, slot, channel);
+}
+
+void Runner::lost(std::int64_t cycle, int slot, schedules::Channel channel, std::uint32_t count) {
+  account_.frames_lost(last_, bus::host_now() - host_time(last_), cycle, slot, channel, count);
+}
+
+void Runner::take_in() {
+  while (const auto arrival = medium_.receive()) {
+    if (arrival->left) account_.transits.add(arrival->received - *arrival->left);
+    std::optional<Microticks> late;
+    if (arrival->late) late = ticks(config_.clock.in_drive(*arrival->late));
+    arrivals_.arrive(*arrival, ticks(config_.clock.drive_time(arrival->at)), late,
+                     ticks(config_.clock.in_drive(arrival->signal.duration)), schedule());
+  }
+}
+
+void Runner::hand_over(const Arrivals::Due& due) {
+  if (due.kind == bus::LiveArrival::Kind::kFlexRay) return executive_->receive(due.reception);
+  for (std::size_t s = 0; s < cluster_.sensors.size(); ++s) {
+    const auto sensor = static_cast<SensorId>(s);
+    if (sensor_can_[s] != due.can_bus) continue;
+    const bool classic = !due.can.flexible_data_rate;
+    if (const auto sequence = wire::strobe_sequence(due.can.data);
+        due.can.identifier == schedules::strobe_identifier(sensor) && classic && sequence) {
+      if (cluster_.sensors[s].host == config_.node) executive_->strobe(sensor, *sequence, due.at);
+      return;
+    }
+    if (due.can.identifier == schedules::trigger_identifier(sensor) && classic && due.can.data.empty()) {
+      if (cluster_.sensors[s].device == config_.node) executive_->trigger(sensor, due.at);
+      return;
+    }
+  }
+  // What has a line's identifier but not its form is refused there, as nobody's.
+  executive_->receive_can(due.can_bus, due.can, last_);
+}
+
+// ---- what is due
+
+void Runner::leave(std::size_t can_bus) {
+  const PacedCan::Departure departure = cans_[can_bus]->leave();
+  (void)medium_.send_can(can_bus, departure.frame);
+  executive_->can_frame_sent(departure.sent, last_);
+}
+
+Microticks Runner::next_due() const {
+  Microticks next = std::min(executive_->next_event(), arrivals_.next());
+  for (const auto& can : cans_)
+    if (can && can->next() < config_.end) next = std::min(next, ticks(can->next()) + Microticks{1});
+  return next;
+}
+
+void Runner::do_due(Microticks now) {
+  const Microticks until = std::min(now, ticks(config_.end));
+  std::uint64_t done = 0;
+  for (Microticks next = next_due(); next <= until; next = next_due()) {
+    if (++done % kDoneBetweenLooks == 0 && readable(config_.stop_descriptor)) return;
+    last_ = std::max(last_, next);
+    flexray_.set_now(last_);
+    if (const auto due = arrivals_.take(last_, schedule())) {
+      hand_over(*due);
+    } else if (const auto can = std::find_if(cans_.begin(), cans_.end(),
+                                             [this](const auto& one) { return one && ticks(one->next()) < last_; });
+               can != cans_.end()) {
+      leave(static_cast<std::size_t>(can - cans_.begin()));
+    } else if (const Microticks due_tick = executive_->next_event(); due_tick <= last_) {
+      const Duration late = bus::host_now() - host_time(due_tick);
+      account_.wake_ups.add(late);
+      if (late > cluster_.arrival_window->late) account_.late_wakeup(last_, late);
+      executive_->advance(last_);
+      if (const auto* controller = executive_->controller();
+          controller != nullptr && controller->state().kind == bus::PocKind::kHalt)
+        executive_->start_anew(last_);
+    }
+    take_in();
+  }
+}
+
+// A line is watched where something is to be done as soon as something comes.
+void Runner::watch_lines() {
+  const bool listens = executive_->promise().after_flexray != nodes::Promise::kNever;
+  if (listens == listens_) return;
+  listens_ = listens;
+  wake_up_.clear();
+  wake_up_.watch(config_.stop_descriptor);
+  for (const schedules::Channel channel : schedules::kBothChannels) {
+    medium_.watch(bus::line_of(channel), listens);
+    if (listens) wake_up_.watch(medium_.descriptor(bus::line_of(channel)));
+  }
+  for (std::size_t b = 0; b < cans_.size(); ++b) {
+    if (!cans_[b]) continue;
+    medium_.watch(bus::line_of_can(b), true);
+    wake_up_.watch(medium_.descriptor(bus::line_of_can(b)));
+  }
+}
+
+// The nodes take turns.
+bus::HostTime Runner::next_health(bus::HostTime now) const {
+  const auto turn = static_cast<std::int64_t>(index_of(config_.node) + 1);
+  const Duration phase{kHealthEvery.ns * turn / static_cast<std::int64_t>(cluster_.nodes.size() + 1)};
+  return config_.clock.next_turn(kHealthEvery, phase, now);
+}
+
+void Runner::tell_health() {
+  const bus::HostTime now = bus::host_now();
+  if (now < health_due_) return;
+  const Microticks next = next_due();
+  const bool room = next == kNever || host_time(next) > now + kRoomForHealth;
+  if (!room && now < health_due_ + kHealthEvery) return;
+  health_due_ = next_health(now);
+  record_account();
+  if (on_health_) on_health_(health());
+}
+
+std::uint64_t Runner::dropped() const {
+  std::uint64_t dropped = arrivals_.dropped();
+  for (const auto& can : cans_)
+    if (can) dropped += can->dropped();
+  return dropped;
+}
+
+void Runner::record_account() { account_.record(last_, floor_.lateness(), medium_.counts(), dropped()); }
+
+Health Runner::health() const {
+  Health health;
+  health.timing = account_.counts();
+  health.medium = medium_.counts();
+  health.dropped = dropped();
+  health.wakeup_p50 = account_.wake_ups.quantile(500);
+  health.wakeup_p99 = account_.wake_ups.quantile(990);
+  health.wakeup_longest = account_.wake_ups.longest();
+  health.largest_offset = in_real(Microticks{watch_->largest});
+  if (const auto* controller = executive_->controller()) health.state = bus::to_text(controller->state().kind);
+  return health;
+}
+
+RunnerEnd Runner::run() {
+  listens_ = true;   // so that watch_lines() does it
+  if (executive_->promise().after_flexray != nodes::Promise::kNever) listens_ = false;
+  watch_lines();
+  const bus::HostTime end = config_.clock.host_time(config_.end);
+  RunnerEnd how = RunnerEnd::kDone;
+  bool was_behind = false;
+  while (true) {
+    bus::HostTime now = bus::host_now();
+    // Who was stopped was so with the medium's threads: what they have to take in is to be there before it is missed.
+    const bool behind = next_due() != kNever && now - host_time(next_due()) > config_.clock.in_real(cluster_.cycle());
+    if (behind && !was_behind) {
+      const timespec pause{.tv_sec = 0, .tv_nsec = kUntilTakenIn.ns};
+      nanosleep(&pause, nullptr);
+      now = bus::host_now();
+    }
+    was_behind = behind;
+    take_in();
+    do_due(ticks(config_.clock.drive_time(now)));
+    if (!medium_.failure().empty()) {
+      how = RunnerEnd::kFailed;
+      break;
+    }
+    if (readable(config_.stop_descriptor)) {
+      how = RunnerEnd::kStopped;
+      break;
+    }
+    if (now >= end) break;
+    tell_health();
+    watch_lines();
+    const Microticks next = next_due();
+    const bus::HostTime due = next == kNever ? end : std::min(end, host_time(next));
+    wake_up_.sleep_until(std::min(due, health_due_));
+  }
+  record_account();
+  return how;
+}
+
+}  // namespace ttf::runner

@@ -1,0 +1,86 @@
+// Durations counted in the bins of recording/records/lateness_bins.h: as many as there are, in the same few kilobytes.
+// For lateness, and for whatever else is worth its quantiles.
+//
+// Quantiles are those of the sorted list, nearest rank: of n durations the q-quantile is the ceil(q n)-th smallest.
+// What is returned is where that one's bin ends, or the longest of all where that is less: never less than the sorted
+// list's, and more by a bin at most (1 us up to 64 us, from there on 3 %).
+//
+// No heap: a real-time thread may count with it.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "core/int128.h"
+#include "core/time.h"
+#include "recording/records/lateness_bins.h"
+
+namespace ttf::records {
+
+class BinnedDurations {
+ public:
+  BinnedDurations() = default;
+  // As a histogram has them; bins beyond the last there is are passed over.
+  BinnedDurations(std::span<const std::uint64_t> counts, Duration longest) : longest_(longest) {
+    std::copy_n(counts.begin(), std::min(counts.size(), kLatenessBins), counts_.begin());
+    empty_ = count() == 0;
+  }
+
+  void add(Duration one) {
+    longest_ = empty_ ? one : std::max(longest_, one);
+    empty_ = false;
+    std::uint64_t& count = counts_[lateness_bin(one)];
+    count = sum(count, 1);
+  }
+  void add(const BinnedDurations& others) {
+    if (others.empty_) return;
+    longest_ = empty_ ? others.longest_ : std::max(longest_, others.longest_);
+    empty_ = false;
+    for (std::size_t bin = 0; bin < kLatenessBins; ++bin) counts_[bin] = sum(counts_[bin], others.counts_[bin]);
+  }
+
+  bool empty() const { return empty_; }
+  std::uint64_t count() const { return count_from(0); }
+  // How many of them are in `bin` or later ones: as long as lateness_from(bin), or longer. (Bin 0 holds what is not
+  // late, too.)
+  std::uint64_t count_from(std::size_t bin) const {
+    std::uint64_t all = 0;
+    for (; bin < kLatenessBins; ++bin) all = sum(all, counts_[bin]);
+    return all;
+  }
+  Duration longest() const { return longest_; }   // 0 of none
+
+  // In thousandths: 500 is the median, 999 what one in a thousand is longer than. 0 of none.
+  Duration quantile(int thousandths) const {
+    const auto rank = static_cast<std::uint64_t>((UInt128{count()} * static_cast<unsigned>(thousandths) + 999) / 1000);
+    std::uint64_t below = 0;
+    for (std::size_t bin = 0; bin + 1 < kLatenessBins; ++bin) {
+      below = sum(below, counts_[bin]);
+      if (below >= rank && below > 0) return std::min(lateness_from(bin + 1), longest_);
+    }
+    return longest_;
+  }
+
+  // By bin, to the last that is not empty: as records::LatenessHistogram has them.
+  std::span<const std::uint64_t> counts() const {
+    std::size_t size = kLatenessBins;
+    while (size > 0 && counts_[size - 1] == 0) --size;
+    return std::span(counts_).first(size);
+  }
+
+ private:
+  // Numbers in a damaged log may be any.
+  static constexpr std::uint64_t sum(std::uint64_t a, std::uint64_t b) {
+    return a > std::numeric_limits<std::uint64_t>::max() - b ? std::numeric_limits<std::uint64_t>::max() : a + b;
+  }
+
+  std::array<std::uint64_t, kLatenessBins> counts_{};
+  Duration longest_{};
+  bool empty_ = true;
+};
+
+}  // namespace ttf::records

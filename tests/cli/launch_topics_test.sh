@@ -1,0 +1,51 @@
+#!/usr/bin/env bash
+# What a launch in real time publishes for ROS 2, as the shipped example of a listener hears it.
+#   launch_topics_test.sh PROGRAM SOURCE_DIR ROS_LISTEN
+set -u
+program=$1
+source=$2
+listen=$3
+source "$(dirname "$0")/expect.sh"
+drive=$source/scenarios/paper_scenario1.yaml
+export CYCLONEDDS_URI=file://$source/bus/dds/loopback.xml
+export ROS_DOMAIN_ID=$((100 + $$ % 100))   # none that others on this machine may be in
+
+# hear NAME LAUNCH_ARGS...: what is heard beside a launch.
+hear() {
+  local name=$1 listener
+  shift
+  "$listen" "$ROS_DOMAIN_ID" >"$work/$name.heard" 2>"$work/$name.err" &
+  listener=$!
+  "$program" launch "$drive" --time-scale 4 --duration 1.6 --no-pictures --out "$work/$name" "$@" >"$work/$name.out" 2>&1 ||
+    fail "a launch that is listened to exits with $?: $(cat "$work/$name.out")"
+  kill -INT "$listener"
+  wait "$listener" || fail "the listener exits with $?: $(cat "$work/$name.err")"
+}
+
+hear silent --no-topics
+[[ -s $work/silent.heard ]] && fail "with --no-topics there is something to hear: $(head -3 "$work/silent.heard")"
+
+before=$(date +%s)
+hear told
+after=$(date +%s)
+python3 - "$work/told.heard" "$before" "$after" <<'PY' || fail "what is heard of a launch is another"
+import json, sys
+before, after = int(sys.argv[2]), int(sys.argv[3])
+heard = {}
+for line in map(json.loads, open(sys.argv[1])):
+    if line["event"] == "sample": heard.setdefault(line["topic"], []).append(line)
+counts = {topic: len(lines) for topic, lines in heard.items()}
+# Of 160 steps, 40 images, 20 measurements of the first sensor, and a health of each node in each second.
+for topic, least in (("tracks", 100), ("image", 25), ("image/boxes", 25), ("truth/object_0", 12)):
+    assert counts.get("rt/ttfusion/" + topic, 0) >= least, counts
+assert any(line["tracks"] for line in heard["rt/ttfusion/tracks"]), "never a track"
+assert {status["name"] for line in heard["rt/diagnostics"] for status in line["status"]} == \
+    {"laser", "camera", "laser_pre", "camera_pre", "gateway", "fusion", "feature"}, heard["rt/diagnostics"]
+# Stamps are on ROS' clock: a drive of 1.6 s that is stretched four times lasts 6.4 s there.
+for topic in ("tracks", "image", "truth/object_0"):
+    stamps = [line["stamp_ns"] * 1e-9 for line in heard["rt/ttfusion/" + topic]]
+    assert stamps == sorted(stamps) and before < stamps[0] and stamps[-1] < after + 1, (topic, before, stamps, after)
+    assert 4.5 < stamps[-1] - stamps[0] < 7.5, (topic, stamps[0], stamps[-1])
+PY
+[[ $failures -eq 0 ]] && echo "topics of a launch: heard"
+exit $((failures > 0))

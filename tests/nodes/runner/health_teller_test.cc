@@ -1,0 +1,95 @@
+// Laws of nodes/runner/health_teller.h: who hands over never waits, and what is handed over is told as it was.
+#include "nodes/runner/health_teller.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <future>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace ttf::runner {
+namespace {
+
+Health health_of(std::uint64_t number) {
+  Health health;
+  health.timing.late_wakeups = number;
+  health.dropped = 2 * number;
+  health.wakeup_longest = Duration::microseconds(static_cast<std::int64_t>(number));
+  health.state = "normal active";
+  return health;
+}
+
+TEST(HealthTeller, TellsOnAThreadOfItsOwnWhatItWasGiven) {
+  std::promise<std::pair<Health, bus::HostTime>> told;
+  std::promise<std::thread::id> who;
+  const bus::HostTime before = bus::host_now();
+  HealthTeller teller([&](const Health& health, bus::HostTime at) {
+    told.set_value({health, at});
+    who.set_value(std::this_thread::get_id());
+  });
+  EXPECT_TRUE(teller.hand_over(health_of(7)));
+  const auto [health, at] = told.get_future().get();   // without anything more that is handed over
+  EXPECT_EQ(health.timing.late_wakeups, 7u);
+  EXPECT_EQ(health.dropped, 14u);
+  EXPECT_EQ(health.wakeup_longest, Duration::microseconds(7));
+  EXPECT_EQ(health.state, "normal active");
+  EXPECT_GE(at, before);
+  EXPECT_LE(at, bus::host_now());
+  EXPECT_NE(who.get_future().get(), std::this_thread::get_id());
+}
+
+// While one is being told, for as long as it takes, those that come are left out and counted; the next one behind it
+// is told.
+TEST(HealthTeller, WhoHandsOverNeverWaits) {
+  std::promise<void> begun, go_on;
+  std::vector<std::uint64_t> told;
+  HealthTeller teller([&](const Health& health, bus::HostTime) {
+    told.push_back(health.dropped);
+    if (told.size() > 1) return;
+    begun.set_value();
+    go_on.get_future().wait();
+  });
+  EXPECT_TRUE(teller.hand_over(health_of(0)));
+  begun.get_future().wait();
+  rusage at_first{}, at_last{};
+  getrusage(RUSAGE_THREAD, &at_first);
+  for (std::uint64_t i = 1; i <= 10'000; ++i) EXPECT_FALSE(teller.hand_over(health_of(i)));
+  getrusage(RUSAGE_THREAD, &at_last);
+  EXPECT_EQ(at_last.ru_nvcsw, at_first.ru_nvcsw);   // never gave up the processor of its own accord
+  EXPECT_EQ(teller.left_out(), 10'000u);
+  go_on.set_value();
+  while (!teller.hand_over(health_of(20'000))) std::this_thread::yield();
+  teller.close();
+  EXPECT_EQ(told, (std::vector<std::uint64_t>{0, 40'000}));
+}
+
+TEST(HealthTeller, WhatWasHandedOverIsToldBeforeItIsClosed) {
+  for (std::uint64_t i = 0; i < 200; ++i) {
+    std::uint64_t told = 0;
+    HealthTeller teller([&](const Health& health, bus::HostTime) { told = health.timing.late_wakeups; });
+    ASSERT_TRUE(teller.hand_over(health_of(i + 1)));
+    teller.close();
+    ASSERT_EQ(told, i + 1);
+  }
+}
+
+// Whenever it is handed over, each is whole: never half of one and half of the next.
+TEST(HealthTeller, WhatIsToldIsWholeAndInOrder) {
+  std::uint64_t last = 0, told = 0;
+  HealthTeller teller([&](const Health& health, bus::HostTime) {
+    EXPECT_EQ(health.dropped, 2 * health.timing.late_wakeups);
+    EXPECT_GT(health.timing.late_wakeups, last);
+    last = health.timing.late_wakeups;
+    ++told;
+  });
+  std::uint64_t taken = 0;
+  for (std::uint64_t i = 1; i <= 100'000; ++i) taken += teller.hand_over(health_of(i)) ? 1 : 0;
+  teller.close();
+  EXPECT_EQ(told, taken);
+  EXPECT_EQ(taken + teller.left_out(), 100'000u);
+}
+
+}  // namespace
+}  // namespace ttf::runner

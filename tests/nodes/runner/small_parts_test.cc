@@ -1,0 +1,133 @@
+// The runner's small parts: the drive's clock, a paced CAN, a sensor's wires, the wake-up.
+#include <gtest/gtest.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include <array>
+#include <vector>
+
+#include "bus/wire/can_timing.h"
+#include "bus/wire/strobe.h"
+#include "nodes/runner/drive_clock.h"
+#include "nodes/runner/floor.h"
+#include "nodes/runner/paced_can.h"
+#include "nodes/runner/wake_up.h"
+#include "schedules/loader.h"
+
+namespace ttf::runner {
+namespace {
+
+TEST(DriveClock, StretchesTheDrive) {
+  const DriveClock clock(bus::HostTime{1'000}, 2'500'000);
+  EXPECT_EQ(clock.drive_time(bus::HostTime{1'000}).ns, 0);
+  EXPECT_EQ(clock.drive_time(bus::HostTime{1'000 + 250}).ns, 100);
+  EXPECT_EQ(clock.host_time(TrueTime{100}).ns, 1'250);
+  EXPECT_EQ(clock.drive_time(bus::HostTime{0}).ns, -400);
+}
+
+TEST(DriveClock, AnInstantOfTheDriveIsReachedAtItsHostTimeAndNotBefore) {
+  for (const std::int64_t scale : {100'000, 999'999, 1'000'000, 1'000'003, 7'000'000, 1'000'000'000}) {
+    const DriveClock clock(bus::HostTime{123'456'789}, scale);
+    for (const std::int64_t ns : {std::int64_t{-7}, std::int64_t{0}, std::int64_t{1}, std::int64_t{999'999'937},
+                                  std::int64_t{86'400'000'000'007}}) {
+      const bus::HostTime at = clock.host_time(TrueTime{ns});
+      EXPECT_GE(clock.drive_time(at).ns, ns) << scale;
+      EXPECT_LT(clock.drive_time(at - Duration{1}).ns, ns) << scale;
+    }
+  }
+}
+
+// A turn every 10 ns, 3 behind the origin at 1000: at ..., 993, 1003, 1013, ...; the drive's scale has no part in it.
+TEST(DriveClock, TurnsAreWhereTheyAreFromTheOrigin) {
+  const DriveClock clock(bus::HostTime{1'000}, 2'500'000);
+  const auto next = [&](std::int64_t now) { return clock.next_turn(Duration{10}, Duration{3}, bus::HostTime{now}).ns; };
+  EXPECT_EQ(next(1'000), 1'003);
+  EXPECT_EQ(next(1'002), 1'003);
+  EXPECT_EQ(next(1'003), 1'013);
+  EXPECT_EQ(next(992), 993);
+  EXPECT_EQ(next(993), 1'003);
+  EXPECT_EQ(next(-5), 3);
+  EXPECT_EQ(next(86'400'000'000'000), 86'400'000'000'003);
+}
+
+class PacedCanTest : public testing::Test {
+ protected:
+  records::Stamp now() const { return {now_, {}, {}, NodeId{}}; }
+  Duration length(std::uint32_t identifier, std::span<const std::byte> data) const {
+    return wire::can_frame_duration(cluster_.can_buses[0], identifier, data);
+  }
+  const schedules::Cluster cluster_ = schedules::load_cluster(TTF_SOURCE_DIR "/schedules/paper_synchronised.yaml");
+  TrueTime now_{1'000};
+  PacedCan can_{cluster_, 0, 4, [this] { return now(); }};
+  const std::array<std::byte, 64> data_{};
+};
+
+TEST_F(PacedCanTest, FramesLeaveWhenABusWouldHaveBroughtThem) {
+  can_.send({256, true, data_});
+  can_.send({257, true, data_});
+  const Duration first = length(256, data_), second = length(257, data_);
+  EXPECT_EQ(can_.next(), now_ + first);
+  now_ = TrueTime{9'000'000};   // late: those behind it are no later for it
+  const auto one = can_.leave();
+  EXPECT_EQ(one.frame.identifier, 256u);
+  EXPECT_EQ(one.sent.start.true_time, TrueTime{1'000});
+  EXPECT_EQ(one.sent.end.true_time, TrueTime{1'000} + first);
+  EXPECT_EQ(can_.next(), TrueTime{1'000} + first + second);
+  const auto two = can_.leave();
+  EXPECT_EQ(two.sent.start.true_time, TrueTime{1'000} + first);
+  EXPECT_EQ(two.frame.data.size(), 64u);
+  can_.send({258, true, data_});   // the bus had been idle
+  EXPECT_EQ(can_.next(), now_ + length(258, data_));
+}
+
+TEST_F(PacedCanTest, WhatThereIsNoRoomForIsCounted) {
+  for (int i = 0; i < 6; ++i) can_.send({256, true, data_});
+  EXPECT_EQ(can_.dropped(), 2u);
+  for (int i = 0; i < 4; ++i) can_.leave();
+  EXPECT_EQ(can_.next().ns, std::numeric_limits<std::int64_t>::max());
+}
+
+TEST(SensorLines, AStrobeCarriesItsNumber) {
+  for (const std::uint32_t number : {0u, 1u, 0x01020304u, 0xFFFFFFFFu})
+    EXPECT_EQ(wire::strobe_sequence(wire::strobe_data(number)), number);
+  EXPECT_EQ(wire::strobe_data(0x01020304u)[0], std::byte{1});
+  EXPECT_FALSE(wire::strobe_sequence(std::array<std::byte, 3>{}));
+  EXPECT_NE(schedules::strobe_identifier(SensorId{1}), schedules::trigger_identifier(SensorId{0}));
+}
+
+TEST(WakeUp, SleepsUntilAnInstantAndNotLess) {
+  WakeUp wake_up(1);
+  for (const std::int64_t us : {0, 1, 300, 20'000}) {
+    const bus::HostTime until = bus::host_now() + Duration::microseconds(us);
+    wake_up.sleep_until(until);
+    EXPECT_GE(bus::host_now(), until);
+  }
+  wake_up.sleep_until(bus::HostTime{-5});   // over long ago
+}
+
+TEST(WakeUp, WakesForADescriptor) {
+  WakeUp wake_up(1);
+  const int event = eventfd(1, EFD_CLOEXEC);
+  wake_up.watch(event);
+  wake_up.watch(-1);
+  const bus::HostTime until = bus::host_now() + Duration::milliseconds(60'000);
+  wake_up.sleep_until(until);
+  EXPECT_LT(bus::host_now(), until);
+  wake_up.clear();
+  const bus::HostTime soon = bus::host_now() + Duration::milliseconds(2);
+  wake_up.sleep_until(soon);
+  EXPECT_GE(bus::host_now(), soon);
+  close(event);
+}
+
+TEST(Floor, CountsEveryWakeUpOnce) {
+  Floor floor(Duration::milliseconds(1), bus::host_now() + Duration::milliseconds(1));
+  WakeUp wake_up(0);
+  wake_up.sleep_until(bus::host_now() + Duration::milliseconds(50));
+  const records::BinnedDurations lateness = floor.lateness();
+  EXPECT_GE(lateness.count(), 1u);
+  EXPECT_LE(lateness.count(), 51u);
+}
+
+}  // namespace
+}  // namespace ttf::runner

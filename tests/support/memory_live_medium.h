@@ -1,0 +1,211 @@
+// The live medium (bus/live_medium.h) between members of one process, each in a thread of its own or all in one: the
+// plainest thing that keeps its laws.
+//
+//   MemoryLiveBus bus({.can_buses = {false, true}});
+//   auto a = bus.join(), b = bus.join({0, 1, line_of_can(0)});       // all before anybody sends
+//   a->send(...);  b->receive();
+//
+// A frame has arrived with send(). Each member has room for some signals on each line; what comes then is lost, and
+// counted by who lost it. Who does not receive does not disturb others. A member may outlive the bus.
+#pragma once
+
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bus/live_medium.h"
+#include "bus/wire/flexray_frame.h"
+#include "core/check.h"
+
+namespace ttf::test {
+
+enum class Told { kWithTheFrame, kInAFollowUp };   // how late a sync frame left
+
+struct MemoryLiveBusOptions {
+  std::vector<bool> can_buses;      // whether each carries CAN FD: nobody looks at it, but for the laws
+  Told told = Told::kWithTheFrame;
+  std::size_t room = 1024;          // signals and follow-ups on each line of each member
+};
+
+class MemoryLiveBus {
+ public:
+  explicit MemoryLiveBus(MemoryLiveBusOptions options = {}) : hub_(std::make_shared<Hub>()) {
+    hub_->options = std::move(options);
+  }
+
+  // One more member, on all lines or on some.
+  std::unique_ptr<bus::LiveMedium> join() {
+    std::vector<bus::Line> all(lines());
+    for (bus::Line line = 0; line < all.size(); ++line) all[line] = line;
+    return join(all);
+  }
+  std::unique_ptr<bus::LiveMedium> join(const std::vector<bus::Line>& lines) {
+    auto member = std::make_shared<Member>(this->lines(), lines, hub_->options.room);
+    const std::scoped_lock lock(hub_->mutex);
+    hub_->members.push_back(member);
+    return std::make_unique<Endpoint>(hub_, std::move(member));
+  }
+  std::size_t lines() const { return bus::line_of_can(hub_->options.can_buses.size()); }
+
+  // Something on a line that is nobody's, or in our form but wrong: everybody there counts it.
+  void intrude(bus::Line line, std::uint64_t bus::LiveCounts::*counted) {
+    const std::scoped_lock lock(hub_->mutex);
+    for (const auto& member : hub_->members)
+      if (member->is_on(line)) ++(member->counts.*counted);
+  }
+
+ private:
+  struct Kept {
+    bus::LiveArrival arrival;   // its spans are empty
+    std::size_t size = 0;
+    std::array<std::byte, wire::kMaxFrameBytes> bytes{};
+  };
+  // What waits on one line for one member: a ring, whose size never changes.
+  struct Queue {
+    std::vector<Kept> ring;
+    std::size_t first = 0, count = 0;
+    int event = -1;
+    bool watched = false;
+
+    void ring_bell() const {
+      if (watched && count > 0) eventfd_write(event, 1);
+    }
+    void silence() const {
+      eventfd_t ignored = 0;
+      eventfd_read(event, &ignored);
+    }
+  };
+  struct Member {
+    Member(std::size_t all, const std::vector<bus::Line>& lines, std::size_t room) : queues(all) {
+      for (const bus::Line line : lines) {
+        queues[line].ring.resize(room);
+        queues[line].event = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
+        TTF_CHECK(queues[line].event >= 0);
+      }
+    }
+    ~Member() {
+      for (const Queue& queue : queues)
+        if (queue.event >= 0) close(queue.event);
+    }
+    Member(const Member&) = delete;
+    Member& operator=(const Member&) = delete;
+    bool is_on(bus::Line line) const { return queues[line].event >= 0; }
+
+    std::vector<Queue> queues;
+    bus::LiveCounts counts;
+  };
+  struct Hub {
+    MemoryLiveBusOptions options;
+    std::mutex mutex;
+    std::vector<std::shared_ptr<Member>> members;   // guarded by mutex, what they hold too
+  };
+
+  class Endpoint final : public bus::LiveMedium {
+   public:
+    Endpoint(std::shared_ptr<Hub> hub, std::shared_ptr<Member> self) : hub_(std::move(hub)), self_(std::move(self)) {}
+
+    bus::LiveStatus send(const bus::LiveSignal& signal, bus::HostTime due) override {
+      const std::scoped_lock lock(hub_->mutex);
+      const bus::HostTime now = bus::host_now();
+      bus::LiveArrival arrival;
+      arrival.at = arrival.received = now;
+      arrival.left = now;
+      arrival.signal = signal;
+      arrival.signal.bytes = {};
+      const bool tells = signal.tells_late;
+      const bool follows = tells && hub_->options.told == Told::kInAFollowUp;
+      if (tells && !follows) arrival.late = now - due;
+      carry(arrival, bus::line_of(signal.channel), signal.bytes);
+      if (follows) {
+        bus::LiveArrival follow_up = arrival;
+        follow_up.kind = bus::LiveArrival::Kind::kFollowUp;
+        follow_up.cycle_counter = wire::header_of(signal.bytes).value_or(wire::FrameHeader{}).cycle;
+        follow_up.late = now - due;
+        carry(follow_up, bus::line_of(signal.channel), {});
+      }
+      ++self_->counts.sent;
+      return bus::LiveStatus::kDone;
+    }
+    bus::LiveStatus send_can(std::size_t can_bus, const bus::CanFrame& frame) override {
+      const std::scoped_lock lock(hub_->mutex);
+      bus::LiveArrival arrival;
+      arrival.kind = bus::LiveArrival::Kind::kCan;
+      arrival.at = arrival.received = bus::host_now();
+      arrival.left = arrival.at;
+      arrival.can_bus = can_bus;
+      arrival.can = frame;
+      arrival.can.data = {};
+      carry(arrival, bus::line_of_can(can_bus), frame.data);
+      ++self_->counts.sent;
+      return bus::LiveStatus::kDone;
+    }
+
+    std::optional<bus::LiveArrival> receive() override {
+      const std::scoped_lock lock(hub_->mutex);
+      for (Queue& queue : self_->queues) {
+        if (queue.count == 0) continue;
+        last_ = queue.ring[queue.first];   // it stays until the next call
+        queue.first = (queue.first + 1) % queue.ring.size();
+        if (--queue.count == 0) queue.silence();
+        const auto bytes = std::span(last_.bytes).first(last_.size);
+        bus::LiveArrival arrival = last_.arrival;
+        if (arrival.kind == bus::LiveArrival::Kind::kCan)
+          arrival.can.data = bytes;
+        else
+          arrival.signal.bytes = bytes;
+        self_->counts.received += arrival.kind != bus::LiveArrival::Kind::kFollowUp;
+        return arrival;
+      }
+      return {};
+    }
+
+    int descriptor(bus::Line line) const override { return self_->queues[line].event; }
+    void watch(bus::Line line, bool on) override {
+      const std::scoped_lock lock(hub_->mutex);
+      self_->queues[line].watched = on;
+      self_->queues[line].ring_bell();
+    }
+    bus::LiveCounts counts() const override {
+      const std::scoped_lock lock(hub_->mutex);
+      return self_->counts;
+    }
+    const std::string& failure() const override { return failure_; }
+
+   private:
+    void carry(const bus::LiveArrival& arrival, bus::Line line, std::span<const std::byte> bytes) {
+      TTF_CHECK(self_->is_on(line) && bytes.size() <= wire::kMaxFrameBytes, "line {}, {} bytes", line, bytes.size());
+      for (const auto& member : hub_->members) {
+        Queue& queue = member->queues[line];
+        if (member == self_ || queue.event < 0) continue;
+        if (queue.count == queue.ring.size()) {
+          member->counts.lost += arrival.kind != bus::LiveArrival::Kind::kFollowUp;
+          continue;
+        }
+        Kept& kept = queue.ring[(queue.first + queue.count++) % queue.ring.size()];
+        kept.arrival = arrival;
+        kept.size = bytes.size();
+        std::copy(bytes.begin(), bytes.end(), kept.bytes.begin());
+        queue.ring_bell();
+      }
+    }
+
+    std::shared_ptr<Hub> hub_;
+    std::shared_ptr<Member> self_;
+    Kept last_;
+    std::string failure_;
+  };
+
+  std::shared_ptr<Hub> hub_;
+};
+
+}  // namespace ttf::test
