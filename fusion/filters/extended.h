@@ -1,0 +1,37 @@
+// The extended Kalman filter: models linearised at the estimate, to first order (Bar-Shalom, Li, Kirubarajan 2001,
+// 10.3). On linear models it is the Kalman filter.
+#pragma once
+
+#include "fusion/filters/kalman.h"
+#include "fusion/motion/kernels.h"
+
+namespace ttf::fusion::filters {
+
+struct Extended {
+  static constexpr const char* kName = "Extended";
+
+  template <motion::Model M>
+  void predict(const M& model, Gaussian<M::kStates>& state, double dt) const {
+    if constexpr (M::kLinear) {
+      Kalman{}.predict(model, state, dt);
+    } else {
+      const Matrix<M::kStates> f = model.jacobian(state.x, dt);
+      state.p = sandwich<M::kStates, M::kStates>(f, state.p) + model.noise(state.x, dt);
+      state.x = model.move(state.x, dt);
+    }
+  }
+
+  template <motion::Model M, sensors::Model S>
+  Innovation<S::kDimension> update(const M&, const S& sensor, const sensors::Measurement<S::kDimension>& z,
+                                   Gaussian<M::kStates>& state) const {
+    const Kinematics k = M::template kinematics<S::kParts>(state.x);
+    if (!sensor.sees(k)) return {};
+    const Vector<S::kDimension> nu = sensor.residual(z.z, sensor.expected(k));
+    const Innovation<S::kDimension> innovation =
+        correct<sensors::Direct<S>>(state, nu, measurement_matrix<M>(sensor, k, state.x), z.r);
+    M::normalise(state.x);
+    return innovation;
+  }
+};
+
+}  // namespace ttf::fusion::filters

@@ -1,0 +1,180 @@
+// Interacting multiple models: the object obeys one of several motion models at a time and changes between them as a
+// Markov chain (Blom, Bar-Shalom: "The interacting multiple model algorithm for systems with Markovian switching
+// coefficients", IEEE TAC 33(8), 1988; Bar-Shalom, Li, Kirubarajan 2001, 11.6.6). With mode probabilities mu and
+// transitions p_ij:
+//   mixing      c_j = sum_i p_ij mu_i,  mu_i|j = p_ij mu_i / c_j,  mode j starts from the mixture with weights mu_i|j;
+//   prediction, update of every mode by itself;
+//   mu_j <- c_j L_j / sum, L the likelihood of the innovation (all in logarithms). What is below the smallest number is
+//   zero, and stays so until time passes and the chain leads back to it; the others have sum 1 whatever was measured.
+// Modes may have different layouts. There is no common state: each mode is mixed in its own layout, the others'
+// estimates converted to it (motion/conversion.h); what comes out is the mixture of all kinematics, (x, y, vx, vy).
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <tuple>
+#include <utility>
+
+#include "fusion/filters/filter.h"
+#include "fusion/motion/conversion.h"
+
+namespace ttf::fusion::filters {
+
+// How modes change with time: after `seconds` on the average a mode is drawn anew, mode j with probability share(j). So
+//   P(dt) = e I + (1 - e) 1 share',  e = exp(-dt / seconds),
+// for which P(a) P(b) = P(a + b): asynchronous sensors see the same chain, and nothing changes within no time.
+template <int K>
+struct ModeChain {
+  Vector<K> share = Vector<K>::Constant(1.0 / K);   // positive, of sum 1
+  double seconds = 5.0;                             // above 0
+
+  Matrix<K> transition(double dt) const {
+    const double kept = std::exp(-dt / seconds);
+    Matrix<K> p = (1.0 - kept) * Vector<K>::Ones() * share.transpose();
+    p.diagonal().array() += kept;
+    return p;
+  }
+};
+
+template <motion::Model... Ms>
+struct Modes {
+  std::tuple<Gaussian<Ms::kStates>...> estimates;
+  Vector<static_cast<int>(sizeof...(Ms))> probability =
+      Vector<static_cast<int>(sizeof...(Ms))>::Constant(1.0 / sizeof...(Ms));
+};
+
+template <class F, motion::Model... Ms>
+class Imm {
+ public:
+  static constexpr int kModes = static_cast<int>(sizeof...(Ms));
+
+  explicit Imm(const ModeChain<kModes>& chain, const Ms&... models) : chain_(chain), models_(models...) {}
+
+  void predict(Modes<Ms...>& modes, double dt) const {
+    mix(modes, chain_.transition(dt));
+    each([&]<std::size_t J>() { filter_.predict(std::get<J>(models_), std::get<J>(modes.estimates), dt); });
+  }
+
+  // p_ij in row i, rows of sum 1. A mode of probability zero before and after keeps its own estimate.
+  void mix(Modes<Ms...>& modes, const Matrix<kModes>& transition) const {
+    const Vector<kModes> c = transition.transpose() * modes.probability;
+    const auto before = modes.estimates;
+    each([&]<std::size_t J>() {
+      const int j = static_cast<int>(J);
+      if (c(j) <= 0.0) return;
+      const Vector<kModes> weights = transition.col(j).cwiseProduct(modes.probability) / c(j);
+      mix_one<J>(before, weights, std::get<J>(modes.estimates));
+    });
+    modes.probability = c;
+  }
+
+  // The innovation of the mixture: mean and covariance of the modes' predictions. Used if every mode can use it.
+  template <sensors::Model S>
+  Innovation<S::kDimension> update(const S& sensor, const sensors::Measurement<S::kDimension>& z,
+                                   Modes<Ms...>& modes) const {
+    bool seen = true;
+    each([&]<std::size_t J>() {
+      using M = std::tuple_element_t<J, std::tuple<Ms...>>;
+      seen = seen && sensor.sees(M::template kinematics<S::kParts>(std::get<J>(modes.estimates).x));
+    });
+    if (!seen) return {};
+    std::array<Innovation<S::kDimension>, static_cast<std::size_t>(kModes)> of;
+    Vector<kModes> log_weight;
+    each([&]<std::size_t J>() {
+      of[J] = filter_.update(std::get<J>(models_), sensor, z, std::get<J>(modes.estimates));
+      log_weight(static_cast<int>(J)) = of[J].log_likelihood() + std::log(modes.probability(static_cast<int>(J)));
+    });
+    const Innovation<S::kDimension> mixed = mixture(sensor, of, modes.probability);
+    // One at a time: Eigen's vectorised exponential ends at 1e-309. log 0 = -infinity, of which exp makes 0.
+    const double most = log_weight.maxCoeff();
+    for (int j = 0; j < kModes; ++j) modes.probability(j) = std::exp(log_weight(j) - most);
+    modes.probability /= modes.probability.sum();
+    return mixed;
+  }
+
+  // Mean and covariance of (x, y, vx, vy) over all modes.
+  Gaussian<4> kinematics(const Modes<Ms...>& modes) const {
+    std::array<Gaussian<4>, static_cast<std::size_t>(kModes)> of;
+    each([&]<std::size_t J>() {
+      using M = std::tuple_element_t<J, std::tuple<Ms...>>;
+      const motion::Whole whole = motion::whole<M>(std::get<J>(modes.estimates));
+      of[J].x = whole.estimate.x.template head<4>();
+      of[J].p = whole.estimate.p.template topLeftCorner<4, 4>();
+    });
+    Gaussian<4> mixed;
+    for (std::size_t j = 0; j < of.size(); ++j)
+      add_scaled<4, 1>(mixed.x, modes.probability(static_cast<int>(j)), of[j].x);
+    for (std::size_t j = 0; j < of.size(); ++j) {
+      add_scaled<4, 4>(mixed.p, modes.probability(static_cast<int>(j)), of[j].p);
+      add_outer<4>(mixed.p, modes.probability(static_cast<int>(j)), of[j].x - mixed.x);
+    }
+    return mixed;
+  }
+
+ private:
+  template <class Body>
+  static void each(const Body& body) {
+    [&]<std::size_t... J>(std::index_sequence<J...>) { (body.template operator()<J>(), ...); }(
+        std::index_sequence_for<Ms...>{});
+  }
+
+  // As differences from the most probable mode's innovation, so that angles average as angles.
+  template <sensors::Model S, int M = S::kDimension>
+  static Innovation<M> mixture(const S& sensor, const std::array<Innovation<M>, static_cast<std::size_t>(kModes)>& of,
+                               const Vector<kModes>& probability) {
+    int likely = 0;
+    probability.maxCoeff(&likely);
+    const Vector<M>& about = of[static_cast<std::size_t>(likely)].nu;
+    std::array<Vector<M>, static_cast<std::size_t>(kModes)> d;
+    Vector<M> shift = Vector<M>::Zero();
+    for (std::size_t j = 0; j < d.size(); ++j) {
+      d[j] = sensor.residual(of[j].nu, about);
+      add_scaled<M, 1>(shift, probability(static_cast<int>(j)), d[j]);
+    }
+    Innovation<M> mixed;
+    mixed.nu = sensor.residual(about + shift, Vector<M>::Zero());
+    mixed.s.setZero();
+    for (std::size_t j = 0; j < d.size(); ++j) {
+      add_scaled<M, M>(mixed.s, probability(static_cast<int>(j)), of[j].s);
+      add_outer<M>(mixed.s, probability(static_cast<int>(j)), d[j] - shift);
+    }
+    const Ldl<M> ldl(mixed.s);
+    mixed.nis = ldl.norm_squared(mixed.nu);
+    mixed.determinant = ldl.determinant();
+    mixed.used = true;
+    return mixed;
+  }
+
+  template <std::size_t J>
+  static void mix_one(const std::tuple<Gaussian<Ms::kStates>...>& before, const Vector<kModes>& weights,
+                      Gaussian<std::tuple_element_t<J, std::tuple<Ms...>>::kStates>& mixed) {
+    using To = std::tuple_element_t<J, std::tuple<Ms...>>;
+    constexpr int kN = To::kStates;
+    const Gaussian<kN> own = std::get<J>(before);
+    std::array<Gaussian<kN>, static_cast<std::size_t>(kModes)> in_own;
+    Vector<kN> shift = Vector<kN>::Zero();   // of the mean, from this mode's own
+    each([&]<std::size_t I>() {
+      using From = std::tuple_element_t<I, std::tuple<Ms...>>;
+      const double weight = weights(static_cast<int>(I));
+      if (weight == 0.0) return;
+      in_own[I] = motion::converted<From, To>(std::get<I>(before), own);
+      add_scaled<kN, 1>(shift, weight, To::difference(in_own[I].x, own.x));
+    });
+    mixed.x = own.x + shift;
+    To::normalise(mixed.x);
+    mixed.p.setZero();
+    each([&]<std::size_t I>() {
+      const double weight = weights(static_cast<int>(I));
+      if (weight == 0.0) return;
+      add_scaled<kN, kN>(mixed.p, weight, in_own[I].p);
+      add_outer<kN>(mixed.p, weight, To::difference(in_own[I].x, mixed.x));
+    });
+  }
+
+  [[no_unique_address]] F filter_{};
+  ModeChain<kModes> chain_;
+  std::tuple<Ms...> models_;
+};
+
+}  // namespace ttf::fusion::filters

@@ -1,0 +1,20 @@
+// A sensor model at a state of a motion model: the chain rule between them, once for all pairs.
+#pragma once
+
+#include "fusion/motion/motion_model.h"
+#include "fusion/sensors/sensor_model.h"
+
+namespace ttf::fusion::filters {
+
+// H_c: d expected / d (the leading components of the state, all that it depends on).
+template <motion::Model M, sensors::Model S>
+Matrix<S::kDimension, leading_columns(S::kParts)> measurement_matrix(const S& sensor, const Kinematics& k,
+                                                                      const Vector<M::kStates>& x) {
+  const Matrix<S::kDimension, S::kParts> h = sensor.jacobian(k);
+  if constexpr (S::kParts == kPositionOnly || (S::kParts == kWithVelocity && M::kCartesian))
+    return h;
+  else
+    return h * M::kinematics_jacobian(x).template topRows<S::kParts>();
+}
+
+}  // namespace ttf::fusion::filters

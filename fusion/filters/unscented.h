@@ -1,0 +1,120 @@
+// The unscented Kalman filter, scaled, with additive noise (Julier, Uhlmann: "Unscented filtering and nonlinear
+// estimation", Proc. IEEE 92(3), 2004; van der Merwe: "Sigma-point Kalman filters", 2004).
+//
+// Points x and x +- sqrt(n + lambda) a_i, a_i the columns of a square root of P, lambda = alpha^2 (n + kappa) - n;
+// weights lambda / (n + lambda) for the centre, 1 / (2 (n + lambda)) for the others; the centre counts with 1 - alpha^2
+// + beta more in covariances. Means are taken as differences from the centre's image, through the models' difference
+// and residual, so that angles average as angles. The default (alpha 1, beta 0, kappa 0) is the cubature rule of third
+// degree (Arasaratnam, Haykin: "Cubature Kalman filters", IEEE TAC 54(6), 2009): no negative weight, no digits lost to
+// large ones; of a quadratic's variance, 2 sigma^4, it makes (n - 1) sigma^4, in general alpha^2 (n - 1) + beta.
+// Smaller alpha with beta 2 come nearer to that, with a negative centre.
+//
+// A measurement is used only where the sensor sees every one of the points: of one it does not see there is nothing to
+// average, a course of something slow, say, that one point has and another has not.
+//
+// Points are drawn anew before an update, with the process noise in them. The covariance of the update is the sum over
+// the points of their own errors, sum w (dx - K dz)(dx - K dz)' + K R K': the Joseph form of sigma points, positive for
+// positive weights whatever K's rounding.
+#pragma once
+
+#include <cmath>
+
+#include "fusion/filters/filter.h"
+#include "fusion/motion/kernels.h"
+
+namespace ttf::fusion::filters {
+
+struct Unscented {
+  static constexpr const char* kName = "Unscented";
+  double alpha = 1.0, beta = 0.0, kappa = 0.0;
+
+  template <motion::Model M>
+  void predict(const M& model, Gaussian<M::kStates>& state, double dt) const {
+    constexpr int kN = M::kStates;
+    const Weights w(*this, kN);
+    const Matrix<kN> noise = model.noise(state.x, dt), a = w.spread * square_root<kN>(state.p);
+    const Vector<kN> centre = model.move(state.x, dt);
+    Matrix<kN, 2 * kN> d;
+    for (int i = 0; i < kN; ++i) {
+      d.col(i) = M::difference(model.move(state.x + a.col(i), dt), centre);
+      d.col(kN + i) = M::difference(model.move(state.x - a.col(i), dt), centre);
+    }
+    Vector<kN> shift;
+    state.p = w.spread_of<kN>(d, shift);
+    add_scaled<kN, kN>(state.p, 1.0, noise);
+    state.x = centre + shift;
+    M::normalise(state.x);
+  }
+
+  template <motion::Model M, sensors::Model S>
+  Innovation<S::kDimension> update(const M&, const S& sensor, const sensors::Measurement<S::kDimension>& z,
+                                   Gaussian<M::kStates>& state) const {
+    constexpr int kN = M::kStates, kM = S::kDimension;
+    const Kinematics at_centre = M::template kinematics<S::kParts>(state.x);
+    if (!sensor.sees(at_centre)) return {};
+    const Weights w(*this, kN);
+    const Matrix<kN> a = w.spread * square_root<kN>(state.p);
+    const Vector<kM> centre = sensor.expected(at_centre);
+    Matrix<kM, 2 * kN> d;
+    for (int i = 0; i < kN; ++i) {
+      const Vector<kN> above = state.x + a.col(i), below = state.x - a.col(i);
+      const Kinematics at_above = M::template kinematics<S::kParts>(above);
+      const Kinematics at_below = M::template kinematics<S::kParts>(below);
+      if (!sensor.sees(at_above) || !sensor.sees(at_below)) return {};
+      d.col(i) = sensor.residual(sensor.expected(at_above), centre);
+      d.col(kN + i) = sensor.residual(sensor.expected(at_below), centre);
+    }
+
+    Innovation<kM> innovation;
+    Vector<kM> shift;
+    innovation.s = w.spread_of<kM>(d, shift) + z.r;
+    innovation.nu = sensor.residual(z.z, centre + shift);
+    const Ldl<kM> ldl(innovation.s);
+    innovation.nis = ldl.norm_squared(innovation.nu);
+    innovation.determinant = ldl.determinant();
+    innovation.used = true;
+
+    // The points' dx are +-a, and zero for the centre.
+    const Matrix<kM, kN> opposite = d.template leftCols<kN>() - d.template rightCols<kN>();
+    Matrix<kN, kM> crossed = Matrix<kN, kM>::Zero();   // cov(x, z)
+    add_scaled<kN, kM>(crossed, w.other, times_transposed<kN, kN, kM>(a, opposite));
+    const Matrix<kN, kM> gain = ldl.template divide<kN>(crossed);
+    state.p = sandwich<kN, kM>(gain, z.r);
+    add_outer<kN>(state.p, w.centre_of_covariance, gain * shift);
+    for (int i = 0; i < kN; ++i) {
+      add_outer<kN>(state.p, w.other, a.col(i) - gain * d.col(i));
+      add_outer<kN>(state.p, w.other, a.col(i) + gain * d.col(kN + i));
+    }
+    state.x += gain * innovation.nu;
+    M::normalise(state.x);
+    return innovation;
+  }
+
+ private:
+  struct Weights {
+    Weights(const Unscented& u, int n) {
+      const double scale = u.alpha * u.alpha * (n + u.kappa);   // n + lambda
+      spread = std::sqrt(scale);
+      other = 0.5 / scale;
+      centre_of_covariance = (scale - n) / scale + 1.0 - u.alpha * u.alpha + u.beta;
+    }
+
+    // Of images d of the points as differences from the centre's, which become differences from their mean, `shift`.
+    template <int D, int Points>
+    Matrix<D> spread_of(Matrix<D, Points>& d, Vector<D>& shift) const {
+      shift.setZero();
+      for (int i = 0; i < Points; ++i) shift += other * d.col(i);
+      Matrix<D> sum = Matrix<D>::Zero();
+      add_outer<D>(sum, centre_of_covariance, shift);
+      for (int i = 0; i < Points; ++i) {
+        d.col(i) -= shift;
+        add_outer<D>(sum, other, d.col(i));
+      }
+      return sum;
+    }
+
+    double spread, other, centre_of_covariance;
+  };
+};
+
+}  // namespace ttf::fusion::filters

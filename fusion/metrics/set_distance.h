@@ -1,0 +1,66 @@
+// How far a set of estimates is from the set of true objects, as one number and its parts.
+//
+// GOSPA with alpha = 2 (Rahmathullah, Garcia-Fernandez, Svensson: "Generalized optimal sub-pattern assignment metric",
+// FUSION 2017, proposition 1): over all one-to-one pairs g of X (truth) and Y (estimates),
+//   d = min_g ( sum_(i,j) in g d(x_i, y_j)^p  +  c^p / 2 (|X| - |g|)  +  c^p / 2 (|Y| - |g|) )^(1/p):
+// localisation error, missed objects, false estimates. It grows with the number of objects.
+//
+// OSPA (Schuhmacher, Vo, Vo: "A consistent metric for performance evaluation of multi-object filters", IEEE TSP 56(8),
+// 2008, section III): with m the smaller and n > 0 the larger number of points,
+//   d = ( 1/n ( min_pi sum_i min(c, d(x_i, y_pi(i)))^p  +  c^p (n - m) ) )^(1/p),
+// between 0 and c; 0 where both are empty. The pairs nearer than c that GOSPA takes are optimal for OSPA too: any
+// further pair costs c^p in one sum, and half of it twice in the other.
+//
+// Both are metrics on finite sets of points: identity, symmetry, triangle inequality. Parts are p-th powers [m^p], so
+// that they add up. Pairs at or beyond the cut-off c, and what is not finite, are apart. Of equal sums the one with
+// more pairs counts, so that the parts are unique; savings below 1e-12 c^p a pair are not seen.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "fusion/metrics/pairing.h"
+#include "fusion/metrics/point.h"
+
+namespace ttf::fusion::metrics {
+
+struct CutOff {
+  double distance_m = 5.0;   // c, > 0 [m]
+  double order = 2.0;        // p in [1, 64]
+};
+
+struct Gospa {
+  double distance_m = 0.0;
+  double localisation = 0.0, missed = 0.0, false_estimates = 0.0;   // [m^p]; their sum is distance_m^p
+};
+
+struct Ospa {
+  double distance_m = 0.0;
+  double localisation = 0.0, cardinality = 0.0;   // [m^p]; their sum is distance_m^p
+};
+
+struct SetDistance {
+  Gospa gospa;
+  Ospa ospa;
+  std::size_t pairs = 0;    // nearer than the cut-off
+};
+
+class SetMetric {
+ public:
+  SetMetric(std::size_t max_truths, std::size_t max_estimates, const CutOff& cut_off);
+
+  // Allocates nothing.
+  SetDistance between(std::span<const Point> truths, std::span<const Point> estimates);
+  // Of the last two sets: the estimate that goes with each truth, or Pairing::kNone.
+  std::span<const int> estimate_of() const { return pairing_.column_of(); }
+
+ private:
+  double power(double base) const;
+  double root(double sum) const;
+
+  CutOff cut_off_;
+  Pairing pairing_;
+};
+
+}  // namespace ttf::fusion::metrics

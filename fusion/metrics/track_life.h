@@ -1,0 +1,69 @@
+// How an object was followed from its birth on: when it was first, for how much of its life, how often it was lost and
+// found, and by how many tracks.
+//
+// An object's life is the instants at which the truth lists it: where it is out of sight for a while, it is not missed.
+//   L1  confirmation: the first instant at which one of the tracks given, confirmed ones, is matched to it
+//   L2  fraction tracked: instants with a match / instants listed; mostly tracked from 80 %, mostly lost below 20 %
+//       (Li, Huang, Nevatia: "Learning to associate", CVPR 2009; the bounds as py-motmetrics documents them)
+//   L3  fragmentation: tracked, then missed, then tracked again, whether by the same track or another; misses before
+//       the first and after the last match are none
+//   L4  switches: as CLEAR-MOT counts them (clear_mot.h, C3)
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/time.h"
+#include "fusion/metrics/identity.h"
+
+namespace ttf::fusion::metrics {
+
+enum class Coverage { kMostlyTracked, kPartlyTracked, kMostlyLost };
+
+struct ObjectLife {
+  Identity object = 0;
+  TrueTime born{}, last{};               // first and last instant listed
+  std::optional<TrueTime> confirmed;
+  std::uint64_t instants = 0, tracked = 0;
+  std::uint64_t missed_in_a_row = 0;     // instants listed since the last match, or since birth
+  std::uint64_t fragmentations = 0, switches = 0;
+
+  std::optional<Duration> confirmed_after() const {
+    return confirmed ? std::optional<Duration>(*confirmed - born) : std::nullopt;
+  }
+  double fraction_tracked() const { return static_cast<double>(tracked) / static_cast<double>(instants); }
+  Coverage coverage() const;
+};
+
+struct LifeSummary {
+  std::size_t objects = 0, confirmed = 0;
+  std::size_t mostly_tracked = 0, partly_tracked = 0, mostly_lost = 0;
+  std::uint64_t fragmentations = 0, switches = 0;
+  // Not a number where no object was confirmed, or listed.
+  double mean_confirmed_after_s = 0.0, mean_fraction_tracked = 0.0;
+  Duration worst_confirmed_after{};      // of those confirmed
+};
+
+class TrackLives {
+ public:
+  explicit TrackLives(std::size_t max_objects_ever);
+
+  // One instant, later than the one before: the objects that the truth lists, each once, in any order, and the matches
+  // of ClearMot::step. Allocates nothing.
+  void step(TrueTime at, std::span<const Identity> objects, std::span<const Match> matches);
+
+  std::span<const ObjectLife> lives() const { return lives_; }   // in the order of the objects' names
+  LifeSummary summary() const;
+
+ private:
+  ObjectLife& life_of(Identity object, TrueTime at);
+
+  std::size_t max_objects_;
+  std::optional<TrueTime> now_;
+  std::vector<ObjectLife> lives_;
+};
+
+}  // namespace ttf::fusion::metrics

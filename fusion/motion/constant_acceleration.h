@@ -1,0 +1,15 @@
+// Constant acceleration, driven by white jerk of spectral density q [m^2/s^5] in either axis: state (x, y, vx, vy, ax,
+// ay). Bar-Shalom, Li, Kirubarajan: "Estimation with Applications to Tracking and Navigation", 2001, eq. 6.2.3-7.
+#pragma once
+
+#include "fusion/motion/integrator_chain.h"
+
+namespace ttf::fusion::motion {
+
+struct ConstantAcceleration : IntegratorChain<3> {
+  static constexpr const char* kName = "ConstantAcceleration";
+  explicit ConstantAcceleration(double q = 1.0) { spectral_density = q; }
+};
+static_assert(StructuredModel<ConstantAcceleration>);
+
+}  // namespace ttf::fusion::motion

@@ -1,0 +1,15 @@
+// Constant velocity, driven by white acceleration of spectral density q [m^2/s^3] in either axis: state (x, y, vx, vy).
+// Bar-Shalom, Li, Kirubarajan: "Estimation with Applications to Tracking and Navigation", 2001, eq. 6.2.2-8.
+#pragma once
+
+#include "fusion/motion/integrator_chain.h"
+
+namespace ttf::fusion::motion {
+
+struct ConstantVelocity : IntegratorChain<2> {
+  static constexpr const char* kName = "ConstantVelocity";
+  explicit ConstantVelocity(double q = 1.0) { spectral_density = q; }
+};
+static_assert(StructuredModel<ConstantVelocity>);
+
+}  // namespace ttf::fusion::motion

@@ -1,0 +1,87 @@
+// Both axes alike: each component is the integral of the next one of its axis, the last one is driven by white noise.
+// With K components per axis, F = f (x) I and Q = q (x) I in the order (x, y, vx, vy, ...), f upper triangular with
+// f_ij = dt^(j-i) / (j-i)!, and q the exact integral for a spectral density s (Bar-Shalom, Li, Kirubarajan: "Estimation
+// with Applications to Tracking and Navigation", 2001, 6.2.2 and 6.2.3):
+//   q_ij = s dt^(a+b+1) / (a! b! (a+b+1)),   a = K-1-i, b = K-1-j.
+#pragma once
+
+#include "core/check.h"
+#include "fusion/motion/kernels.h"
+#include "fusion/motion/motion_model.h"
+
+namespace ttf::fusion::motion {
+
+template <int K>
+struct IntegratorChain : Cartesian<2 * K> {
+  static constexpr int kStates = 2 * K;
+  static constexpr bool kLinear = true;
+
+  double spectral_density = 1.0;   // of the noise that drives each axis [m^2/s^(2K-1)], >= 0
+
+  Vector<kStates> move(const Vector<kStates>& x, double dt) const {
+    Vector<kStates> moved = x;
+    advance_rows(moved, dt);
+    return moved;
+  }
+  Matrix<kStates> jacobian(const Vector<kStates>&, double dt) const {
+    Matrix<kStates> f = Matrix<kStates>::Identity();
+    advance_rows(f, dt);
+    return f;
+  }
+  Matrix<kStates> noise(const Vector<kStates>&, double dt) const {
+    Matrix<kStates> q = Matrix<kStates>::Zero();
+    add_noise(q, dt);
+    return q;
+  }
+  LinearStep<kStates> step(double dt) const {
+    const Vector<kStates> anywhere = Vector<kStates>::Zero();
+    return {jacobian(anywhere, dt), noise(anywhere, dt)};
+  }
+
+  // F P F' as sums of rows, then of columns.
+  void advance(Gaussian<kStates>& state, double dt) const {
+    TTF_CHECK(dt >= 0.0, "prediction by {} s", dt);
+    advance_rows(state.x, dt);
+    advance_rows(state.p, dt);
+    advance_columns(state.p, dt);
+    mirror<kStates>(state.p);
+    add_noise(state.p, dt);
+  }
+
+ private:
+  static constexpr double factorial(int n) { return n <= 1 ? 1.0 : n * factorial(n - 1); }
+  static double power(double dt, int n) { return n == 0 ? 1.0 : n == 1 ? dt : dt * power(dt, n - 1); }
+
+  static double step_by(double dt, int n) { return power(dt, n) * (1.0 / factorial(n)); }
+
+  // From the top downwards: the rows below are still those before the step.
+  template <class Rows>
+  static void advance_rows(Rows& a, double dt) {
+    unrolled<K>([&](auto i) {
+      unrolled<K - 1 - i>([&](auto below) {
+        constexpr int kSteps = below + 1;
+        a.template middleRows<2>(2 * i) += step_by(dt, kSteps) * a.template middleRows<2>(2 * (i + kSteps));
+      });
+    });
+  }
+  static void advance_columns(Matrix<kStates>& a, double dt) {
+    unrolled<K>([&](auto i) {
+      unrolled<K - 1 - i>([&](auto right) {
+        constexpr int kSteps = right + 1;
+        a.template middleCols<2>(2 * i) += step_by(dt, kSteps) * a.template middleCols<2>(2 * (i + kSteps));
+      });
+    });
+  }
+  void add_noise(Matrix<kStates>& p, double dt) const {
+    unrolled<K>([&](auto i) {
+      unrolled<K>([&](auto j) {
+        constexpr int a = K - 1 - i, b = K - 1 - j;
+        const double q = spectral_density * power(dt, a + b + 1) * (1.0 / (factorial(a) * factorial(b) * (a + b + 1)));
+        p(2 * i, 2 * j) += q;
+        p(2 * i + 1, 2 * j + 1) += q;
+      });
+    });
+  }
+};
+
+}  // namespace ttf::fusion::motion

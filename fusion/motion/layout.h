@@ -1,0 +1,86 @@
+// What the components of a state mean, and how its kinematics follow. Two layouts:
+//   Cartesian<4>  (x, y, vx, vy)                      Cartesian<6>  (x, y, vx, vy, ax, ay)
+//   Polar<5>      (x, y, heading, speed, turn rate)   Polar<6>      (..., acceleration along the heading)
+// A Cartesian state's heading is its course, the direction of its velocity. A polar state's speed may be negative
+// (reversing): the heading is where its front points to.
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "fusion/motion/angles.h"
+#include "fusion/motion/kinematics.h"
+
+namespace ttf::fusion::motion {
+
+// Slower than this [m/s], a course says nothing of the heading.
+inline constexpr double kSlowest = 0.1;
+
+template <int N>
+struct Cartesian {
+  static_assert(N == 4 || N == 6);
+  static constexpr int kStates = N;
+  static constexpr bool kCartesian = true;
+
+  static Vector<N> difference(const Vector<N>& a, const Vector<N>& b) { return a - b; }
+  static void normalise(Vector<N>&) {}
+
+  template <int Parts>
+  static Kinematics kinematics(const Vector<N>& x) {
+    Kinematics k{.position = x.template head<2>(), .velocity = x.template segment<2>(2)};
+    if constexpr (Parts == kWithHeading) {
+      k.has_heading = k.velocity.squaredNorm() >= kSlowest * kSlowest;
+      if (k.has_heading) k.heading = std::atan2(x(3), x(2));
+    }
+    return k;
+  }
+
+  // d (x, y, vx, vy, heading) / d (the first four components).
+  static Matrix<5, 4> kinematics_jacobian(const Vector<N>& x) {
+    Matrix<5, 4> j = Matrix<5, 4>::Identity();
+    const double squared = x.template segment<2>(2).squaredNorm();
+    if (squared >= kSlowest * kSlowest) {
+      j(4, 2) = -x(3) / squared;
+      j(4, 3) = x(2) / squared;
+    }
+    return j;
+  }
+};
+
+template <int N>
+struct Polar {
+  static_assert(N == 5 || N == 6);
+  static constexpr int kStates = N;
+  static constexpr bool kCartesian = false;
+  static constexpr int kHeading = 2, kSpeed = 3, kTurnRate = 4, kAcceleration = 5;
+
+  static Vector<N> difference(const Vector<N>& a, const Vector<N>& b) {
+    Vector<N> d = a - b;
+    d(kHeading) = to_half_turn(d(kHeading));
+    return d;
+  }
+  static void normalise(Vector<N>& x) { x(kHeading) = to_half_turn(x(kHeading)); }
+
+  template <int Parts>
+  static Kinematics kinematics(const Vector<N>& x) {
+    Kinematics k{.position = x.template head<2>()};
+    if constexpr (Parts >= kWithVelocity)
+      k.velocity = x(kSpeed) * Vector<2>(std::cos(x(kHeading)), std::sin(x(kHeading)));
+    k.heading = x(kHeading);
+    k.has_heading = true;
+    return k;
+  }
+
+  static Matrix<5, 4> kinematics_jacobian(const Vector<N>& x) {
+    const double c = std::cos(x(kHeading)), s = std::sin(x(kHeading));
+    Matrix<5, 4> j = Matrix<5, 4>::Zero();
+    j(0, 0) = j(1, 1) = j(4, kHeading) = 1.0;
+    j(2, kHeading) = -x(kSpeed) * s;
+    j(3, kHeading) = x(kSpeed) * c;
+    j(2, kSpeed) = c;
+    j(3, kSpeed) = s;
+    return j;
+  }
+};
+
+}  // namespace ttf::fusion::motion

@@ -1,0 +1,118 @@
+// The adjoint (Bryson-Frazier) pass: what the innovations after tau say about x(tau), gathered backwards from the
+// newest update to the first after tau, without any inverse of F or P (Bryson, Frazier: "Smoothing for Linear and
+// Nonlinear Dynamic Systems", 1963; here with the cross-covariance to the newest instant).
+//
+// With the last estimate not after tau predicted to tau, xb, Pb, and r = 0, L = 0, Phi = I, for i = k down to the
+// first update after tau, M(i) = I - K H:
+//   r <- H' S^-1 nu + M' r,  L <- H' S^-1 H + M' L M,  then over the step before it, F(i):  r <- F' r,  L <- F' L F,
+//   Phi <- Phi M F;     x(tau) = xb + Pb r,  P(tau) = Pb - Pb L Pb,  cov(x(k), x(tau)) = Phi Pb.
+// Exact       one late measurement, at any lag. Gains and innovations before t(k) are not those of a filter that
+//             knew it, so what was stored is of no more use for another one: after each late measurement the
+//             history begins anew at t(k), and what is older is too old. So whatever is taken is exact.
+// Stores      stamp, x, P, F, M, H' S^-1 nu, H' S^-1 H of every measurement in order since, within the capacity.
+// Costs       some seven products of n x n per lag, and some in order to store them.
+#pragma once
+
+#include "fusion/oosm/correction.h"
+#include "fusion/oosm/history.h"
+#include "fusion/oosm/method.h"
+#include "fusion/oosm/retrodiction.h"
+
+namespace ttf::fusion::oosm {
+
+template <int N, int M, Motion<N> Model, int Capacity>
+class Adjoint {
+ public:
+  static constexpr int kStates = N, kDimension = M;
+  static constexpr Exactness kExactness = Exactness::kOneLate;
+
+  explicit Adjoint(const Model& motion) : motion_(motion) {}
+
+  void start(GlobalTime time, const Gaussian<N>& prior) { begin(Stamp::start(time), prior); }
+  bool announce(const Stamp&) { return true; }
+
+  Taken take(const Stamp& stamp, const LinearMeasurement<N, M>& measurement) {
+    const int n = history_.not_after(stamp);
+    if (n == 0) return Taken::kTooOld;
+    if (history_[n - 1].stamp == stamp) return Taken::kDuplicate;
+    if (n == history_.size()) {
+      step_in_order(stamp, measurement);
+      return Taken::kInOrder;
+    }
+    Gaussian<N> now = state();
+    fuse_retrodicted<N, M>(now, retrodicted(stamp.time(), n), measurement);
+    begin(Stamp{history_.newest().stamp}, now);
+    return Taken::kLate;
+  }
+
+  const Gaussian<N>& state() const { return history_.newest().estimate; }
+  GlobalTime time() const { return history_.newest().stamp.time(); }
+
+ private:
+  struct Entry {
+    Stamp stamp;
+    Gaussian<N> estimate;    // after the update
+    Matrix<N> f;             // over the step before it
+    Matrix<N> kept;          // M = I - K H
+    Vector<N> pull;          // H' S^-1 nu
+    Matrix<N> information;   // H' S^-1 H
+  };
+
+  void begin(const Stamp& stamp, const Gaussian<N>& estimate) {
+    history_.clear();
+    Entry& first = history_.append();
+    first.stamp = stamp;
+    first.estimate = estimate;
+  }
+
+  [[gnu::flatten]] void step_in_order(const Stamp& stamp, const LinearMeasurement<N, M>& measurement) {
+    Gaussian<N> estimate = state();
+    const Duration elapsed = stamp.time() - time();
+    Entry& entry = history_.append();
+    entry.stamp = stamp;
+    entry.f = Matrix<N>::Identity();
+    if (elapsed > Duration{}) {
+      const LinearStep<N> step = motion_.step(elapsed.seconds());
+      predict<N>(estimate, step);
+      entry.f = step.f;
+    }
+    const Whitened<N, M> whitened = correct<N, M>(estimate, measurement);
+    entry.estimate = estimate;
+    entry.kept = Matrix<N>::Identity() - whitened.v * whitened.h;
+    entry.pull = whitened.h.transpose() * whitened.nu;
+    entry.information = whitened.h.transpose() * whitened.h;
+  }
+
+  // `first` is the first entry after tau.
+  [[gnu::flatten]] Retrodicted<N> retrodicted(GlobalTime tau, int first) const {
+    Vector<N> r = Vector<N>::Zero();
+    Matrix<N> information = Matrix<N>::Zero(), transition = Matrix<N>::Identity();
+    for (int i = history_.size() - 1; i >= first; --i) {
+      const Entry& entry = history_[i];
+      const Matrix<N> f = i == first ? transition_between(tau, entry.stamp.time()) : entry.f;
+      const Matrix<N> over = entry.kept * f;
+      r = (f.transpose() * entry.pull + over.transpose() * r).eval();
+      const Matrix<N> here = entry.information * f, later = information * over;
+      information = f.transpose() * here + over.transpose() * later;
+      transition = (transition * over).eval();
+    }
+    Retrodicted<N> result{history_[first - 1].estimate, Matrix<N>::Zero()};
+    advance<N>(result.then, motion_, tau - history_[first - 1].stamp.time());
+    const Matrix<N> prior = result.then.p;
+    result.cross = transition * prior;
+    result.then.x += prior * r;
+    const Matrix<N> explained = information * prior;
+    result.then.p -= prior * explained;
+    symmetrise<N>(result.then.p);
+    return result;
+  }
+
+  Matrix<N> transition_between(GlobalTime from, GlobalTime to) const {
+    return to > from ? motion_.step((to - from).seconds()).f : Matrix<N>::Identity();
+  }
+
+  Model motion_;
+  History<Entry, Capacity> history_;
+};
+
+}  // namespace ttf::fusion::oosm

@@ -1,0 +1,46 @@
+// Algorithm A (Bar-Shalom 2002, section III): exact for one late measurement of the last interval.
+//
+// The noise v between tau and t(k) is not zero in the mean any more once z(k) is known. With P- = P(k|k-1), and of
+// the last update u = H' S^-1 nu, U = H' S^-1 H:
+//   E v = Q u,  cov(v) = Q - Q U Q,  cov(x(k), v) = Q - P- U Q.
+// Exact       one late measurement after each in order. A second one of the same interval is taken as if the first
+//             had been measured at t(k), in its effect on x(k): u <- u + P-^-1 dx, U <- U + P-^-1 (P - P+) P-^-1.
+//             That keeps every covariance positive, and is not exact.
+// Stores      x, P; P-, u, U of the last update.
+// Costs       a step backwards: an inverse of F and some ten products of n x n; no history is looked at.
+#pragma once
+
+#include "fusion/oosm/one_lag.h"
+
+namespace ttf::fusion::oosm {
+
+template <int N>
+class MemoryA {
+ public:
+  template <int M>
+  [[gnu::flatten]] void corrected(const Matrix<N>& predicted, const Whitened<N, M>& whitened) {
+    predicted_ = predicted;
+    pull_ = whitened.h.transpose() * whitened.nu;
+    information_ = whitened.h.transpose() * whitened.h;
+  }
+  [[gnu::flatten]] Retrodicted<N> retrodict(const Gaussian<N>& now, const LinearStep<N>& step) const {
+    const Matrix<N> uq = information_ * step.q;
+    return fusion::oosm::retrodict<N>(now, step.f, step.q * pull_, step.q - step.q * uq, step.q - predicted_ * uq);
+  }
+  [[gnu::flatten]] void booked(const Gaussian<N>& before, const Gaussian<N>& now) {
+    const Matrix<N> root = whitening<N>(predicted_), prior = root.transpose() * root;
+    pull_ += prior * (now.x - before.x);
+    information_ += prior * (before.p - now.p) * prior;
+    symmetrise<N>(information_);
+  }
+
+ private:
+  Matrix<N> predicted_ = Matrix<N>::Zero();
+  Vector<N> pull_ = Vector<N>::Zero();
+  Matrix<N> information_ = Matrix<N>::Zero();
+};
+
+template <int N, int M, Motion<N> Model>
+using AlgorithmA = OneLag<N, M, Model, MemoryA<N>, Exactness::kOneLate>;
+
+}  // namespace ttf::fusion::oosm

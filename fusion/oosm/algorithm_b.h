@@ -1,0 +1,41 @@
+// Algorithm B (Bar-Shalom 2002, section IV): Algorithm A without the last innovation. The noise v between tau and
+// t(k) is taken as zero in the mean, with  cov(v) = Q,  cov(x(k), v) = Q - P- U Q,  P- = P(k|k-1),  U = H' S^-1 H
+// of the last update.
+//
+// Exact       without process noise only. "Practically indistinguishable" from A in the paper's examples.
+//             A second late measurement of the same interval: as in algorithm_a.h.
+// Stores      x, P; P-, U of the last update.
+// Costs       as Algorithm A.
+#pragma once
+
+#include "fusion/oosm/one_lag.h"
+
+namespace ttf::fusion::oosm {
+
+template <int N>
+class MemoryB {
+ public:
+  template <int M>
+  [[gnu::flatten]] void corrected(const Matrix<N>& predicted, const Whitened<N, M>& whitened) {
+    predicted_ = predicted;
+    information_ = whitened.h.transpose() * whitened.h;
+  }
+  [[gnu::flatten]] Retrodicted<N> retrodict(const Gaussian<N>& now, const LinearStep<N>& step) const {
+    const Matrix<N> cross = step.q - predicted_ * information_ * step.q;
+    return fusion::oosm::retrodict<N>(now, step.f, Vector<N>::Zero(), step.q, cross);
+  }
+  [[gnu::flatten]] void booked(const Gaussian<N>& before, const Gaussian<N>& now) {
+    const Matrix<N> root = whitening<N>(predicted_), prior = root.transpose() * root;
+    information_ += prior * (before.p - now.p) * prior;
+    symmetrise<N>(information_);
+  }
+
+ private:
+  Matrix<N> predicted_ = Matrix<N>::Zero();
+  Matrix<N> information_ = Matrix<N>::Zero();
+};
+
+template <int N, int M, Motion<N> Model>
+using AlgorithmB = OneLag<N, M, Model, MemoryB<N>, Exactness::kApproximate>;
+
+}  // namespace ttf::fusion::oosm

@@ -1,0 +1,27 @@
+// Algorithm C (Bar-Shalom 2002, section V): the noise between tau and t(k) is ignored, x(tau) = F^-1 x(k).
+//
+// Exact       without process noise only. With it the covariance is too small, and at high noise the estimate is
+//             worse than without the late measurement: a yardstick, not a choice.
+// Stores      x, P, nothing else.
+// Costs       a step backwards: an inverse of F and four products of n x n.
+#pragma once
+
+#include "fusion/oosm/one_lag.h"
+
+namespace ttf::fusion::oosm {
+
+template <int N>
+class MemoryC {
+ public:
+  template <int M>
+  void corrected(const Matrix<N>&, const Whitened<N, M>&) {}
+  Retrodicted<N> retrodict(const Gaussian<N>& now, const LinearStep<N>& step) const {
+    return fusion::oosm::retrodict<N>(now, step.f, Vector<N>::Zero(), Matrix<N>::Zero(), Matrix<N>::Zero());
+  }
+  void booked(const Gaussian<N>&, const Gaussian<N>&) {}
+};
+
+template <int N, int M, Motion<N> Model>
+using AlgorithmC = OneLag<N, M, Model, MemoryC<N>, Exactness::kApproximate>;
+
+}  // namespace ttf::fusion::oosm

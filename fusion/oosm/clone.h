@@ -1,0 +1,120 @@
+// Forward fixed-point clones: the schedule knows at which instants will be measured, so the state of such an
+// instant is cloned when time passes it without the measurement, and every later update mends the clone too
+// (fixed-point smoothing, Meditch: "Stochastic Optimal Linear Estimation and Control", 1969). When the measurement
+// comes it corrects clone and newest state together, and the clone has served.
+//
+// A clone's instant is announced by its stamp before anything later is taken, else announce() is false. A late
+// measurement of a stamp without a clone is not taken: kUnannounced; kTooOld if it is not after a clone that had to
+// go, unserved, because all were in use. A clone whose measurement never comes stays until then. Remembers no stamp
+// but the newest.
+// Exact       whatever is taken, several clones at once, in any order of arrival, to rounding (the motion composes).
+//             Announced instants split the steps of the motion, which rounds otherwise than one step.
+// Stores      x, P; of every clone its mean, covariance, and cross-covariances to the newest state and the other
+//             clones. No history.
+// Costs       late: O(n^2 m) per clone and pair of clones, the same at every lag; in order O(n^3) per clone and
+//             O(n^2 m) per pair.
+#pragma once
+
+#include <algorithm>
+#include <array>
+
+#include "fusion/oosm/joint.h"
+#include "fusion/oosm/method.h"
+
+namespace ttf::fusion::oosm {
+
+// Clones at once, and as many announcements of instants that time has not passed yet.
+template <int N, int M, Motion<N> Model, int Clones>
+class Clone {
+ public:
+  static constexpr int kStates = N, kDimension = M;
+  static constexpr Exactness kExactness = Exactness::kAlways;
+
+  explicit Clone(const Model& motion) : motion_(motion) {}
+
+  void start(GlobalTime time, const Gaussian<N>& prior) {
+    joint_.start(prior);
+    last_ = gone_ = Stamp::start(time);
+    pending_ = 0;
+  }
+
+  // False if the stamp is not after the newest taken, or too many are announced already.
+  bool announce(const Stamp& stamp) {
+    if (stamp <= last_) return false;
+    const auto end = announced_.begin() + pending_;
+    const auto after = std::lower_bound(announced_.begin(), end, stamp);
+    if (after != end && *after == stamp) return true;
+    if (pending_ == Clones) return false;
+    std::copy_backward(after, end, end + 1);
+    *after = stamp;
+    ++pending_;
+    return true;
+  }
+
+  Taken take(const Stamp& stamp, const LinearMeasurement<N, M>& measurement) {
+    if (stamp > last_) {
+      pass(stamp);
+      move(stamp.time() - reached_);
+      joint_.correct_now(measurement);
+      last_ = stamp;
+      return Taken::kInOrder;
+    }
+    if (stamp == last_) return Taken::kDuplicate;
+    for (int i = 0; i < joint_.size(); ++i) {
+      if (stamps_[place(i)] != stamp) continue;
+      joint_.correct_slot(i, measurement);
+      drop(i);
+      return Taken::kLate;
+    }
+    return stamp <= gone_ ? Taken::kTooOld : Taken::kUnannounced;
+  }
+
+  const Gaussian<N>& state() const { return joint_.now(); }
+  GlobalTime time() const { return last_.time(); }
+
+ private:
+  static std::size_t place(int i) { return static_cast<std::size_t>(i); }
+
+  void move(Duration elapsed) {
+    if (elapsed > Duration{}) joint_.propagate(motion_.step(elapsed.seconds()));
+  }
+
+  // Clones what was announced before `stamp`; `stamp` itself is about to be taken.
+  void pass(const Stamp& stamp) {
+    reached_ = last_.time();
+    int i = 0;
+    for (; i < pending_ && announced_[place(i)] <= stamp; ++i) {
+      const Stamp& due = announced_[place(i)];
+      if (due == stamp) continue;
+      move(due.time() - reached_);
+      reached_ = due.time();
+      if (joint_.size() == Clones) drop_oldest();
+      stamps_[place(joint_.keep())] = due;
+    }
+    std::copy(announced_.begin() + i, announced_.begin() + pending_, announced_.begin());
+    pending_ -= i;
+  }
+
+  void drop_oldest() {
+    int oldest = 0;
+    for (int i = 1; i < joint_.size(); ++i)
+      if (stamps_[place(i)] < stamps_[place(oldest)]) oldest = i;
+    gone_ = std::max(gone_, stamps_[place(oldest)]);
+    drop(oldest);
+  }
+
+  void drop(int slot) {
+    joint_.drop(slot);
+    stamps_[place(slot)] = stamps_[place(joint_.size())];
+  }
+
+  Model motion_;
+  Joint<N, M, Clones> joint_;
+  std::array<Stamp, Clones> stamps_{};      // of the clones
+  std::array<Stamp, Clones> announced_{};   // not passed yet, in order
+  int pending_ = 0;
+  Stamp last_, gone_;
+  GlobalTime reached_{};                    // by the motion, while a measurement is being taken
+};
+
+}  // namespace ttf::fusion::oosm

@@ -1,0 +1,86 @@
+// What Al1 and Bl1 have in common (Bar-Shalom, Chen, Mallick: "One-Step Solution for the Multistep
+// Out-of-Sequence-Measurement Problem in Tracking", IEEE TAES 40(1), 2004): everything that was measured after tau
+// is collapsed into one equivalent measurement of all of x(k), so that a measurement of any age is taken in as if
+// it were one lag late.
+//
+// With x(j), P(j) the last estimate not after tau, and x*, P* its prediction to t(k):
+//   S*^-1 = P*^-1 - P*^-1 P P*^-1,  S*^-1 nu* = P*^-1 (x - x*);  cov(x(k), v) = Q - P* S*^-1 Q = P P*^-1 Q,
+//   Al1: E v = Q S*^-1 nu*, cov(v) = Q - Q S*^-1 Q;  Bl1: E v = 0, cov(v) = Q.
+// No equivalent measurement is ever formed, and only P* is factored, which must be regular: some noise, or a prior
+// that knows nothing exactly.
+#pragma once
+
+#include <cstdint>
+
+#include "fusion/oosm/correction.h"
+#include "fusion/oosm/history.h"
+#include "fusion/oosm/method.h"
+#include "fusion/oosm/retrodiction.h"
+
+namespace ttf::fusion::oosm {
+
+enum class Noise : std::uint8_t { kRetrodicted = 0, kIgnored = 1 };   // Al1, Bl1
+
+// `predicted` is (x*, P*), `step` goes from tau to t(k).
+template <int N>
+[[gnu::flatten]] Retrodicted<N> retrodict_collapsed(const Gaussian<N>& now, const Gaussian<N>& predicted,
+                                                    const LinearStep<N>& step, Noise noise) {
+  const Matrix<N> root = whitening<N>(predicted.p);
+  const Matrix<N> share = root.transpose() * (root * step.q);   // P*^-1 Q
+  const Matrix<N> cross = now.p * share;
+  if (noise == Noise::kIgnored) return retrodict<N>(now, step.f, Vector<N>::Zero(), step.q, cross);
+  const Vector<N> mean = share.transpose() * (now.x - predicted.x);
+  return retrodict<N>(now, step.f, mean, step.q - share.transpose() * step.q + share.transpose() * cross, cross);
+}
+
+// Remembers the stamps taken in order, and nothing of late ones.
+template <int N, int M, Motion<N> Model, int Capacity, Noise kNoise>
+class Collapsed {
+ public:
+  static constexpr int kStates = N, kDimension = M;
+  static constexpr Exactness kExactness = Exactness::kApproximate;
+
+  explicit Collapsed(const Model& motion) : motion_(motion) {}
+
+  void start(GlobalTime time, const Gaussian<N>& prior) {
+    history_.clear();
+    history_.append() = {Stamp::start(time), prior};
+  }
+  bool announce(const Stamp&) { return true; }
+
+  Taken take(const Stamp& stamp, const LinearMeasurement<N, M>& measurement) {
+    const Stamp last = history_.newest().stamp;
+    if (stamp > last) {
+      Gaussian<N> estimate = state();
+      advance<N>(estimate, motion_, stamp.time() - last.time());
+      correct<N, M>(estimate, measurement);
+      history_.append() = {stamp, estimate};
+      return Taken::kInOrder;
+    }
+    const int n = history_.not_after(stamp);
+    if (n == 0) return Taken::kTooOld;
+    const Entry& then = history_[n - 1];
+    if (then.stamp == stamp) return Taken::kDuplicate;
+    Gaussian<N> predicted = then.estimate;
+    advance<N>(predicted, motion_, last.time() - then.stamp.time());
+    const Duration lag = last.time() - stamp.time();
+    const LinearStep<N> step = lag > Duration{} ? motion_.step(lag.seconds()) : LinearStep<N>{};
+    Gaussian<N>& now = history_.newest().estimate;
+    fuse_retrodicted<N, M>(now, retrodict_collapsed<N>(now, predicted, step, kNoise), measurement);
+    return Taken::kLate;
+  }
+
+  const Gaussian<N>& state() const { return history_.newest().estimate; }
+  GlobalTime time() const { return history_.newest().stamp.time(); }
+
+ private:
+  struct Entry {
+    Stamp stamp;
+    Gaussian<N> estimate;   // as it was when the next one came
+  };
+
+  Model motion_;
+  History<Entry, Capacity> history_;
+};
+
+}  // namespace ttf::fusion::oosm

@@ -1,0 +1,45 @@
+// The update in order that all methods here share, and what they keep of it. With S = H P H' + R = L L' (Cholesky):
+//   h = L^-1 H,  nu = L^-1 (z - H x),  V = P h',  K = V L^-1;   x <- x + V nu,  T = P - V V',
+//   P <- T - (T H' - K R) K',   which is the Joseph form multiplied out: O(n^2 m), and I - K H is never formed.
+// It is update() of fusion/gaussian.h up to rounding, and cheaper. What later measurements say about earlier states
+// is made of h, nu and V alone:  H' S^-1 H = h' h,  H' S^-1 nu = h' nu,  K H = V h.
+//
+// [[gnu::flatten]], here and in the other small functions of this room that are all arithmetic: at -O2 the compiler
+// leaves most of Eigen's small products as calls, which cost more than what they compute.
+#pragma once
+
+#include "fusion/gaussian.h"
+#include "fusion/oosm/whitening.h"
+
+namespace ttf::fusion::oosm {
+
+template <int N, int M>
+struct Whitened {
+  Matrix<M, N> h;
+  Vector<M> nu;
+  Matrix<N, M> v;
+};
+
+template <int N, int M>
+[[gnu::flatten]] Whitened<N, M> correct(Gaussian<N>& state, const LinearMeasurement<N, M>& measurement) {
+  const Matrix<M, N> hp = measurement.h * state.p;
+  Matrix<M> s = measurement.r;
+  s.noalias() += hp * measurement.h.transpose();
+  const Matrix<M> root = whitening<M>(s);
+  Whitened<N, M> result;
+  result.h.noalias() = root * measurement.h;
+  result.nu.noalias() = root * (measurement.z - measurement.h * state.x);
+  result.v.noalias() = hp.transpose() * root.transpose();
+  state.x.noalias() += result.v * result.nu;
+  const Matrix<N, M> gain = result.v * root;
+  Matrix<N> p = state.p;
+  p.noalias() -= result.v * result.v.transpose();
+  Matrix<N, M> slip;   // T H' - K R
+  slip.noalias() = p * measurement.h.transpose();
+  slip.noalias() -= gain * measurement.r;
+  p.noalias() -= slip * gain.transpose();
+  state.p.noalias() = 0.5 * (p + p.transpose());
+  return result;
+}
+
+}  // namespace ttf::fusion::oosm

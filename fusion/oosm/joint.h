@@ -1,0 +1,169 @@
+// The joint normal distribution of the newest state and of some earlier ones that are kept: the accumulated state
+// density (Koch, Govaers: "On Accumulated State Densities with Applications to Out-of-Sequence Measurement
+// Processing", IEEE TAES 47(4), 2011), with slots in any order, so that nothing is moved but the blocks of what
+// comes and goes.
+//
+// Kept per slot i: x(i), C(i) = cov(x(i), x(now)), and A(i, j) = cov(x(i), x(j)) for j <= i.
+//   keep       the newest state becomes a slot: x(i) = x, C(i) = P, A(i, j) = C(j)'
+//   propagate  x <- F x, P <- F P F' + Q, C(i) <- C(i) F'
+//   correct    of slot a or of the newest, G(.) = cov(., x(a)) H', S = L L', V(.) = G(.) L'^-1:
+//              x(.) += V(.) L^-1 nu,  cov(i, j) -= V(i) V(j)', of the newest itself in Joseph form (correction.h)
+//   insert     a state between two: below
+// Costs O(slots^2 n^2 m) for a correction, O(slots n^3) for the others.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "core/check.h"
+#include "fusion/oosm/correction.h"
+#include "fusion/oosm/whitening.h"
+
+namespace ttf::fusion::oosm {
+
+// x(tau) = a x(before) + b x(after) + e, e ~ N(0, q) and independent of all else.
+template <int N>
+struct Bridge {
+  Matrix<N> a = Matrix<N>::Zero();
+  Matrix<N> b = Matrix<N>::Zero();
+  Matrix<N> q = Matrix<N>::Zero();
+};
+
+// A Markov process between two instants, `first` leading from the earlier one to tau and `second` from there to the
+// later:
+//   b = Q1 F2' (F2 Q1 F2' + Q2)^-1,  a = F1 - b F2 F1,  q = Q1 - b F2 Q1
+// (the gain as in Garcia-Fernandez, Yi: "Continuous-discrete multiple target tracking with out-of-sequence
+// measurements", IEEE TSP 69, 2021, eq. 36-37). Without noise the earlier instant alone tells.
+template <int N>
+[[gnu::flatten]] Bridge<N> bridge(const LinearStep<N>& first, const LinearStep<N>& second) {
+  const Matrix<N> fq = second.f * first.q;
+  Matrix<N> whole = second.q;
+  whole.noalias() += fq * second.f.transpose();
+  const Matrix<N> root = whitening<N>(whole);
+  const Matrix<N> half = root * fq;
+  Bridge<N> result;
+  result.b.noalias() = half.transpose() * root;
+  result.a = first.f;
+  result.a.noalias() -= result.b * (second.f * first.f);
+  result.q = first.q;
+  result.q.noalias() -= half.transpose() * half;
+  return result;
+}
+
+template <int N, int M, int Slots>
+class Joint {
+ public:
+  static constexpr int kNow = -1;   // in place of a slot: the newest state
+
+  const Gaussian<N>& now() const { return now_; }
+  int size() const { return size_; }
+
+  void start(const Gaussian<N>& prior) {
+    now_ = prior;
+    size_ = 0;
+  }
+
+  [[gnu::flatten]] int keep() {
+    const int s = room();
+    x_[at(s)] = now_.x;
+    for (int j = 0; j < s; ++j) block(s, j) = cross_[at(j)].transpose();
+    block(s, s) = cross_[at(s)] = now_.p;
+    return s;
+  }
+
+  [[gnu::flatten]] void propagate(const LinearStep<N>& step) {
+    predict<N>(now_, step);
+    for (int i = 0; i < size_; ++i) cross_[at(i)] = (cross_[at(i)] * step.f.transpose()).eval();
+  }
+
+  [[gnu::flatten]] void correct_now(const LinearMeasurement<N, M>& measurement) {
+    const Whitened<N, M> whitened = correct<N, M>(now_, measurement);
+    for (int i = 0; i < size_; ++i) gains_[at(i)].noalias() = cross_[at(i)] * whitened.h.transpose();
+    learn(whitened.v, whitened.nu);
+  }
+
+  [[gnu::flatten]] void correct_slot(int a, const LinearMeasurement<N, M>& measurement) {
+    Matrix<M> s = measurement.r;
+    s.noalias() += measurement.h * block(a, a) * measurement.h.transpose();
+    const Matrix<M> root = whitening<M>(s);
+    const Matrix<M, N> h = root * measurement.h;
+    const Vector<M> nu = root * (measurement.z - measurement.h * x_[at(a)]);
+    for (int i = 0; i < a; ++i) gains_[at(i)].noalias() = block(a, i).transpose() * h.transpose();
+    for (int i = a; i < size_; ++i) gains_[at(i)].noalias() = block(i, a) * h.transpose();
+    const Matrix<N, M> v = cross_[at(a)].transpose() * h.transpose();
+    now_.x.noalias() += v * nu;
+    now_.p.noalias() -= v * v.transpose();
+    learn(v, nu);
+  }
+
+  // A new slot by interpolation between the slot `before` and `after`, a slot or kNow.
+  [[gnu::flatten]] int insert(int before, int after, const Bridge<N>& bridge) {
+    const int s = room();
+    const Gaussian<N>& now = now_;
+    const Vector<N>& x_after = after == kNow ? now.x : x_[at(after)];
+    const Matrix<N>& cross_after = after == kNow ? now.p : cross_[at(after)];
+    x_[at(s)] = bridge.a * x_[at(before)] + bridge.b * x_after;
+    cross_[at(s)] = bridge.a * cross_[at(before)] + bridge.b * cross_after;
+    for (int j = 0; j < s; ++j) block(s, j) = bridge.a * between(before, j) + bridge.b * between(after, j);
+    const Matrix<N>& with_after = after == kNow ? cross_[at(s)] : block(s, after);
+    Matrix<N> p = bridge.q + bridge.a * block(s, before).transpose() + bridge.b * with_after.transpose();
+    symmetrise<N>(p);
+    block(s, s) = p;
+    return s;
+  }
+
+  // The last slot takes the place of the dropped one.
+  void drop(int s) {
+    TTF_CHECK(s >= 0 && s < size_, "slot {} of {}", s, size_);
+    const int last = --size_;
+    if (s == last) return;
+    x_[at(s)] = x_[at(last)];
+    cross_[at(s)] = cross_[at(last)];
+    for (int j = 0; j < s; ++j) block(s, j) = block(last, j);
+    for (int i = s + 1; i < last; ++i) block(i, s) = block(last, i).transpose();
+    block(s, s) = block(last, last);
+  }
+
+ private:
+  static constexpr std::size_t kBlocks = static_cast<std::size_t>(Slots) * (Slots + 1) / 2;
+
+  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
+  static std::size_t at(int i, int j) { return at(i) * (at(i) + 1) / 2 + at(j); }
+  Matrix<N>& block(int i, int j) { return blocks_[at(i, j)]; }
+
+  // cov(x(i), x(j)), i and j slots or i the newest.
+  Matrix<N> between(int i, int j) const {
+    Matrix<N> result;
+    if (i == kNow)
+      result = cross_[at(j)].transpose();
+    else if (i >= j)
+      result = blocks_[at(i, j)];
+    else
+      result = blocks_[at(j, i)].transpose();
+    return result;
+  }
+
+  int room() {
+    TTF_CHECK(size_ < Slots, "all {} slots are taken", Slots);
+    return size_++;
+  }
+
+  // What the slots learn; their V is in gains_.
+  [[gnu::flatten]] void learn(const Matrix<N, M>& now, const Vector<M>& nu) {
+    for (int i = 0; i < size_; ++i) {
+      const Matrix<N, M>& v = gains_[at(i)];
+      x_[at(i)].noalias() += v * nu;
+      cross_[at(i)].noalias() -= v * now.transpose();
+      for (int j = 0; j <= i; ++j) block(i, j).noalias() -= v * gains_[at(j)].transpose();
+    }
+  }
+
+  Gaussian<N> now_;
+  int size_ = 0;
+  std::array<Vector<N>, Slots> x_{};
+  std::array<Matrix<N>, Slots> cross_{};
+  std::array<Matrix<N>, kBlocks> blocks_{};
+  std::array<Matrix<N, M>, Slots> gains_{};   // of the correction at work
+};
+
+}  // namespace ttf::fusion::oosm

@@ -1,0 +1,39 @@
+// The methods by name, as a user selects them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace ttf::fusion::oosm {
+
+enum class Kind : std::uint8_t { kRewind, kAugmented, kClone, kAdjoint, kAl1, kBl1, kA, kB, kC };
+
+struct NamedKind {
+  std::string_view name;
+  Kind kind;
+};
+inline constexpr std::array<NamedKind, 9> kKinds{{{"rewind", Kind::kRewind},
+                                                  {"augmented", Kind::kAugmented},
+                                                  {"clone", Kind::kClone},
+                                                  {"adjoint", Kind::kAdjoint},
+                                                  {"al1", Kind::kAl1},
+                                                  {"bl1", Kind::kBl1},
+                                                  {"a", Kind::kA},
+                                                  {"b", Kind::kB},
+                                                  {"c", Kind::kC}}};
+
+constexpr std::string_view name_of(Kind kind) {
+  for (const NamedKind& named : kKinds)
+    if (named.kind == kind) return named.name;
+  return {};
+}
+
+constexpr std::optional<Kind> kind_named(std::string_view name) {
+  for (const NamedKind& named : kKinds)
+    if (named.name == name) return named.kind;
+  return std::nullopt;
+}
+
+}  // namespace ttf::fusion::oosm

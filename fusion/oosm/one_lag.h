@@ -1,0 +1,61 @@
+// What Algorithms A, B and C have in common (Bar-Shalom: "Update with Out-of-Sequence Measurements in Tracking: Exact
+// Solution", IEEE TAES 38(3), 2002): they go one measurement back, t(k-1) <= tau <= t(k), over the inverse of F
+// from tau to t(k).
+//
+// They differ in what they keep of the last update, which is a Memory:
+//   corrected(predicted, whitened)        the update of a measurement in order has been done, from P- = `predicted`
+//   retrodict(now, step)                  x(tau), step being that from tau to t(k)
+//   booked(before, now)                   a late measurement led from `before` to `now`, both of t(k)
+#pragma once
+
+#include "fusion/oosm/correction.h"
+#include "fusion/oosm/method.h"
+#include "fusion/oosm/retrodiction.h"
+
+namespace ttf::fusion::oosm {
+
+// Remembers the last two stamps taken in order, and nothing of late ones.
+template <int N, int M, Motion<N> Model, class Memory, Exactness kExact>
+class OneLag {
+ public:
+  static constexpr int kStates = N, kDimension = M;
+  static constexpr Exactness kExactness = kExact;
+
+  explicit OneLag(const Model& motion) : motion_(motion) {}
+
+  void start(GlobalTime time, const Gaussian<N>& prior) {
+    before_last_ = last_ = Stamp::start(time);
+    state_ = prior;
+  }
+  bool announce(const Stamp&) { return true; }
+
+  Taken take(const Stamp& stamp, const LinearMeasurement<N, M>& measurement) {
+    if (stamp > last_) {
+      advance<N>(state_, motion_, stamp.time() - last_.time());
+      const Matrix<N> predicted = state_.p;
+      memory_.corrected(predicted, correct<N, M>(state_, measurement));
+      before_last_ = last_;
+      last_ = stamp;
+      return Taken::kInOrder;
+    }
+    if (stamp == last_ || stamp == before_last_) return Taken::kDuplicate;
+    if (stamp < before_last_) return Taken::kTooOld;
+    const Duration lag = last_.time() - stamp.time();
+    const LinearStep<N> step = lag > Duration{} ? motion_.step(lag.seconds()) : LinearStep<N>{};
+    const Gaussian<N> before = state_;
+    fuse_retrodicted<N, M>(state_, memory_.retrodict(state_, step), measurement);
+    memory_.booked(before, state_);
+    return Taken::kLate;
+  }
+
+  const Gaussian<N>& state() const { return state_; }
+  GlobalTime time() const { return last_.time(); }
+
+ private:
+  Model motion_;
+  Stamp before_last_, last_;
+  Gaussian<N> state_;
+  Memory memory_;
+};
+
+}  // namespace ttf::fusion::oosm

@@ -1,0 +1,50 @@
+// What is known at the newest instant k of the state at an earlier instant tau, and how a measurement of then is
+// taken in.
+//
+// With  xt, Pt  mean and covariance of x(tau) and  C = cov(x(k), x(tau)), all given what was taken so far:
+//   nu = z - H xt,  S = H Pt H' + R,  W = C H' S^-1,  x <- x + W nu,  P <- P - W S W'.
+// With S = L L' (Cholesky) and V = C H' L'^-1 that is  x <- x + V L^-1 nu,  P <- P - V V', which is symmetric to
+// the bit.
+#pragma once
+
+#include <Eigen/LU>
+
+#include "fusion/gaussian.h"
+#include "fusion/oosm/whitening.h"
+
+namespace ttf::fusion::oosm {
+
+template <int N>
+struct Retrodicted {
+  Gaussian<N> then;    // x(tau)
+  Matrix<N> cross;     // cov(x(k), x(tau))
+};
+
+template <int N, int M>
+[[gnu::flatten]] void fuse_retrodicted(Gaussian<N>& now, const Retrodicted<N>& retrodicted,
+                                       const LinearMeasurement<N, M>& measurement) {
+  const Matrix<M> s = measurement.h * retrodicted.then.p * measurement.h.transpose() + measurement.r;
+  const Matrix<M> root = whitening<M>(s);
+  const Matrix<N, M> v = retrodicted.cross * (root * measurement.h).transpose();
+  const Vector<M> nu = root * (measurement.z - measurement.h * retrodicted.then.x);
+  now.x += v * nu;
+  now.p -= v * v.transpose();
+}
+
+// From x(k) = F x(tau) + v and what is known of (x(k), v): mean of v, its covariance, and cov(x(k), v). F is a
+// transition matrix over a short step and well conditioned.
+template <int N>
+[[gnu::flatten]] Retrodicted<N> retrodict(const Gaussian<N>& now, const Matrix<N>& f, const Vector<N>& noise,
+                                          const Matrix<N>& noise_p, const Matrix<N>& cross) {
+  const Matrix<N> back = f.inverse();
+  Retrodicted<N> result;
+  result.then.x = back * (now.x - noise);
+  const Matrix<N> difference = now.p - cross;
+  result.cross = difference * back.transpose();
+  Matrix<N> p = difference + noise_p - cross.transpose();
+  symmetrise<N>(p);
+  result.then.p = back * p * back.transpose();
+  return result;
+}
+
+}  // namespace ttf::fusion::oosm

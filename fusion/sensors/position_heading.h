@@ -1,0 +1,30 @@
+// z = (x, y, orientation) [m, m, rad] of a box that was fitted to an outline: front and back look alike, so its
+// orientation is the heading up to half a turn. Its length and width are measured besides: fusion/extent.h.
+#pragma once
+
+#include "fusion/motion/angles.h"
+#include "fusion/sensors/sensor_model.h"
+
+namespace ttf::fusion::sensors {
+
+struct PositionHeading {
+  static constexpr const char* kName = "PositionHeading";
+  static constexpr int kDimension = 3, kParts = kWithHeading;
+  static constexpr bool kLinear = false;
+
+  Vector<3> expected(const Kinematics& k) const { return {k.position.x(), k.position.y(), k.heading}; }
+  Matrix<3, 5> jacobian(const Kinematics&) const {
+    Matrix<3, 5> h = Matrix<3, 5>::Zero();
+    h(0, 0) = h(1, 1) = h(2, 4) = 1.0;
+    return h;
+  }
+  Vector<3> residual(const Vector<3>& z, const Vector<3>& e) const {
+    Vector<3> d = z - e;
+    d(2) = to_quarter_turn(d(2));
+    return d;
+  }
+  bool sees(const Kinematics& k) const { return k.has_heading; }
+};
+static_assert(Model<PositionHeading>);
+
+}  // namespace ttf::fusion::sensors

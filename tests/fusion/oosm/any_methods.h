@@ -1,0 +1,50 @@
+// All the methods, chosen at run time, for an axis and for a plane: compiled once, in any_methods.cc, and called,
+// not inlined, because the compiler needs its time.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "fusion/oosm/any_method.h"
+#include "tests/fusion/oosm/timelines.h"
+
+namespace ttf::fusion::oosm {
+
+template <int N, int M, Motion<N> Model, int Capacity>
+class Compiled {
+ public:
+  static constexpr int kStates = N, kDimension = M;
+  static constexpr Exactness kExactness = Exactness::kApproximate;
+
+  Compiled(Kind kind, const Model& motion);
+  void start(GlobalTime time, const Gaussian<N>& prior);
+  bool announce(const Stamp& stamp);
+  Taken take(const Stamp& stamp, const LinearMeasurement<N, M>& measurement);
+  const Gaussian<N>& state() const;
+  GlobalTime time() const;
+  Exactness exactness() const;
+  Kind kind() const;
+
+ private:
+  AnyMethod<N, M, Model, Capacity, Capacity> method_;
+};
+
+using Line = ConstantVelocity<1>;
+using Plane = ConstantVelocity<2>;
+using OnLine = Compiled<2, 1, Line, 24>;
+using OnPlane = Compiled<4, 2, Plane, 24>;
+extern template class Compiled<2, 1, Line, 24>;
+extern template class Compiled<4, 2, Plane, 24>;
+
+static_assert(Method<OnLine> && Method<OnPlane>);
+
+// Parameter of the tests that every method must pass.
+inline auto every_kind() {
+  std::vector<Kind> kinds;
+  for (const NamedKind& named : kKinds) kinds.push_back(named.kind);
+  return testing::ValuesIn(kinds);
+}
+inline std::string kind_of(const testing::TestParamInfo<Kind>& info) { return std::string(name_of(info.param)); }
+
+}  // namespace ttf::fusion::oosm

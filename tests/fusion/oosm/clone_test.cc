@@ -1,0 +1,61 @@
+// What a clone is told beforehand, and what becomes of those that were not announced.
+#include "fusion/oosm/clone.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/fusion/oosm/timelines.h"
+
+namespace ttf::fusion::oosm {
+namespace {
+
+class Announced : public testing::Test {
+ protected:
+  static LinearMeasurement<2, 1> position(double z) { return {Vector<1>(z), Matrix<1, 2>(1.0, 0.0), Matrix<1>(1.0)}; }
+  static Stamp scan(int i) { return stamp_at(after_ms(100 * i)); }
+  static Stamp between(int i) { return stamp_at(after_ms(100 * i + 50), 1); }
+
+  Announced() { method_.start(GlobalTime{}, {Vector<2>::Zero(), Matrix<2>::Identity()}); }
+
+  Clone<2, 1, ConstantVelocity<1>, 2> method_{ConstantVelocity<1>{}};
+};
+
+TEST_F(Announced, LateWithoutAWordIsNotTaken) {
+  method_.take(scan(1), position(1));
+  method_.take(scan(2), position(2));
+  const Gaussian<2> before = method_.state();
+  EXPECT_FALSE(method_.announce(between(1)));   // too late
+  EXPECT_EQ(method_.take(between(1), position(1)), Taken::kUnannounced);
+  EXPECT_TRUE(same_bits<2>(method_.state(), before));
+  EXPECT_EQ(method_.take(scan(3), position(3)), Taken::kInOrder);
+}
+
+TEST_F(Announced, ATimeThatIsKeptNeedsNoClone) {
+  EXPECT_TRUE(method_.announce(scan(1)));
+  EXPECT_EQ(method_.take(scan(1), position(1)), Taken::kInOrder);
+  EXPECT_EQ(method_.take(scan(1), position(1)), Taken::kDuplicate);
+  EXPECT_EQ(method_.take(scan(2), position(1)), Taken::kInOrder);
+  EXPECT_EQ(method_.take(scan(1), position(1)), Taken::kUnannounced);
+}
+
+TEST_F(Announced, ACloneServesOnce) {
+  EXPECT_TRUE(method_.announce(between(0)));
+  EXPECT_TRUE(method_.announce(between(0)));   // once more is once
+  method_.take(scan(1), position(1));
+  EXPECT_EQ(method_.take(between(0), position(1)), Taken::kLate);
+  EXPECT_EQ(method_.take(between(0), position(1)), Taken::kUnannounced);
+}
+
+TEST_F(Announced, TheOldestGoesWhenAllAreInUse) {
+  EXPECT_TRUE(method_.announce(between(1)));
+  EXPECT_TRUE(method_.announce(between(0)));
+  EXPECT_FALSE(method_.announce(between(2)));   // two are as many as there is room for
+  method_.take(scan(2), position(1));
+  EXPECT_TRUE(method_.announce(between(2)));
+  method_.take(scan(3), position(1));
+  EXPECT_EQ(method_.take(between(0), position(1)), Taken::kTooOld);
+  EXPECT_EQ(method_.take(between(2), position(1)), Taken::kLate);
+  EXPECT_EQ(method_.take(between(1), position(1)), Taken::kLate);
+}
+
+}  // namespace
+}  // namespace ttf::fusion::oosm

@@ -1,0 +1,104 @@
+// Law L8: what is exact equals the textbook's filter, in order, to a relative 1e-12.
+#include <gtest/gtest.h>
+
+#include "tests/fusion/oosm/any_methods.h"
+
+namespace ttf::fusion::oosm {
+namespace {
+
+constexpr double kExact = 1e-12;
+
+template <class X, class Model>
+void expect_exact(Kind kind, RandomStream& stream, const Timeline<X::kStates, X::kDimension>& arrivals, int late) {
+  constexpr int kN = X::kStates, kM = X::kDimension;
+  const Model motion{2.0};
+  const Gaussian<kN> prior = drawn_prior<kN>(stream);
+  X method(kind, motion);
+  method.start(GlobalTime{}, prior);
+  const std::vector<Taken> taken = take_all(method, arrivals);
+  EXPECT_EQ(std::count(taken.begin(), taken.end(), Taken::kLate), late);
+  EXPECT_EQ(std::count(taken.begin(), taken.end(), Taken::kInOrder), std::ssize(arrivals) - late);
+  EXPECT_LT((relative_difference<kN>(method.state(), in_order<kN, kM>(motion, prior, arrivals))), kExact);
+}
+
+template <int N, int M>
+int late_ones(const Timeline<N, M>& arrivals) {
+  Stamp newest = Stamp::start(GlobalTime{});
+  int late = 0;
+  for (const auto& event : arrivals) {
+    if (event.stamp < newest) ++late;
+    newest = std::max(newest, event.stamp);
+  }
+  return late;
+}
+
+// 60 measurements, each as many as 20 late: several are late at a time, and not in order among themselves.
+template <class X, class Model>
+void expect_exact_in_any_order(Kind kind) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    RandomStream stream({.seed = seed});
+    const auto events = drawn_timeline<X::kStates, X::kDimension>(stream, 60);
+    const auto arrivals = delayed(stream, events, 20);
+    EXPECT_GT(late_ones(arrivals), 30);
+    expect_exact<X, Model>(kind, stream, arrivals, late_ones(arrivals));
+  }
+}
+
+// All of 30, the last but `lag` last.
+template <class X, class Model>
+void expect_exact_with_one_late(Kind kind) {
+  for (int lag = 1; lag <= 20; ++lag) {
+    RandomStream stream({.seed = 7, .index = static_cast<std::uint32_t>(lag)});
+    const auto events = drawn_timeline<X::kStates, X::kDimension>(stream, 30);
+    expect_exact<X, Model>(kind, stream, one_late(events, lag), 1);
+  }
+}
+
+// 1 0 3 2 5 4 ...
+template <class X, class Model>
+void expect_exact_with_every_other_late(Kind kind) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    RandomStream stream({.seed = seed});
+    auto events = drawn_timeline<X::kStates, X::kDimension>(stream, 40);
+    for (std::size_t i = 0; i < 40; i += 2) std::swap(events[i], events[i + 1]);
+    expect_exact<X, Model>(kind, stream, events, 20);
+  }
+}
+
+class ExactInAnyOrder : public testing::TestWithParam<Kind> {};
+INSTANTIATE_TEST_SUITE_P(Method, ExactInAnyOrder,
+                         testing::Values(Kind::kRewind, Kind::kAugmented, Kind::kClone), kind_of);
+TEST_P(ExactInAnyOrder, OnALine) { expect_exact_in_any_order<OnLine, Line>(GetParam()); }
+TEST_P(ExactInAnyOrder, OnAPlane) { expect_exact_in_any_order<OnPlane, Plane>(GetParam()); }
+
+class ExactWithOneLate : public testing::TestWithParam<Kind> {};
+INSTANTIATE_TEST_SUITE_P(Method, ExactWithOneLate,
+                         testing::Values(Kind::kRewind, Kind::kAugmented, Kind::kClone, Kind::kAdjoint), kind_of);
+TEST_P(ExactWithOneLate, OfUpToTwentyLagsOnALine) { expect_exact_with_one_late<OnLine, Line>(GetParam()); }
+TEST_P(ExactWithOneLate, OfUpToTwentyLagsOnAPlane) { expect_exact_with_one_late<OnPlane, Plane>(GetParam()); }
+
+// Al1 is Algorithm A here.
+class ExactAtOneLag : public testing::TestWithParam<Kind> {};
+INSTANTIATE_TEST_SUITE_P(Method, ExactAtOneLag, testing::Values(Kind::kA, Kind::kAl1, Kind::kAdjoint), kind_of);
+TEST_P(ExactAtOneLag, EveryOtherLateOnALine) { expect_exact_with_every_other_late<OnLine, Line>(GetParam()); }
+TEST_P(ExactAtOneLag, EveryOtherLateOnAPlane) { expect_exact_with_every_other_late<OnPlane, Plane>(GetParam()); }
+
+// Without process noise there is nothing to ignore.
+class ExactWithoutNoise : public testing::TestWithParam<Kind> {};
+INSTANTIATE_TEST_SUITE_P(Method, ExactWithoutNoise,
+                         testing::Values(Kind::kB, Kind::kC, Kind::kBl1, Kind::kAugmented), kind_of);
+TEST_P(ExactWithoutNoise, EveryOtherLate) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    RandomStream stream({.seed = seed});
+    auto events = drawn_timeline<2, 1>(stream, 20);
+    for (std::size_t i = 0; i < 20; i += 2) std::swap(events[i], events[i + 1]);
+    const Gaussian<2> prior = drawn_prior<2>(stream);
+    OnLine method(GetParam(), Line{0.0});
+    method.start(GlobalTime{}, prior);
+    take_all(method, events);
+    EXPECT_LT((relative_difference<2>(method.state(), in_order<2, 1>(Line{0.0}, prior, events))), 1e-11);
+  }
+}
+
+}  // namespace
+}  // namespace ttf::fusion::oosm
