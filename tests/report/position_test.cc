@@ -229,7 +229,7 @@ TEST(SchedulePicture, DrawsEveryShippedClusterLegibly) {
        {"paper_unsynchronised", "paper_synchronised", "laser_radar", "laser_radar_synchronised", "flexray_demo"}) {
     SCOPED_TRACE(name);
     const std::string svg =
-        schedule_svg(schedules::load_cluster(TTF_SOURCE_DIR "/schedules/" + name + ".yaml"));
+        schedule_svg(schedules::load_cluster(TTF_SOURCE_DIR "/schedules/" + std::string(name) + ".yaml"));
     expect_no_overlaps(svg);
     expect_inside(svg);
     expect_renders(svg);

@@ -118,7 +118,7 @@ TEST(DocumentedExamples, AreWhatIsSent) {
 // Other people's tools read what has identifier 0 by the shipped DBC files.
 TEST(ShippedDbc, ReadsSymbolsAndFollowUpsAsTheyAreSent) {
   for (const char* name : {"paper_synchronised", "laser_radar"}) {
-    std::ifstream file(TTF_SOURCE_DIR "/schedules/" + name + ".dbc");
+    std::ifstream file(TTF_SOURCE_DIR "/schedules/" + std::string(name) + ".dbc");
     const std::string text{std::istreambuf_iterator<char>(file), {}};
     const schedules::DbcMessage message = schedules::read_dbc(text).messages.at(0);
     const auto reads = [&](const canfd_frame& can, int kind, const std::string& signal) {
