@@ -91,7 +91,8 @@ void FlexRayController::State::hear(const Reception& reception) {
     tell(event, reception.end);
     if (poc.kind != PocKind::kInitialiseSchedule) return;
     initialisation.hear(heard);
-    partner_overdue = reception.end + Microticks{p.pMicroPerCycle + p.pRateCorrectionOut + 1};
+    partner_overdue =
+        reception.end + Microticks{p.pMicroPerCycle + p.pRateCorrectionOut + 1} + port.handed_over_within();
   } else if (poc.kind == PocKind::kInitialiseSchedule && heard.frame_id == poc.reference) {
     const auto schedule = initialisation.hear(heard);
     if (!schedule && heard.cycle % 2 == 0) return;   // the other channel's even frame

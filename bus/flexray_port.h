@@ -58,6 +58,9 @@ class FlexRayPort {
   virtual bool may_leave(schedules::Channel channel, int slot, Microticks start) {
     return (void)channel, (void)slot, (void)start, true;
   }
+  // How long after its end a reception may still be handed over: in real time what comes late, or waits for word of how
+  // late it left. A medium in virtual time hands it over at its end (L4).
+  virtual Microticks handed_over_within() const { return {}; }
   // Whether something is arriving just now.
   virtual bool carrier(schedules::Channel channel) const = 0;
   // Whether the next transmission's bytes are looked at; a medium that carries contents can do without.

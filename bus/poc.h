@@ -133,6 +133,9 @@ struct PocState {
   bool operator==(const PocState&) const = default;
 };
 
+// It may not listen for others with the intent to lead (R1): what remains is to join them.
+constexpr bool attempts_exhausted(const PocState& state) { return state.vRemainingColdstartAttempts <= 1; }
+
 // What the controller has to do, in this order.
 enum class PocAction : std::uint8_t {
   kStopTimers = 1,          // listen and noise timer

@@ -6,7 +6,7 @@ namespace {
 PocReason objection_to_coldstart(const PocParameters& parameters, const PocState& state) {
   if (!parameters.pKeySlotUsedForStartup) return PocReason::kNotAColdstartNode;
   if (state.vColdstartInhibit) return PocReason::kColdstartInhibited;
-  if (state.vRemainingColdstartAttempts <= 1) return PocReason::kAttemptsExhausted;
+  if (attempts_exhausted(state)) return PocReason::kAttemptsExhausted;
   return PocReason::kMayColdstart;
 }
 

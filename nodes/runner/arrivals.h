@@ -82,6 +82,8 @@ class Arrivals {
 
   // Something whose begin has come is still on its way.
   bool carrier(schedules::Channel channel, Microticks now) const;
+  // How long after its end a frame in its window may still be handed over: it comes late, and its follow-up as late again.
+  Microticks handed_over_within() const { return {2 * window_.late.value}; }
   std::uint64_t held() const { return used_.size(); }
   // There was no room for them.
   std::uint64_t dropped() const { return dropped_; }

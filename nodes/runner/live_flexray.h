@@ -26,6 +26,7 @@ class LiveFlexRay final : public bus::FlexRayPort {
 
   bool may_leave(schedules::Channel channel, int slot, Microticks start) override;
   void transmit(const bus::Transmission& transmission) override;
+  Microticks handed_over_within() const override { return arrivals_.handed_over_within(); }
   bool carrier(schedules::Channel channel) const override { return arrivals_.carrier(channel, now_); }
 
   // The node's instant, as of everything that is asked until the next one.

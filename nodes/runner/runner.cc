@@ -23,6 +23,7 @@ constexpr Duration kFloorPeriod = Duration::milliseconds(5);
 constexpr Duration kFloorPhase = Duration::microseconds(3500);   // off whole milliseconds, where cycles begin
 constexpr std::uint64_t kDoneBetweenLooks = 1024;   // who has much to catch up with can be stopped all the same
 constexpr Duration kUntilTakenIn = Duration::milliseconds(1);
+constexpr std::int64_t kCyclesUntilAnew = 64;
 constexpr std::size_t kListsWaiting = 4;   // on a CAN, of the largest
 
 bool readable(int descriptor) {
@@ -182,7 +183,7 @@ void Runner::leave(std::size_t can_bus) {
 }
 
 Microticks Runner::next_due() const {
-  Microticks next = std::min(executive_->next_event(), arrivals_.next());
+  Microticks next = std::min({executive_->next_event(), arrivals_.next(), tries_again_});
   for (const auto& can : cans_)
     if (can && can->next() < config_.end) next = std::min(next, ticks(can->next()) + Microticks{1});
   return next;
@@ -206,12 +207,26 @@ void Runner::do_due(Microticks now) {
       account_.wake_ups.add(late);
       if (late > cluster_.arrival_window->late) account_.late_wakeup(last_, late);
       executive_->advance(last_);
-      if (const auto* controller = executive_->controller();
-          controller != nullptr && controller->state().kind == bus::PocKind::kHalt)
-        executive_->start_anew(last_);
     }
+    look_after_controller();
     take_in();
   }
+}
+
+void Runner::look_after_controller() {
+  const bus::FlexRayController* controller = executive_->controller();
+  if (controller == nullptr) return;
+  const bus::PocState& state = controller->state();
+  const schedules::NodeParameters& node = *cluster_.node(config_.node).flexray;
+  const bool gave_up = state.kind == bus::PocKind::kIntegrationListen && node.pKeySlotUsedForStartup &&
+                       bus::attempts_exhausted(state);
+  if (!gave_up)
+    tries_again_ = kNever;
+  else if (tries_again_ == kNever)
+    tries_again_ = last_ + Microticks{kCyclesUntilAnew * node.pMicroPerCycle};
+  if (state.kind != bus::PocKind::kHalt && last_ < tries_again_) return;
+  executive_->start_anew(last_);
+  tries_again_ = kNever;
 }
 
 // A line is watched where something is to be done as soon as something comes.

@@ -7,7 +7,7 @@
 // departure, counted where it is more than the arrival window allows, and never taken out of what is told. A process
 // that was stopped catches up: its node does all it missed, in order, but sends nothing that is too late. One that
 // has missed for too long what its clock goes by halts, as FlexRay has it (gMaxWithoutClockCorrectionFatal), and its
-// host starts it anew: it integrates.
+// host starts it anew: it integrates. So it does with one that may only listen for others, and hears nobody.
 //
 // Arrivals are known by the instants at which they reached the host, so that they need no wake-up of their own, but for
 // those that a task waits for. Steps run on the same thread: one that computes for longer than it is until the next
@@ -19,6 +19,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -107,6 +108,9 @@ class Runner final : private nodes::SensorLines, private nodes::TrueClock, priva
 
   void take_in();
   void do_due(Microticks now);
+  // What a host does: a controller that has halted is started anew, and one whose coldstart attempts are exhausted when
+  // it has listened for kCyclesUntilAnew: where all nodes only listen for others nobody would ever start the cluster.
+  void look_after_controller();
   void hand_over(const Arrivals::Due& due);
   void leave(std::size_t can_bus);
   Microticks next_due() const;
@@ -131,6 +135,7 @@ class Runner final : private nodes::SensorLines, private nodes::TrueClock, priva
   WakeUp wake_up_;
   Microticks last_{};                  // what was done last
   bool listens_ = false;               // FlexRay lines are watched
+  Microticks tries_again_{std::numeric_limits<std::int64_t>::max()};   // at a coldstart, if it still may only listen
   bus::HostTime health_due_{};
   std::function<void(const Health&)> on_health_;
 };

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/random.h"
+#include "tests/bus/alone.h"
 #include "tests/bus/startup_cluster.h"
 
 namespace ttf::bus {
@@ -53,6 +54,37 @@ TEST(Startup, AllPoweredOnInTimeLeaderInSixFollowersInSevenIntegratorsInEight) {
       EXPECT_EQ(problem.status, kNoFrame) << "node " << n;
       EXPECT_LT(problem.cycle, 8) << "node " << n;
     }
+}
+
+// In real time the partner of the first startup frame is handed over when it has come, which may be longer after its end
+// than rates can differ by.
+TEST(Startup, APartnerHandedOverWithinTheMediumsTimeMakesASchedule) {
+  struct LatePort final : FlexRayPort {
+    void transmit(const Transmission&) override {}
+    bool carrier(Channel) const override { return false; }
+    Microticks handed_over_within() const override { return within; }
+    Microticks within{};
+  };
+  constexpr std::int64_t kLongest = 9'000, kRateLimit = 121;   // of 40'000 a cycle
+  const auto state_after = [](std::int64_t within, std::int64_t late) {
+    const schedules::Cluster cluster = startup_cluster(1, 1);
+    LatePort port;
+    port.within = {within};
+    Heard heard;
+    FlexRayController controller(cluster, NodeId{1}, port, heard);
+    controller.start_cold({0});
+    for (const int cycle : {4, 5}) {
+      Frame frame = Frame::status(1, cycle);
+      const auto bytes = frame.bytes();
+      controller.advance({frame.start + frame.length + (cycle == 5 ? late : 0)});
+      controller.receive(received(Channel::kA, {frame.start}, {frame.start + frame.length}, bytes));
+    }
+    return controller.state().kind;
+  };
+  EXPECT_EQ(state_after(0, 0), PocKind::kIntegrationConsistencyCheck);
+  EXPECT_EQ(state_after(0, kRateLimit + 1), PocKind::kIntegrationListen) << "the odd frame begins nothing";
+  EXPECT_EQ(state_after(kLongest, kLongest), PocKind::kIntegrationConsistencyCheck);
+  EXPECT_EQ(state_after(kLongest, kLongest + kRateLimit + 1), PocKind::kIntegrationListen);
 }
 
 TEST(Startup, OneColdstartNodeAloneUsesUpItsAttempts) {

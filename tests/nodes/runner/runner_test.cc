@@ -52,15 +52,16 @@ struct Counted final : records::Sink {
   std::map<std::int64_t, records::Stamp> shown;   // by cycle
 };
 
-// Sleeps before it sends a sync frame: as late as a kernel may be, and more regularly. And stops its node for a while.
+// Sleeps before it sends a sync frame: as late as a kernel may be, and more regularly. And stops its node for a while, and
+// hears nothing at first.
 class Sluggish final : public bus::LiveMedium {
  public:
   struct Stop {
     bus::HostTime at{};
     Duration lasts{};
   };
-  Sluggish(std::unique_ptr<bus::LiveMedium> medium, Duration by, std::optional<Stop> stop)
-      : medium_(std::move(medium)), by_(by), stop_(stop) {}
+  Sluggish(std::unique_ptr<bus::LiveMedium> medium, Duration by, std::optional<Stop> stop, bus::HostTime hears_from)
+      : medium_(std::move(medium)), by_(by), stop_(stop), hears_from_(hears_from) {}
   bus::LiveStatus send(const bus::LiveSignal& signal, bus::HostTime due) override {
     if (signal.tells_late) pause(by_);
     return medium_->send(signal, due);
@@ -70,6 +71,8 @@ class Sluggish final : public bus::LiveMedium {
   }
   std::optional<bus::LiveArrival> receive() override {
     if (stop_ && bus::host_now() >= stop_->at) pause(std::exchange(stop_, {})->lasts);
+    while (bus::host_now() < hears_from_)
+      if (!medium_->receive()) return std::nullopt;
     return medium_->receive();
   }
   int descriptor(bus::Line line) const override { return medium_->descriptor(line); }
@@ -85,6 +88,7 @@ class Sluggish final : public bus::LiveMedium {
   std::unique_ptr<bus::LiveMedium> medium_;
   Duration by_;
   std::optional<Stop> stop_;
+  bus::HostTime hears_from_;
 };
 
 class RunnerTest : public testing::Test {
@@ -111,6 +115,7 @@ class RunnerTest : public testing::Test {
     std::optional<NodeId> stopped = {};
     Duration stopped_at{}, stopped_for{};
     std::size_t room = 1024;
+    Duration deaf_for{};   // all nodes, in the drive's time
   };
   void drive(const Drive& how) {
     test::MemoryLiveBusOptions options;
@@ -127,7 +132,8 @@ class RunnerTest : public testing::Test {
     for (std::size_t n = 0; n < nodes; ++n)
       media.push_back(std::make_unique<Sluggish>(
           bus.join(), n % 2 == 1 ? how.sluggish : Duration{},
-          how.stopped == static_cast<NodeId>(n) ? std::optional(stop) : std::nullopt));
+          how.stopped == static_cast<NodeId>(n) ? std::optional(stop) : std::nullopt,
+          clock.host_time(sim::kFirstCycle + how.deaf_for)));
     std::vector<std::thread> threads;
     for (std::size_t n = 0; n < nodes; ++n)
       threads.emplace_back([&, n] {
@@ -231,6 +237,24 @@ TEST_F(RunnerTest, AClusterStartsUpInRealTime) {
          }});
   for (const char* node : {"laser_pre", "camera_pre", "gateway", "fusion", "feature"})
     EXPECT_EQ(health_of(node).state, "normal active") << node;
+}
+
+// Nobody hears anybody until all coldstart attempts are in vain. Nobody but the hosts can help: a cluster in which all only
+// listen stays silent for good.
+TEST_F(RunnerTest, AClusterWhoseColdstartAttemptsAreExhaustedStartsUpAllTheSame) {
+  cluster_.flexray.gColdStartAttempts = 2;
+  drive({.lasts = Duration::milliseconds(1000),
+         .power_on = [](NodeId) { return std::optional(sim::kFirstCycle); },
+         .deaf_for = Duration::milliseconds(200)});
+  int exhausted = 0;
+  for (const char* node : {"laser_pre", "camera_pre", "gateway", "fusion", "feature"}) {
+    EXPECT_EQ(health_of(node).state, "normal active") << node;
+    const auto& states = of(node).states;
+    const auto first_active = std::find(states.begin(), states.end(), "normal active");
+    exhausted += std::count(states.begin(), first_active, "integration listen") > 0 &&
+                 std::count(states.begin(), first_active, "coldstart listen") > 1;
+  }
+  EXPECT_GE(exhausted, 2) << "nobody had used up its attempts";
 }
 
 TEST_F(RunnerTest, ANodeThatComesLaterIntegrates) {
