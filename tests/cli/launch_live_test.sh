@@ -172,7 +172,8 @@ assert all(log["whole"] for log in facts["logs"]) and min(facts["last_s"].values
 for node in ("laser_pre", "camera_pre", "gateway", "fusion", "feature"):
     assert reached(facts, node)[-1:] in ([], ["normal active"]), (node, facts["states"])
 late = {node["node"]: node["lateness_us"]["wake_ups"]["longest"] for node in summary["strategies"][0]["real_time"]["nodes"]}
-assert all(late[node] > 900_000 for node in ("laser_pre", "camera_pre", "gateway", "fusion", "feature")), late' \
+# Stopped for a second; who was integrating anew just then had nothing due for some of it.
+assert all(late[node] > 500_000 for node in ("laser_pre", "camera_pre", "gateway", "fusion", "feature")), late' \
   "$work/stopped"
 
 # ---- killed: each once, in one drive; each comes back and integrates
