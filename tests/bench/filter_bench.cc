@@ -41,7 +41,7 @@ void Interface(benchmark::State& state) {
   double dt = kDt;
   sensors::Measurement<2> z{.r = 0.04 * Matrix<2>::Identity()};
   for (auto _ : state) {
-    benchmark::DoNotOptimize(dt);
+    bench::hide(dt);
     for (int i = 0; i < kBatch; ++i) {
       z.z = seen.z[i];
       filter.predict(model, estimate, dt);
@@ -91,7 +91,7 @@ void PlainEigen(benchmark::State& state) {
   h(0, 0) = h(1, 1) = 1.0;
   const Matrix<2> r = 0.04 * Matrix<2>::Identity();
   for (auto _ : state) {
-    benchmark::DoNotOptimize(dt);
+    bench::hide(dt);
     for (int i = 0; i < kBatch; ++i) {
       const LinearStep<N> step = written_out<N>(dt);
       estimate.x = step.f * estimate.x;

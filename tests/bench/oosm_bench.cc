@@ -72,7 +72,7 @@ void Plain(benchmark::State& state) {
   Gaussian<4> now{Vector<4>::Zero(), Matrix<4>::Identity()};
   double dt = 0.04;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(dt);
+    bench::hide(dt);
     const LinearStep<4> step = motion.step(dt);
     const Vector<4> x = step.f * now.x;
     const Matrix<4> p = step.f * now.p * step.f.transpose() + step.q;

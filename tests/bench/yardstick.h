@@ -8,6 +8,10 @@
 
 namespace ttf::bench {
 
+// So that the compiler does not know the number. benchmark::DoNotOptimize (1.7) offers g++ 12 memory and a register for it,
+// and may get one written and the other read: a time step came back as 7e-310.
+inline void hide(double& value) { asm volatile("" : "+x"(value)); }
+
 inline constexpr int kYardstickSteps = 100'000;
 
 inline void Yardstick(benchmark::State& state) {

@@ -1,0 +1,30 @@
+// A step of constant velocity, and positions that are measured: what both forms take (axes.h, joint.h).
+#pragma once
+
+#include "fusion/batch/lanes.h"
+#include "fusion/motion/constant_velocity.h"
+
+namespace ttf::fusion::batch {
+
+// By dt >= 0 seconds: x += dt v, and what white acceleration adds to the covariance of (position, velocity) in each axis.
+struct Step {
+  double dt = 0.0;
+  double q_xx = 0.0, q_xv = 0.0, q_vv = 0.0;
+
+  Step() = default;
+  Step(const motion::ConstantVelocity& model, double by) : dt(by) {
+    const Matrix<4> q = model.noise(Vector<4>::Zero(), by);
+    q_xx = q(0, 0), q_xv = q(0, 2), q_vv = q(2, 2);
+  }
+};
+
+// z = (x, y) [m] with the covariance of its noise, which is positive definite; of lanes that are not `seen` it is not
+// looked at, but must be so all the same.
+template <class V>
+struct Position {
+  V x{}, y{};
+  V r_xx{}, r_xy{}, r_yy{};
+  typename MaskOf<V>::Type seen{};
+};
+
+}  // namespace ttf::fusion::batch
