@@ -89,12 +89,12 @@ class Batch {
     for (Form<Lanes>& block : blocks_) batch::predict(block, step);
   }
   void update(const Positions& z) {
-    TTF_CHECK(z.blocks().size() == blocks_.size(), "{} blocks of measurements for {}", z.blocks().size(), blocks_.size());
+    check_size(z);
     for (std::size_t b = 0; b < blocks_.size(); ++b) batch::update(blocks_[b], z.blocks()[b]);
   }
   // Both in one pass through memory.
   void step(const Step& by, const Positions& z) {
-    TTF_CHECK(z.blocks().size() == blocks_.size(), "{} blocks of measurements for {}", z.blocks().size(), blocks_.size());
+    check_size(z);
     for (std::size_t b = 0; b < blocks_.size(); ++b) {
       batch::predict(blocks_[b], by);
       batch::update(blocks_[b], z.blocks()[b]);
@@ -102,6 +102,10 @@ class Batch {
   }
 
  private:
+  void check_size(const Positions& z) const {
+    TTF_CHECK(z.blocks().size() == blocks_.size(), "{} blocks of measurements of {}", z.blocks().size(), blocks_.size());
+  }
+
   std::size_t count_;
   std::vector<Form<Lanes>> blocks_;
 };

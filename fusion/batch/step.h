@@ -6,7 +6,8 @@
 
 namespace ttf::fusion::batch {
 
-// By dt >= 0 seconds: x += dt v, and what white acceleration adds to the covariance of (position, velocity) in each axis.
+// By dt >= 0 seconds: x += dt v, and what white acceleration adds to the covariance of (position, velocity) in either
+// axis.
 struct Step {
   double dt = 0.0;
   double q_xx = 0.0, q_xv = 0.0, q_vv = 0.0;

@@ -1,5 +1,6 @@
 // Predictions and updates of many constant-velocity filters at once, four to a register, against one filter at a time.
-// `pairs` counts prediction + update; 1,000 filters and their measurements, which the second-level cache holds, and 100.
+// `pairs` counts prediction + update: of 100 filters, and of 1,000 with their measurements, which the second-level cache
+// holds.
 #include <benchmark/benchmark.h>
 
 #include <cstddef>

@@ -23,7 +23,9 @@ const motion::ConstantVelocity kModel(3.0);
 // Whatever a filter of the form may hold, and may be told.
 template <template <class> class Form>
 Gaussian<4> prior(RandomStream& stream) {
-  Gaussian<4> state{drawn<4>(Vector<4>::Zero(), 100.0 * Matrix<4>::Identity(), stream), drawn_covariance<4>(stream, 5.0)};
+  Gaussian<4> state;
+  state.x = drawn<4>(Vector<4>::Zero(), 100.0 * Matrix<4>::Identity(), stream);
+  state.p = drawn_covariance<4>(stream, 5.0);
   for (int r = 0; r < 4; ++r)
     for (int c = 0; c < 4; ++c)
       if (std::is_same_v<Form<double>, batch::Axes<double>> && (r + c) % 2 == 1) state.p(r, c) = 0.0;
@@ -31,7 +33,9 @@ Gaussian<4> prior(RandomStream& stream) {
 }
 template <template <class> class Form>
 Measurement<2> seen(RandomStream& stream) {
-  Measurement<2> z{drawn<2>(Vector<2>::Zero(), 100.0 * Matrix<2>::Identity(), stream), drawn_covariance<2>(stream, 0.3)};
+  Measurement<2> z;
+  z.z = drawn<2>(Vector<2>::Zero(), 100.0 * Matrix<2>::Identity(), stream);
+  z.r = drawn_covariance<2>(stream, 0.3);
   if (std::is_same_v<Form<double>, batch::Axes<double>>) z.r(0, 1) = z.r(1, 0) = 0.0;
   return z;
 }
