@@ -18,10 +18,10 @@ programs=(
   node:nodejs npm:npm   # the log's official reader
   tshark:tshark         # captures, as Wireshark sees them
 )
-# The slower gates (.ci/run) also need a second compiler and the fuzzer's runtime, and the test bed: a kernel's source, what
-# it is built with, and strangers for its CANs.
+# The slower gates (.ci/run) also need a second compiler and the fuzzer's runtime, what counts instructions, and the test bed:
+# a kernel's source, what it is built with, and strangers for its CANs.
 if [[ ${1:-} == --gates ]]; then
-  packages+=(clang libclang-rt-14-dev)
+  packages+=(clang libclang-rt-14-dev valgrind)
   packages+=(linux-source-6.1 xz-utils make flex bison bc busybox-static iproute2 can-utils)
 fi
 

@@ -1,0 +1,187 @@
+// The hot paths, one at a time, for counting their instructions (tools/instruction_counts.sh): what is inside counted() is
+// counted, what prepares it is not.
+//   ttf_hot_paths --list     their names
+//   ttf_hot_paths NAME       once, as often as it takes for some 10,000 instructions or more
+#include <cstdio>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bus/wire/flexray_frame.h"
+#include "fusion/batch/batch.h"
+#include "fusion/filters/kalman.h"
+#include "fusion/filters/unscented.h"
+#include "fusion/motion/constant_acceleration.h"
+#include "fusion/motion/constant_velocity.h"
+#include "fusion/motion/ctrv.h"
+#include "fusion/oosm/any_method.h"
+#include "fusion/sensors/position.h"
+#include "sim/bus_simulation.h"
+#include "tests/bench/crowd.h"
+#include "tests/fusion/oosm/timelines.h"
+#include "tests/sim/bus_clusters.h"
+
+namespace ttf {
+namespace {
+
+// Known by its name to who counts.
+extern "C" [[gnu::noinline]] void counted(const std::function<void()>& path) { path(); }
+
+// ---- one object
+
+template <class F, class M>
+void filter_pairs() {
+  const F filter;
+  const M model{};
+  fusion::Gaussian<M::kStates> state;
+  state.p.setIdentity();
+  fusion::sensors::Measurement<2> z;
+  counted([&] {
+    for (int i = 0; i < 100; ++i) {
+      z.z = {0.1 * i + 0.3 * ((i * 7) % 5), 0.05 * i - 0.2 * ((i * 3) % 4)};
+      filter.predict(model, state, 0.05);
+      filter.update(model, fusion::sensors::Position{}, z, state);
+    }
+  });
+}
+
+// A thousand filters, four to a register.
+void batch_axes() {
+  fusion::batch::Batch<fusion::batch::Axes> batch(1000);
+  fusion::batch::Positions z(1000);
+  fusion::Gaussian<4> prior;
+  prior.p.setIdentity();
+  for (std::size_t i = 0; i < 1000; ++i) batch.set(i, prior), z.set(i, {});
+  counted([&] { batch.step({fusion::motion::ConstantVelocity(2.0), 0.05}, z); });
+}
+
+// ---- one object, late
+
+using Plane = fusion::oosm::ConstantVelocity<2>;
+
+// Three scans late, among fifteen that are 40 ms apart.
+template <class X>
+void late_by_three() {
+  using namespace fusion::oosm;
+  constexpr int kScans = 15;
+  fusion::LinearMeasurement<4, 2> seen;
+  seen.h(0, 0) = seen.h(1, 2) = 1.0;
+  const Stamp late = stamp_at(after_ms(40 * (kScans - 3) + 20), 1);
+  X method(Plane{});
+  method.start(GlobalTime{}, {fusion::Vector<4>::Zero(), fusion::Matrix<4>::Identity()});
+  for (int i = 1; i <= kScans; ++i) {
+    method.announce(late);
+    seen.z = {static_cast<double>(i), static_cast<double>(-i)};
+    method.take(stamp_at(after_ms(40 * i)), seen);
+  }
+  counted([&] { method.take(late, seen); });
+}
+
+// ---- 25 objects
+
+void fusion_cycle() {
+  const auto strategy = fusion::scene().start(fusion::StrategyKind::kAdva, fusion::kWarm);
+  const auto& laser = fusion::scene().laser[fusion::kWarm];
+  const auto& camera = fusion::scene().camera[fusion::kWarm];
+  std::vector<fusion::TrackView> image;
+  image.reserve(64);
+  counted([&] {
+    strategy->accept(laser.view());
+    strategy->accept(camera.view());
+    strategy->fuse(camera.measured + Duration::milliseconds(60));
+    strategy->image(camera.measured + Duration::milliseconds(100), image);
+  });
+}
+
+void fusion_late_scan() {
+  const auto strategy = fusion::scene().start(fusion::StrategyKind::kAdva, fusion::kWarm);
+  const auto& late = fusion::scene().laser[fusion::kWarm];
+  const GlobalTime now = late.measured + Duration::milliseconds(1000);
+  strategy->accept(fusion::scene().camera[fusion::kWarm].view());
+  strategy->accept(fusion::scene().laser[fusion::kWarm + 1].view());
+  strategy->fuse(now);
+  counted([&] {
+    strategy->accept(late.view());
+    strategy->fuse(now);
+  });
+}
+
+// ---- the bus
+
+struct Frame {
+  std::vector<std::byte> payload = std::vector<std::byte>(56, std::byte{0x5A});
+  std::vector<std::byte> bytes = std::vector<std::byte>(wire::kMaxFrameBytes);
+  wire::FrameHeader header;
+  Frame() { header.frame_id = 9; }
+  std::size_t encode() { return wire::encode_frame(header, schedules::Channel::kA, payload, bytes); }
+};
+void frame_encode() {
+  Frame frame;
+  counted([&] {
+    for (int i = 0; i < 100; ++i) frame.encode();
+  });
+}
+void frame_decode() {
+  Frame frame;
+  const std::size_t size = frame.encode();
+  counted([&] {
+    for (int i = 0; i < 100; ++i) wire::decode_frame(schedules::Channel::kA, std::span(frame.bytes).first(size));
+  });
+}
+
+// Four nodes, all 64 static slots in use on both channels, one cycle.
+void bus_cycle() {
+  schedules::Cluster cluster = sim::bus_cluster(4, 3, 4);
+  for (int slot = 5; slot <= cluster.flexray.gNumberOfStaticSlots; ++slot)
+    cluster.frames.push_back({slot, schedules::Channels::kAB, 0, 1, static_cast<NodeId>((slot - 1) % 4), kNoPdu, 0, 0});
+  bus::ControllerEvents nobody;
+  std::vector<sim::BusNode> nodes;
+  for (int n = 0; n < 4; ++n) {
+    sim::BusNode node{timebase::Oscillator(25'000, 10'000 * n, 0)};
+    node.clock = bus::InitialClock{node.oscillator.ticks_at(TrueTime{1'000'000}), 0};
+    nodes.push_back(node);
+  }
+  sim::BusSimulation simulation(cluster, std::move(nodes), std::vector<bus::ControllerEvents*>(4, &nobody));
+  simulation.run_until(TrueTime{1'000'000} + cluster.cycle() * 10);
+  counted([&] { simulation.run_until(simulation.now() + cluster.cycle()); });
+}
+
+struct Path {
+  const char* name;
+  void (*run)();
+};
+constexpr int kRemembered = 16;
+const Path kPaths[] = {
+    {"kalman_constant_velocity", filter_pairs<fusion::filters::Kalman, fusion::motion::ConstantVelocity>},
+    {"kalman_constant_acceleration", filter_pairs<fusion::filters::Kalman, fusion::motion::ConstantAcceleration>},
+    {"unscented_ctrv", filter_pairs<fusion::filters::Unscented, fusion::motion::Ctrv>},
+    {"batch_axes", batch_axes},
+    {"late_rewind", late_by_three<fusion::oosm::Rewind<4, 2, Plane, kRemembered>>},
+    {"late_clone", late_by_three<fusion::oosm::Clone<4, 2, Plane, 8>>},
+    {"late_augmented", late_by_three<fusion::oosm::Augmented<4, 2, Plane, kRemembered>>},
+    {"late_adjoint", late_by_three<fusion::oosm::Adjoint<4, 2, Plane, kRemembered>>},
+    {"late_al1", late_by_three<fusion::oosm::Al1<4, 2, Plane, kRemembered>>},
+    {"fusion_cycle", fusion_cycle},
+    {"fusion_late_scan", fusion_late_scan},
+    {"frame_encode", frame_encode},
+    {"frame_decode", frame_decode},
+    {"bus_cycle", bus_cycle},
+};
+
+int run(std::string_view name) {
+  for (const Path& path : kPaths) {
+    if (name == "--list") std::puts(path.name);
+    if (name != path.name) continue;
+    path.run();
+    return 0;
+  }
+  if (name == "--list") return 0;
+  std::fprintf(stderr, "error: no hot path is called '%s'\n", std::string(name).c_str());
+  return 2;
+}
+
+}  // namespace
+}  // namespace ttf
+
+int main(int argc, char** argv) { return ttf::run(argc == 2 ? argv[1] : "--help"); }
