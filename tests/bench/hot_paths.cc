@@ -1,7 +1,7 @@
 // The hot paths, one at a time, for counting their instructions (tools/instruction_counts.sh): what is inside counted() is
 // counted, what prepares it is not.
 //   ttf_hot_paths --list     their names
-//   ttf_hot_paths NAME       once, as often as it takes for some 10,000 instructions or more
+//   ttf_hot_paths NAME
 #include <cstdio>
 #include <functional>
 #include <string>
@@ -60,14 +60,14 @@ void batch_axes() {
 
 using Plane = fusion::oosm::ConstantVelocity<2>;
 
-// Three scans late, among fifteen that are 40 ms apart.
-template <class X>
-void late_by_three() {
+// Some scans late, among fifteen that are 40 ms apart.
+template <class X, int lag>
+void late_by() {
   using namespace fusion::oosm;
   constexpr int kScans = 15;
   fusion::LinearMeasurement<4, 2> seen;
   seen.h(0, 0) = seen.h(1, 2) = 1.0;
-  const Stamp late = stamp_at(after_ms(40 * (kScans - 3) + 20), 1);
+  const Stamp late = stamp_at(after_ms(40 * (kScans - lag) + 20), 1);
   X method(Plane{});
   method.start(GlobalTime{}, {fusion::Vector<4>::Zero(), fusion::Matrix<4>::Identity()});
   for (int i = 1; i <= kScans; ++i) {
@@ -152,16 +152,47 @@ struct Path {
   void (*run)();
 };
 constexpr int kRemembered = 16;
+using Rewind = fusion::oosm::Rewind<4, 2, Plane, kRemembered>;
+using Augmented = fusion::oosm::Augmented<4, 2, Plane, kRemembered>;
+using Clone = fusion::oosm::Clone<4, 2, Plane, 8>;
+using Adjoint = fusion::oosm::Adjoint<4, 2, Plane, kRemembered>;
+using Al1 = fusion::oosm::Al1<4, 2, Plane, kRemembered>;
+using Bl1 = fusion::oosm::Bl1<4, 2, Plane, kRemembered>;
+using AlgorithmA = fusion::oosm::AlgorithmA<4, 2, Plane>;
+using AlgorithmB = fusion::oosm::AlgorithmB<4, 2, Plane>;
+using AlgorithmC = fusion::oosm::AlgorithmC<4, 2, Plane>;
 const Path kPaths[] = {
     {"kalman_constant_velocity", filter_pairs<fusion::filters::Kalman, fusion::motion::ConstantVelocity>},
     {"kalman_constant_acceleration", filter_pairs<fusion::filters::Kalman, fusion::motion::ConstantAcceleration>},
     {"unscented_ctrv", filter_pairs<fusion::filters::Unscented, fusion::motion::Ctrv>},
     {"batch_axes", batch_axes},
-    {"late_rewind", late_by_three<fusion::oosm::Rewind<4, 2, Plane, kRemembered>>},
-    {"late_clone", late_by_three<fusion::oosm::Clone<4, 2, Plane, 8>>},
-    {"late_augmented", late_by_three<fusion::oosm::Augmented<4, 2, Plane, kRemembered>>},
-    {"late_adjoint", late_by_three<fusion::oosm::Adjoint<4, 2, Plane, kRemembered>>},
-    {"late_al1", late_by_three<fusion::oosm::Al1<4, 2, Plane, kRemembered>>},
+    {"late_rewind_1", late_by<Rewind, 1>},
+    {"late_rewind_3", late_by<Rewind, 3>},
+    {"late_rewind_5", late_by<Rewind, 5>},
+    {"late_rewind_10", late_by<Rewind, 10>},
+    {"late_augmented_1", late_by<Augmented, 1>},
+    {"late_augmented_3", late_by<Augmented, 3>},
+    {"late_augmented_5", late_by<Augmented, 5>},
+    {"late_augmented_10", late_by<Augmented, 10>},
+    {"late_clone_1", late_by<Clone, 1>},
+    {"late_clone_3", late_by<Clone, 3>},
+    {"late_clone_5", late_by<Clone, 5>},
+    {"late_clone_10", late_by<Clone, 10>},
+    {"late_adjoint_1", late_by<Adjoint, 1>},
+    {"late_adjoint_3", late_by<Adjoint, 3>},
+    {"late_adjoint_5", late_by<Adjoint, 5>},
+    {"late_adjoint_10", late_by<Adjoint, 10>},
+    {"late_al1_1", late_by<Al1, 1>},
+    {"late_al1_3", late_by<Al1, 3>},
+    {"late_al1_5", late_by<Al1, 5>},
+    {"late_al1_10", late_by<Al1, 10>},
+    {"late_bl1_1", late_by<Bl1, 1>},
+    {"late_bl1_3", late_by<Bl1, 3>},
+    {"late_bl1_5", late_by<Bl1, 5>},
+    {"late_bl1_10", late_by<Bl1, 10>},
+    {"late_a_1", late_by<AlgorithmA, 1>},
+    {"late_b_1", late_by<AlgorithmB, 1>},
+    {"late_c_1", late_by<AlgorithmC, 1>},
     {"fusion_cycle", fusion_cycle},
     {"fusion_late_scan", fusion_late_scan},
     {"frame_encode", frame_encode},
