@@ -30,7 +30,11 @@ constexpr int kLags[] = {1, 3, 5, 10};
 constexpr double kNoises[] = {0.001, 0.01, 0.1, 1.0, 10.0, 100.0};
 constexpr Kind kLateKinds[] = {Kind::kC, Kind::kB, Kind::kA, Kind::kBl1, Kind::kAl1};
 
-std::string colour_of(Kind kind) { return report::palette(static_cast<std::size_t>(kind)); }
+std::string colour_of(Kind kind) {
+  constexpr std::string_view kColours[] = {report::kBlack, report::kGrey,   report::kGreen,  report::kPurple, report::kBlue,
+                                           report::kVermilion, report::kYellow, report::kSkyBlue, report::kOrange};
+  return std::string(kColours[static_cast<std::size_t>(kind)]);
+}
 
 bool one_lag_only(Kind kind) { return kind == Kind::kA || kind == Kind::kB || kind == Kind::kC; }
 
@@ -163,13 +167,15 @@ std::string cost_picture(const Costs& costs) {
 std::string error_picture() {
   std::vector<Panel> panels;
   for (const int lag : {1, 3}) {
-    Panel panel{lag == 1 ? "1 lag" : "3 lags", "process noise q [m^2/s^3], power of ten", "worse by [%]", {-3, 2},
-                lag == 1 ? report::Extent{0, 40} : report::Extent{0, 10}, {}};
+    Panel panel{lag == 1 ? "1 lag" : "3 lags", "process noise q [m^2/s^3], power of ten", "worse by [%], power of ten",
+                {-3, 2}, {-3, 2}, {}};
     const auto curve = [&](std::string_view name, std::optional<Kind> kind, const std::string& colour) {
-      Curve made{std::string(name), colour, kind ? "" : "5 3", {}};
+      // B and Bl1 are one line at one lag.
+      Curve made{std::string(name), colour, !kind ? "5 3" : kind == Kind::kBl1 ? "2 4" : "", {}};
       for (int step = -30; step <= 20; ++step)
-        made.points.push_back({0.1 * step, worse_by(kind, std::pow(10.0, 0.1 * step), lag)});
-      panel.curves.push_back(std::move(made));
+        if (const double worse = worse_by(kind, std::pow(10.0, 0.1 * step), lag); worse > 1e-4)
+          made.points.push_back({0.1 * step, std::log10(worse)});
+      if (!made.points.empty()) panel.curves.push_back(std::move(made));
     };
     curve("left out", {}, std::string(report::kBlack));
     for (const Kind kind : kLateKinds)
