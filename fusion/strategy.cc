@@ -97,8 +97,8 @@ class TimelineStrategy : public Strategy {
     out.clear();
     const TrackSet& set = timeline_.current();
     for (const Track& track : set.tracks)
-      if (track.confirmed && !given_up(track, set.time, at, config_))
-        out.push_back(view_of(track, set.time, at, config_));
+      if (track.confirmed && !given_up(track, set.time, at, config_, timeline_.estimator()))
+        out.push_back(view_of(track, set.time, at, config_, timeline_.estimator()));
   }
 
  protected:
@@ -163,9 +163,9 @@ class TimelineStrategy : public Strategy {
     tentative_ = 0;
     const TrackSet& set = timeline_.current();
     for (const Track& track : set.tracks) {
-      if (given_up(track, set.time, now, config_)) continue;
+      if (given_up(track, set.time, now, config_, timeline_.estimator())) continue;
       if (track.confirmed)
-        views_.push_back(view_of(track, set.time, set.time, config_));
+        views_.push_back(view_of(track, set.time, set.time, config_, timeline_.estimator()));
       else
         ++tentative_;
     }

@@ -47,6 +47,7 @@ class Timeline {
   Insertion insert(const Scan& scan);
   // The newest tracks, confirmed ones with their ids.
   const TrackSet& current() const;
+  const Estimator& estimator() const { return tracker_.estimator(); }   // of the tracks' estimates
   // Whether this measurement is in it: a sensor that restarts gives its numbers again, to other instants.
   bool contains(const MeasurementId& id, GlobalTime measured) const;
 

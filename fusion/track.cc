@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "fusion/motion/angles.h"
+
 namespace ttf::fusion {
 
 Scalar predicted(const Scalar& scalar, double noise, double dt) {
@@ -14,11 +16,11 @@ Scalar predicted(const Scalar& scalar, double noise, double dt) {
 
 double nearest_half_turn(double axis, double expected) {
   constexpr double kPi = std::numbers::pi;
-  const double difference = wrap_angle(axis - expected);
-  return std::abs(difference) <= 0.5 * kPi ? axis : wrap_angle(axis + kPi);
+  const double difference = to_half_turn(axis - expected);
+  return std::abs(difference) <= 0.5 * kPi ? axis : to_half_turn(axis + kPi);
 }
 
-Facing facing_of(const Estimate& estimate, const Scalar& axis) {
+Facing facing_of(const Cartesian& estimate, const Scalar& axis) {
   // Variance of an angle of which nothing is known.
   constexpr double kUnknown = std::numbers::pi * std::numbers::pi / 3.0;
   const double vx = estimate.x(2), vy = estimate.x(3), speed = std::hypot(vx, vy);
@@ -31,31 +33,34 @@ Facing facing_of(const Estimate& estimate, const Scalar& axis) {
       across.dot(estimate.p.block<2, 2>(2, 2) * across) / std::max(1e-6, speed * speed);
   const bool moving = course_variance < kUnknown / 4.0;
   if (moving && axis.known) {
-    const double difference = wrap_angle(nearest_half_turn(axis.value, course) - course);
+    const double difference = to_half_turn(nearest_half_turn(axis.value, course) - course);
     const double weight = course_variance / (course_variance + axis.variance);
-    return {wrap_angle(course + weight * difference),
+    return {to_half_turn(course + weight * difference),
             std::sqrt(course_variance * axis.variance / (course_variance + axis.variance))};
   }
   if (moving) return {course, std::sqrt(course_variance)};
-  if (axis.known) return {wrap_angle(axis.value), std::sqrt(axis.variance)};
+  if (axis.known) return {to_half_turn(axis.value), std::sqrt(axis.variance)};
   return {course, std::sqrt(kUnknown)};
 }
 
-bool given_up(const Track& track, GlobalTime time, GlobalTime at, const TrackerConfig& config) {
+bool given_up(const Track& track, GlobalTime time, GlobalTime at, const TrackerConfig& config,
+              const Estimator& estimator) {
   at = std::max(at, time);
   const Duration silent = at - track.newest.measured;
   if (silent <= config.coast_after) return false;
   if (silent > config.delete_after) return true;
   Estimate estimate = track.estimate;
-  predict(estimate, config.motion, config.process_noise, (at - time).seconds());
+  estimator.predict(estimate, (at - time).seconds());
   const double largest = config.delete_position_sigma * config.delete_position_sigma;
-  return estimate.p(0, 0) > largest || estimate.p(1, 1) > largest;
+  return estimator.position(estimate).p.diagonal().maxCoeff() > largest;
 }
 
-TrackView view_of(const Track& track, GlobalTime time, GlobalTime at, const TrackerConfig& config) {
-  Estimate estimate = track.estimate;
+TrackView view_of(const Track& track, GlobalTime time, GlobalTime at, const TrackerConfig& config,
+                  const Estimator& estimator) {
+  Estimate later = track.estimate;
   const double dt = std::max(0.0, (at - time).seconds());
-  predict(estimate, config.motion, config.process_noise, dt);
+  estimator.predict(later, dt);
+  const Cartesian estimate = estimator.cartesian(later);
   TrackView view;
   view.id = track.id;
   view.valid_at = std::max(at, time);

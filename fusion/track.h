@@ -5,8 +5,8 @@
 
 #include "core/ids.h"
 #include "core/time.h"
+#include "fusion/estimator.h"
 #include "fusion/extent.h"
-#include "fusion/filter.h"
 #include "fusion/tracker_config.h"
 
 namespace ttf::fusion {
@@ -46,7 +46,7 @@ struct Facing {
   double heading = 0.0;
   double sigma = 0.0;
 };
-Facing facing_of(const Estimate& estimate, const Scalar& axis);
+Facing facing_of(const Cartesian& estimate, const Scalar& axis);
 
 // An object's axis is measured up to half a turn: the turn that fits the expected direction better is meant.
 double nearest_half_turn(double axis, double expected);
@@ -54,7 +54,7 @@ double nearest_half_turn(double axis, double expected);
 struct TrackView {
   TrackId id{};
   GlobalTime valid_at{};
-  State state = State::Zero();
+  State state = State::Zero();   // (fusion/estimate.h)
   Covariance covariance = Covariance::Zero();
   // Speed: magnitude of the velocity; acceleration: along the heading.
   double heading = 0.0, sigma_heading = 0.0;
@@ -73,9 +73,11 @@ struct TrackView {
 //   - or older than coast_after, and the position predicted to `at` is less certain than delete_position_sigma on an
 //     axis.
 // Such a track is in no image and takes no observation any more: what it might have been is born anew.
-bool given_up(const Track& track, GlobalTime time, GlobalTime at, const TrackerConfig& config);
+bool given_up(const Track& track, GlobalTime time, GlobalTime at, const TrackerConfig& config,
+              const Estimator& estimator);
 
 // A track whose state is of `time`, predicted to `at`; never backwards.
-TrackView view_of(const Track& track, GlobalTime time, GlobalTime at, const TrackerConfig& config);
+TrackView view_of(const Track& track, GlobalTime time, GlobalTime at, const TrackerConfig& config,
+                  const Estimator& estimator);
 
 }  // namespace ttf::fusion

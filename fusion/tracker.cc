@@ -6,6 +6,7 @@
 
 #include "core/check.h"
 #include "fusion/metrics.h"
+#include "fusion/motion/angles.h"
 
 namespace ttf::fusion {
 namespace {
@@ -36,12 +37,14 @@ void TrackSet::assign(const TrackSet& other) {
 
 Tracker::Tracker(const TrackerConfig& config, std::size_t max_observations)
     : config_(config),
+      estimator_(make_estimator(config)),
       max_observations_(max_observations),
       max_tracks_(static_cast<std::size_t>(config.max_objects) + 3 * max_observations),
       assignment_(max_observations, max_tracks_),
       near_track_(max_observations),
       observation_of_(max_tracks_) {
   candidates_.reserve(max_observations * max_tracks_);
+  positions_.reserve(max_tracks_);
   for (int dimension = 1; dimension <= 3; ++dimension)
     gate_[dimension] = chi_square_quantile(config.gate_probability, dimension);
 }
@@ -53,7 +56,9 @@ void Tracker::step(TrackSet& set, const Scan& scan) {
     set.time = scan.measured;
   }
   predict_all(set, scan.measured);
-  std::erase_if(set.tracks, [&](const Track& track) { return given_up(track, set.time, set.time, config_); });
+  std::erase_if(set.tracks, [&](const Track& track) { 
+    return given_up(track, set.time, set.time, config_, *estimator_);
+  });
   associate(set, scan);
   for (std::size_t t = 0; t < set.tracks.size(); ++t) {
     Track& track = set.tracks[t];
@@ -64,7 +69,7 @@ void Tracker::step(TrackSet& set, const Scan& scan) {
     if (observation >= 0) {
       const Observation& z = scan.observations[static_cast<std::size_t>(observation)];
       track.newest = {scan.id, static_cast<std::uint16_t>(observation), scan.measured};
-      correct(track, z, innovate(track.estimate, z));
+      correct(track, z);
     }
   }
   give_birth(set, scan);
@@ -74,7 +79,7 @@ void Tracker::step(TrackSet& set, const Scan& scan) {
 void Tracker::predict_all(TrackSet& set, GlobalTime to) const {
   const double dt = (to - set.time).seconds();
   for (Track& track : set.tracks) {
-    predict(track.estimate, config_.motion, config_.process_noise, dt);
+    estimator_->predict(track.estimate, dt);
     track.heading = predicted(track.heading, config_.heading_noise, dt);
     predict(track.extent, config_.extent_noise, dt);
   }
@@ -84,6 +89,8 @@ void Tracker::predict_all(TrackSet& set, GlobalTime to) const {
 void Tracker::associate(const TrackSet& set, const Scan& scan) {
   candidates_.clear();
   std::fill(near_track_.begin(), near_track_.end(), 0);
+  positions_.clear();
+  for (const Track& track : set.tracks) positions_.push_back(estimator_->position(track.estimate));
   for (std::size_t o = 0; o < scan.observations.size(); ++o) {
     const Observation& z = scan.observations[o];
     const double gate = gate_[dimension_of(z.kind)];
@@ -91,17 +98,15 @@ void Tracker::associate(const TrackSet& set, const Scan& scan) {
       const Track& track = set.tracks[t];
       if (z.kind == ObservationKind::kPosition) {
         // Cheap bound first: outside the gate on one axis alone is outside the gate.
-        const double dx = z.z(0) - track.estimate.x(0), dy = z.z(1) - track.estimate.x(1);
-        if (dx * dx > gate * (track.estimate.p(0, 0) + z.r(0, 0)) ||
-            dy * dy > gate * (track.estimate.p(1, 1) + z.r(1, 1)))
-          continue;
+        const Gaussian<2>& at = positions_[t];
+        const double dx = z.z(0) - at.x(0), dy = z.z(1) - at.x(1);
+        if (dx * dx > gate * (at.p(0, 0) + z.r(0, 0)) || dy * dy > gate * (at.p(1, 1) + z.r(1, 1))) continue;
       }
-      const Innovation innovation = innovate(track.estimate, z);
-      if (!innovation.valid || innovation.distance_squared > gate) continue;
+      const std::optional<double> distance_squared = estimator_->distance_squared(track.estimate, z);
+      if (!distance_squared || *distance_squared > gate) continue;
       if (track.confirmed) near_track_[o] = 1;
       // Never exactly zero: a pair on the gate's edge is still better than none.
-      const double gain =
-          gate - innovation.distance_squared + 1e-9 + (track.confirmed ? kConfirmedBonus : 0.0);
+      const double gain = gate - *distance_squared + 1e-9 + (track.confirmed ? kConfirmedBonus : 0.0);
       candidates_.push_back({static_cast<int>(o), static_cast<int>(t), gain});
     }
   }
@@ -112,16 +117,17 @@ void Tracker::associate(const TrackSet& set, const Scan& scan) {
     if (columns[o] >= 0) observation_of_[static_cast<std::size_t>(columns[o])] = static_cast<int>(o);
 }
 
-void Tracker::correct(Track& track, const Observation& z, const Innovation& innovation) const {
-  update(track.estimate, z, innovation);
+void Tracker::correct(Track& track, const Observation& z) const {
+  estimator_->update(track.estimate, z);
   if (z.has_heading) {
-    const double vx = track.estimate.x(2), vy = track.estimate.x(3);
+    const Cartesian now = estimator_->cartesian(track.estimate);
+    const double vx = now.x(2), vy = now.x(3);
     const double expected = track.heading.known        ? track.heading.value
                             : std::hypot(vx, vy) > 1.0 ? std::atan2(vy, vx)
                                                        : z.heading;
     const double measured = nearest_half_turn(z.heading, expected);
-    correct_scalar(track.heading, wrap_angle(measured - track.heading.value), measured, z.sigma_heading);
-    track.heading.value = wrap_angle(track.heading.value);
+    correct_scalar(track.heading, to_half_turn(measured - track.heading.value), measured, z.sigma_heading);
+    track.heading.value = to_half_turn(track.heading.value);
   }
   correct_extent(track, z);
 }
@@ -132,14 +138,15 @@ void Tracker::correct_extent(Track& track, const Observation& z) const {
   if (z.has_length) correct_length(track.extent, z.length, z.sigma_length);
   if (z.has_width) correct_width(track.extent, z.width, z.sigma_width);
   if (!z.has_span) return;
-  const double x = track.estimate.x(0), y = track.estimate.x(1), range = std::hypot(x, y);
+  const Cartesian now = estimator_->cartesian(track.estimate);
+  const double x = now.x(0), y = now.x(1), range = std::hypot(x, y);
   if (range <= 0.0) return;
-  const Facing facing = facing_of(track.estimate, track.heading);
+  const Facing facing = facing_of(now, track.heading);
   const Eigen::Vector2d sight(x / range, y / range);
-  const double range_variance = sight.dot(track.estimate.p.topLeftCorner<2, 2>() * sight);
+  const double range_variance = sight.dot(now.p.topLeftCorner<2, 2>() * sight);
   correct_span(
       track.extent,
-      {range, std::sqrt(range_variance), wrap_angle(facing.heading - std::atan2(y, x)), facing.sigma}, z.span,
+      {range, std::sqrt(range_variance), to_half_turn(facing.heading - std::atan2(y, x)), facing.sigma}, z.span,
       z.sigma_span);
 }
 
@@ -152,7 +159,7 @@ void Tracker::give_birth(TrackSet& set, const Scan& scan) {
     const Observation& z = scan.observations[o];
     Track track;
     track.birth = track.newest = {scan.id, static_cast<std::uint16_t>(o), scan.measured};
-    track.estimate = initial_estimate(z, config_);
+    track.estimate = estimator_->initial(z);
     if (z.has_heading) track.heading = {z.heading, z.sigma_heading * z.sigma_heading, true};
     correct_extent(track, z);
     track.hits = 1;
@@ -173,7 +180,7 @@ void Tracker::prune(TrackSet& set) const {
     }
   const double largest = config_.delete_position_sigma * config_.delete_position_sigma;
   std::erase_if(set.tracks, [&](const Track& track) {
-    if (track.estimate.p(0, 0) > largest || track.estimate.p(1, 1) > largest) return track.misses > 0;
+    if (estimator_->position(track.estimate).p.diagonal().maxCoeff() > largest) return track.misses > 0;
     if (track.confirmed) return track.misses >= config_.delete_misses;
     // A tentative track goes when M hits cannot be reached within its window any more.
     const int hits = std::popcount(track.hits & window);

@@ -2,17 +2,18 @@
 // confirmation, deletion by scans that did not see a track, and by silence (given_up() in fusion/track.h).
 //
 // A step is a pure function of the tracks, the scan and the configuration; tracks are values, so that a
-// strategy can keep snapshots and go back. Heading and extent are random-walk filters beside the linear
-// Cartesian state. Storage is taken at construction: nothing allocates afterwards.
+// strategy can keep snapshots and go back. Heading and extent are random-walk filters beside the estimate of
+// the motion (fusion/estimator.h). Storage is taken at construction: nothing allocates afterwards.
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "core/ids.h"
 #include "core/time.h"
 #include "fusion/assignment.h"
-#include "fusion/filter.h"
+#include "fusion/estimator.h"
 #include "fusion/observation.h"
 #include "fusion/track.h"
 #include "fusion/tracker_config.h"
@@ -38,20 +39,23 @@ class Tracker {
   // Room for tentative and confirmed tracks together.
   std::size_t max_tracks() const { return max_tracks_; }
   const TrackerConfig& config() const { return config_; }
+  const Estimator& estimator() const { return *estimator_; }
 
  private:
   void predict_all(TrackSet& set, GlobalTime to) const;
   void associate(const TrackSet& set, const Scan& scan);
-  void correct(Track& track, const Observation& observation, const Innovation& innovation) const;
+  void correct(Track& track, const Observation& observation) const;
   void correct_extent(Track& track, const Observation& observation) const;
   void give_birth(TrackSet& set, const Scan& scan);
   void prune(TrackSet& set) const;
 
   TrackerConfig config_;
+  std::shared_ptr<const Estimator> estimator_;   // without state: copies of the tracker share it
   std::size_t max_observations_, max_tracks_;
   double gate_[4] = {};  // by dimension of the observation
   Assignment assignment_;
   std::vector<Candidate> candidates_;
+  std::vector<Gaussian<2>> positions_;   // of the tracks
   std::vector<char> near_track_;  // per observation: inside the gate of a confirmed track
   std::vector<int> observation_of_;
 };

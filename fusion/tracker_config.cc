@@ -6,12 +6,21 @@ TrackerConfig load_tracker(YamlMap& yaml) {
   TrackerConfig c;
   c.motion = yaml.choice_or<MotionModel>("motion", c.motion,
                                          {{"constant_velocity", MotionModel::kConstantVelocity},
-                                          {"constant_acceleration", MotionModel::kConstantAcceleration}});
+                                          {"constant_acceleration", MotionModel::kConstantAcceleration},
+                                          {"ctrv", MotionModel::kCtrv},
+                                          {"ctra", MotionModel::kCtra},
+                                          {"interacting", MotionModel::kInteracting}});
+  c.filter = yaml.choice_or<FilterKind>(
+      "filter", c.filter, {{"extended", FilterKind::kExtended}, {"unscented", FilterKind::kUnscented}});
   c.process_noise = yaml.number_or("process_noise", c.process_noise, {1e-6, 1e4});
+  c.turn_noise = yaml.number_or("turn_noise", c.turn_noise, {1e-6, 100.0}, "rad^2/s^3");
+  c.mode_seconds = yaml.number_or("mode_seconds", c.mode_seconds, {0.01, 1e4}, "s");
   c.initial_velocity_sigma =
       yaml.number_or("initial_velocity_sigma", c.initial_velocity_sigma, {0.01, 100.0}, "m/s");
   c.initial_acceleration_sigma =
       yaml.number_or("initial_acceleration_sigma", c.initial_acceleration_sigma, {0.01, 100.0}, "m/s^2");
+  c.initial_turn_rate_sigma =
+      yaml.number_or("initial_turn_rate_sigma", c.initial_turn_rate_sigma, {0.001, 10.0}, "rad/s");
   c.gate_probability = yaml.number_or("gate_probability", c.gate_probability, {0.5, 0.999999});
   c.confirm_window = static_cast<int>(yaml.integer_or("confirm_window", c.confirm_window, {1, 32}, "scans"));
   c.confirm_hits =

@@ -8,16 +8,28 @@
 
 namespace ttf::fusion {
 
-enum class MotionModel : unsigned char { kConstantVelocity, kConstantAcceleration };
+// How objects move (fusion/motion/): in straight lines at constant velocity or acceleration, along bends of constant
+// turn rate at constant speed (CTRV) or acceleration (CTRA), or now at constant velocity and now along bends (CTRV), by
+// interacting multiple models.
+enum class MotionModel : unsigned char { kConstantVelocity, kConstantAcceleration, kCtrv, kCtra, kInteracting };
+// How what is not linear is taken (fusion/filters/): to first order, or by sigma points. Where motion and measurement
+// are linear, the extended filter is the Kalman filter, and so is the unscented one but for rounding.
+enum class FilterKind : unsigned char { kExtended, kUnscented };
 
 struct TrackerConfig {
   MotionModel motion = MotionModel::kConstantVelocity;
-  // Spectral density of the white noise that drives each axis: acceleration [m^2/s^3] for constant velocity,
-  // jerk [m^2/s^5] for constant acceleration. 3 m^2/s^3 lets the velocity wander by 1.7 m/s within a second,
-  // a car that brakes or accelerates moderately.
+  FilterKind filter = FilterKind::kExtended;
+  // Spectral density of the white noise that drives each axis, on bends the speed along the heading: acceleration
+  // [m^2/s^3], or jerk [m^2/s^5] for constant acceleration and CTRA. 3 m^2/s^3 lets the velocity wander by 1.7 m/s
+  // within a second, a car that brakes or accelerates moderately.
   double process_noise = 3.0;
+  // Of the turn acceleration [rad^2/s^3], for bends: 0.1 lets the turn rate wander by 0.3 rad/s within a second, a car
+  // that turns into a side road.
+  double turn_noise = 0.1;
+  double mode_seconds = 5.0;                // interacting: how long an object keeps to one model, on the average
   double initial_velocity_sigma = 8.0;      // [m/s] of a new track, per axis
   double initial_acceleration_sigma = 2.0;  // [m/s^2]
+  double initial_turn_rate_sigma = 0.3;     // [rad/s]
   double gate_probability = 0.9973;         // that the right observation is in its gate (three sigma in 1D)
   int confirm_hits = 3;                     // M of the last N scans confirm a track
   int confirm_window = 5;

@@ -12,23 +12,45 @@
 
 namespace ttf::fusion::filters {
 
+// W' and S: whole columns, as everything here.
+template <int N, int M>
+struct Projected {
+  Matrix<N, M> w;
+  Matrix<M> s;
+};
+
+template <bool Direct, int N, int M, int C>
+Projected<N, M> projected(const Matrix<N>& p, const Matrix<M, C>& h, const Matrix<M>& r) {
+  Projected<N, M> to;
+  if constexpr (Direct) {
+    to.w = p.template leftCols<M>();
+    to.s = to.w.template topRows<M>() + r;
+  } else {
+    to.w.noalias() = p.template leftCols<C>() * h.transpose();
+    to.s = times<M, C, M>(h, to.w.template topRows<C>()) + r;
+    mirror<M>(to.s);
+  }
+  return to;
+}
+
+template <int M>
+Innovation<M> innovation_of(const Vector<M>& nu, const Matrix<M>& s, const Ldl<M>& ldl) {
+  return {.nu = nu, .s = s, .nis = ldl.norm_squared(nu), .determinant = ldl.determinant(), .used = true};
+}
+
+// What correct() finds, changing nothing.
+template <bool Direct, int N, int M, int C>
+Innovation<M> innovate(const Gaussian<N>& state, const Vector<M>& nu, const Matrix<M, C>& h, const Matrix<M>& r) {
+  const Projected<N, M> z = projected<Direct>(state.p, h, r);
+  return innovation_of<M>(nu, z.s, Ldl<M>(z.s));
+}
+
 template <bool Direct, int N, int M, int C>
 Innovation<M> correct(Gaussian<N>& state, const Vector<M>& nu, const Matrix<M, C>& h, const Matrix<M>& r) {
-  Matrix<N, M> w;   // W': whole columns, as everything here
-  Innovation<M> innovation;
-  innovation.nu = nu;
-  if constexpr (Direct) {
-    w = state.p.template leftCols<M>();
-    innovation.s = w.template topRows<M>() + r;
-  } else {
-    w.noalias() = state.p.template leftCols<C>() * h.transpose();
-    innovation.s = times<M, C, M>(h, w.template topRows<C>()) + r;
-    mirror<M>(innovation.s);
-  }
-  const Ldl<M> ldl(innovation.s);
-  innovation.nis = ldl.norm_squared(nu);
-  innovation.determinant = ldl.determinant();
-  innovation.used = true;
+  const Projected<N, M> z = projected<Direct>(state.p, h, r);
+  const Matrix<N, M>& w = z.w;
+  const Ldl<M> ldl(z.s);
+  const Innovation<M> innovation = innovation_of<M>(nu, z.s, ldl);
   const Matrix<N, M> gain = ldl.template divide<N>(w);
   state.x.noalias() += gain.lazyProduct(nu);
   Matrix<N> t;

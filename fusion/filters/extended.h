@@ -22,6 +22,15 @@ struct Extended {
   }
 
   template <motion::Model M, sensors::Model S>
+  Innovation<S::kDimension> innovate(const M&, const S& sensor, const sensors::Measurement<S::kDimension>& z,
+                                     const Gaussian<M::kStates>& state) const {
+    const Kinematics k = M::template kinematics<S::kParts>(state.x);
+    if (!sensor.sees(k)) return {};
+    const Vector<S::kDimension> nu = sensor.residual(z.z, sensor.expected(k));
+    return filters::innovate<sensors::Direct<S>>(state, nu, measurement_matrix<M>(sensor, k, state.x), z.r);
+  }
+
+  template <motion::Model M, sensors::Model S>
   Innovation<S::kDimension> update(const M&, const S& sensor, const sensors::Measurement<S::kDimension>& z,
                                    Gaussian<M::kStates>& state) const {
     const Kinematics k = M::template kinematics<S::kParts>(state.x);

@@ -1,6 +1,7 @@
 // What a filter is: a value without state of its own that moves a normal distribution with a motion model and updates
 // it with a sensor model. Filters: Kalman (linear models), Extended, Unscented; several motion models at once: imm.h;
-// systematic errors that are carried, not estimated: consider.h. Nothing here allocates.
+// systematic errors that are carried, not estimated: consider.h. innovate() is what update() finds, to the bit, and
+// changes nothing: what a gate asks. Nothing here allocates.
 #pragma once
 
 #include <cmath>
@@ -32,8 +33,9 @@ struct Innovation {
 template <class F, class M, class S>
 concept Filter = motion::Model<M> && sensors::Model<S> &&
     requires(const F& filter, const M& model, const S& sensor, Gaussian<M::kStates>& state,
-             const sensors::Measurement<S::kDimension>& z, double dt) {
+             const Gaussian<M::kStates>& kept, const sensors::Measurement<S::kDimension>& z, double dt) {
       { filter.predict(model, state, dt) };
+      { filter.innovate(model, sensor, z, kept) } -> std::same_as<Innovation<S::kDimension>>;
       { filter.update(model, sensor, z, state) } -> std::same_as<Innovation<S::kDimension>>;
     };
 

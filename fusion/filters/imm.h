@@ -7,16 +7,18 @@
 //   mu_j <- c_j L_j / sum, L the likelihood of the innovation (all in logarithms). What is below the smallest number is
 //   zero, and stays so until time passes and the chain leads back to it; the others have sum 1 whatever was measured.
 // Modes may have different layouts. There is no common state: each mode is mixed in its own layout, the others'
-// estimates converted to it (motion/conversion.h); what comes out is the mixture of all kinematics, (x, y, vx, vy).
+// estimates converted to it (motion/conversion.h); what comes out is the mixture of all, (x, y, vx, vy, ax, ay).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <tuple>
 #include <utility>
 
-#include "fusion/filters/filter.h"
+#include "fusion/filters/correct.h"
+#include "fusion/filters/modes.h"
 #include "fusion/motion/conversion.h"
 
 namespace ttf::fusion::filters {
@@ -35,13 +37,6 @@ struct ModeChain {
     p.diagonal().array() += kept;
     return p;
   }
-};
-
-template <motion::Model... Ms>
-struct Modes {
-  std::tuple<Gaussian<Ms::kStates>...> estimates;
-  Vector<static_cast<int>(sizeof...(Ms))> probability =
-      Vector<static_cast<int>(sizeof...(Ms))>::Constant(1.0 / sizeof...(Ms));
 };
 
 template <class F, motion::Model... Ms>
@@ -71,20 +66,27 @@ class Imm {
 
   // The innovation of the mixture: mean and covariance of the modes' predictions. Used if every mode can use it.
   template <sensors::Model S>
+  Innovation<S::kDimension> innovate(const S& sensor, const sensors::Measurement<S::kDimension>& z,
+                                     const Modes<Ms...>& modes) const {
+    Innovations<S::kDimension> of;
+    each([&]<std::size_t J>() {
+      of[J] = filter_.innovate(std::get<J>(models_), sensor, z, std::get<J>(modes.estimates));
+    });
+    if (!all_used<S::kDimension>(of)) return {};
+    return mixture(sensor, of, modes.probability);
+  }
+
+  template <sensors::Model S>
   Innovation<S::kDimension> update(const S& sensor, const sensors::Measurement<S::kDimension>& z,
                                    Modes<Ms...>& modes) const {
-    bool seen = true;
-    each([&]<std::size_t J>() {
-      using M = std::tuple_element_t<J, std::tuple<Ms...>>;
-      seen = seen && sensor.sees(M::template kinematics<S::kParts>(std::get<J>(modes.estimates).x));
-    });
-    if (!seen) return {};
-    std::array<Innovation<S::kDimension>, static_cast<std::size_t>(kModes)> of;
+    auto after = modes.estimates;
+    Innovations<S::kDimension> of;
+    each([&]<std::size_t J>() { of[J] = filter_.update(std::get<J>(models_), sensor, z, std::get<J>(after)); });
+    if (!all_used<S::kDimension>(of)) return {};
+    modes.estimates = after;
     Vector<kModes> log_weight;
-    each([&]<std::size_t J>() {
-      of[J] = filter_.update(std::get<J>(models_), sensor, z, std::get<J>(modes.estimates));
-      log_weight(static_cast<int>(J)) = of[J].log_likelihood() + std::log(modes.probability(static_cast<int>(J)));
-    });
+    for (int j = 0; j < kModes; ++j)
+      log_weight(j) = of[static_cast<std::size_t>(j)].log_likelihood() + std::log(modes.probability(j));
     const Innovation<S::kDimension> mixed = mixture(sensor, of, modes.probability);
     // One at a time: Eigen's vectorised exponential ends at 1e-309. log 0 = -infinity, of which exp makes 0.
     const double most = log_weight.maxCoeff();
@@ -93,26 +95,32 @@ class Imm {
     return mixed;
   }
 
-  // Mean and covariance of (x, y, vx, vy) over all modes.
-  Gaussian<4> kinematics(const Modes<Ms...>& modes) const {
-    std::array<Gaussian<4>, static_cast<std::size_t>(kModes)> of;
+  // Mean and covariance of (x, y, vx, vy, ax, ay) over all modes; a mode that knows no acceleration has none.
+  Gaussian<6> whole(const Modes<Ms...>& modes) const {
+    std::array<Gaussian<6>, static_cast<std::size_t>(kModes)> of;
     each([&]<std::size_t J>() {
       using M = std::tuple_element_t<J, std::tuple<Ms...>>;
-      const motion::Whole whole = motion::whole<M>(std::get<J>(modes.estimates));
-      of[J].x = whole.estimate.x.template head<4>();
-      of[J].p = whole.estimate.p.template topLeftCorner<4, 4>();
+      of[J] = motion::whole<M>(std::get<J>(modes.estimates)).estimate;
     });
-    Gaussian<4> mixed;
+    Gaussian<6> mixed;
     for (std::size_t j = 0; j < of.size(); ++j)
-      add_scaled<4, 1>(mixed.x, modes.probability(static_cast<int>(j)), of[j].x);
+      add_scaled<6, 1>(mixed.x, modes.probability(static_cast<int>(j)), of[j].x);
     for (std::size_t j = 0; j < of.size(); ++j) {
-      add_scaled<4, 4>(mixed.p, modes.probability(static_cast<int>(j)), of[j].p);
-      add_outer<4>(mixed.p, modes.probability(static_cast<int>(j)), of[j].x - mixed.x);
+      add_scaled<6, 6>(mixed.p, modes.probability(static_cast<int>(j)), of[j].p);
+      add_outer<6>(mixed.p, modes.probability(static_cast<int>(j)), of[j].x - mixed.x);
     }
     return mixed;
   }
 
  private:
+  template <int M>
+  using Innovations = std::array<Innovation<M>, static_cast<std::size_t>(kModes)>;
+
+  template <int M>
+  static bool all_used(const Innovations<M>& of) {
+    return std::all_of(of.begin(), of.end(), [](const Innovation<M>& one) { return one.used; });
+  }
+
   template <class Body>
   static void each(const Body& body) {
     [&]<std::size_t... J>(std::index_sequence<J...>) { (body.template operator()<J>(), ...); }(

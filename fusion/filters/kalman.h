@@ -20,6 +20,15 @@ struct Kalman {
 
   template <motion::LinearModel M, sensors::Model S>
     requires(S::kLinear && M::kCartesian)
+  Innovation<S::kDimension> innovate(const M&, const S& sensor, const sensors::Measurement<S::kDimension>& z,
+                                     const Gaussian<M::kStates>& state) const {
+    const Kinematics k = M::template kinematics<S::kParts>(state.x);
+    const Vector<S::kDimension> nu = sensor.residual(z.z, sensor.expected(k));
+    return filters::innovate<sensors::Direct<S>>(state, nu, measurement_matrix<M>(sensor, k, state.x), z.r);
+  }
+
+  template <motion::LinearModel M, sensors::Model S>
+    requires(S::kLinear && M::kCartesian)
   Innovation<S::kDimension> update(const M&, const S& sensor, const sensors::Measurement<S::kDimension>& z,
                                    Gaussian<M::kStates>& state) const {
     const Kinematics k = M::template kinematics<S::kParts>(state.x);

@@ -19,7 +19,7 @@
 
 #include <cmath>
 
-#include "fusion/filters/filter.h"
+#include "fusion/filters/correct.h"
 #include "fusion/motion/kernels.h"
 
 namespace ttf::fusion::filters {
@@ -47,40 +47,32 @@ struct Unscented {
   }
 
   template <motion::Model M, sensors::Model S>
-  Innovation<S::kDimension> update(const M&, const S& sensor, const sensors::Measurement<S::kDimension>& z,
+  Innovation<S::kDimension> innovate(const M& model, const S& sensor, const sensors::Measurement<S::kDimension>& z,
+                                     const Gaussian<M::kStates>& state) const {
+    Sight<M, S> sight;
+    if (!look(model, sensor, z, state, Weights(*this, M::kStates), sight)) return {};
+    return innovation_of<S::kDimension>(sight.nu, sight.s, Ldl<S::kDimension>(sight.s));
+  }
+
+  template <motion::Model M, sensors::Model S>
+  Innovation<S::kDimension> update(const M& model, const S& sensor, const sensors::Measurement<S::kDimension>& z,
                                    Gaussian<M::kStates>& state) const {
     constexpr int kN = M::kStates, kM = S::kDimension;
-    const Kinematics at_centre = M::template kinematics<S::kParts>(state.x);
-    if (!sensor.sees(at_centre)) return {};
     const Weights w(*this, kN);
-    const Matrix<kN> a = w.spread * square_root<kN>(state.p);
-    const Vector<kM> centre = sensor.expected(at_centre);
-    Matrix<kM, 2 * kN> d;
-    for (int i = 0; i < kN; ++i) {
-      const Vector<kN> above = state.x + a.col(i), below = state.x - a.col(i);
-      const Kinematics at_above = M::template kinematics<S::kParts>(above);
-      const Kinematics at_below = M::template kinematics<S::kParts>(below);
-      if (!sensor.sees(at_above) || !sensor.sees(at_below)) return {};
-      d.col(i) = sensor.residual(sensor.expected(at_above), centre);
-      d.col(kN + i) = sensor.residual(sensor.expected(at_below), centre);
-    }
-
-    Innovation<kM> innovation;
-    Vector<kM> shift;
-    innovation.s = w.spread_of<kM>(d, shift) + z.r;
-    innovation.nu = sensor.residual(z.z, centre + shift);
-    const Ldl<kM> ldl(innovation.s);
-    innovation.nis = ldl.norm_squared(innovation.nu);
-    innovation.determinant = ldl.determinant();
-    innovation.used = true;
+    Sight<M, S> sight;
+    if (!look(model, sensor, z, state, w, sight)) return {};
+    const Ldl<kM> ldl(sight.s);
+    const Innovation<kM> innovation = innovation_of<kM>(sight.nu, sight.s, ldl);
 
     // The points' dx are +-a, and zero for the centre.
+    const Matrix<kN>& a = sight.a;
+    const Matrix<kM, 2 * kN>& d = sight.d;
     const Matrix<kM, kN> opposite = d.template leftCols<kN>() - d.template rightCols<kN>();
     Matrix<kN, kM> crossed = Matrix<kN, kM>::Zero();   // cov(x, z)
     add_scaled<kN, kM>(crossed, w.other, times_transposed<kN, kN, kM>(a, opposite));
     const Matrix<kN, kM> gain = ldl.template divide<kN>(crossed);
     state.p = sandwich<kN, kM>(gain, z.r);
-    add_outer<kN>(state.p, w.centre_of_covariance, gain * shift);
+    add_outer<kN>(state.p, w.centre_of_covariance, gain * sight.shift);
     for (int i = 0; i < kN; ++i) {
       add_outer<kN>(state.p, w.other, a.col(i) - gain * d.col(i));
       add_outer<kN>(state.p, w.other, a.col(i) + gain * d.col(kN + i));
@@ -115,6 +107,38 @@ struct Unscented {
 
     double spread, other, centre_of_covariance;
   };
+
+  // The points, seen: their distances a from the centre, their images d as differences from the mean of all, which is
+  // the centre's image plus `shift`.
+  template <class M, class S>
+  struct Sight {
+    Matrix<M::kStates> a;
+    Matrix<S::kDimension, 2 * M::kStates> d;
+    Vector<S::kDimension> shift, nu;
+    Matrix<S::kDimension> s;
+  };
+
+  // False, and nothing is to be learnt, where the sensor does not see one of the points.
+  template <motion::Model M, sensors::Model S>
+  static bool look(const M&, const S& sensor, const sensors::Measurement<S::kDimension>& z,
+                   const Gaussian<M::kStates>& state, const Weights& w, Sight<M, S>& sight) {
+    constexpr int kN = M::kStates, kM = S::kDimension;
+    const Kinematics at_centre = M::template kinematics<S::kParts>(state.x);
+    if (!sensor.sees(at_centre)) return false;
+    sight.a = w.spread * square_root<kN>(state.p);
+    const Vector<kM> centre = sensor.expected(at_centre);
+    for (int i = 0; i < kN; ++i) {
+      const Vector<kN> above = state.x + sight.a.col(i), below = state.x - sight.a.col(i);
+      const Kinematics at_above = M::template kinematics<S::kParts>(above);
+      const Kinematics at_below = M::template kinematics<S::kParts>(below);
+      if (!sensor.sees(at_above) || !sensor.sees(at_below)) return false;
+      sight.d.col(i) = sensor.residual(sensor.expected(at_above), centre);
+      sight.d.col(kN + i) = sensor.residual(sensor.expected(at_below), centre);
+    }
+    sight.s = w.template spread_of<kM>(sight.d, sight.shift) + z.r;
+    sight.nu = sensor.residual(z.z, centre + sight.shift);
+    return true;
+  }
 };
 
 }  // namespace ttf::fusion::filters

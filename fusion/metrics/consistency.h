@@ -5,6 +5,7 @@
 // Both by an LDLT solve; P and S symmetric positive definite.
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <cstdint>
 #include <limits>
 
@@ -12,6 +13,7 @@
 
 namespace ttf::fusion::metrics {
 
+// Of an innovation and its covariance, the NIS.
 template <int N>
 double normalised_squared(const Vector<N>& error, const Matrix<N>& covariance) {
   return error.dot(covariance.ldlt().solve(error));
@@ -20,11 +22,6 @@ double normalised_squared(const Vector<N>& error, const Matrix<N>& covariance) {
 template <int N>
 double nees(const Gaussian<N>& estimate, const Vector<N>& truth) {
   return normalised_squared<N>(truth - estimate.x, estimate.p);
-}
-
-template <int N, int M>
-double nis(const Correction<N, M>& correction) {
-  return normalised_squared<M>(correction.nu, correction.s);
 }
 
 struct Band {

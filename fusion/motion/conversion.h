@@ -34,11 +34,11 @@ Whole whole(const Gaussian<From::kStates>& from) {
   constexpr int kN = From::kStates;
   Whole to{.estimate = {}, .knows_acceleration = !(From::kCartesian && kN == 4)};
   Vector<6>& x = to.estimate.x;
-  Matrix<6, kN> j = Matrix<6, kN>::Zero();
   if constexpr (From::kCartesian) {
-    for (int i = 0; i < kN; ++i) j(i, i) = 1.0;
     x.template head<kN>() = from.x;
+    to.estimate.p.template topLeftCorner<kN, kN>() = from.p;
   } else {
+    Matrix<6, kN> j = Matrix<6, kN>::Zero();
     const double c = std::cos(from.x(2)), s = std::sin(from.x(2)), speed = from.x(3), rate = from.x(4);
     double along = 0.0;
     if constexpr (kN == 6) along = from.x(5);
@@ -58,8 +58,8 @@ Whole whole(const Gaussian<From::kStates>& from) {
       j(4, 5) = c;
       j(5, 5) = s;
     }
+    to.estimate.p = sandwich<6, kN>(j, from.p);
   }
-  to.estimate.p = sandwich<6, kN>(j, from.p);
   return to;
 }
 

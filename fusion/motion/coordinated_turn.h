@@ -81,15 +81,29 @@ struct CoordinatedTurn : Polar<N> {
     Matrix<N> q = Matrix<N>::Zero();
     for (int i = 0; i < 4; ++i) {
       const double done = 0.5 * dt * (1.0 + kNodes[i]);
-      const Matrix<N> f = jacobian(move(x, done), dt - done);
+      const Matrix<N> f = jacobian(turned(x, done), dt - done);
       constexpr int kDriven = kAccelerates ? 5 : 3;
-      add_outer<N>(q, kWeights[i] * dt * turn_density, f.col(4));
-      add_outer<N>(q, kWeights[i] * dt * along_density, f.col(kDriven));
+      const double by_turn = kWeights[i] * dt * turn_density, by_speed = kWeights[i] * dt * along_density;
+      unrolled<N>([&](auto column) {
+        constexpr int c = column;
+        unrolled<c + 1>([&](int r) {
+          q(r, c) += by_turn * (f(r, 4) * f(c, 4));
+          q(r, c) += by_speed * (f(r, kDriven) * f(c, kDriven));
+        });
+      });
     }
+    mirror<N>(q);
     return q;
   }
 
  private:
+  // Moved but for its position, on which no derivative depends.
+  static Vector<N> turned(Vector<N> x, double dt) {
+    x(2) = to_half_turn(x(2) + x(4) * dt);
+    if constexpr (kAccelerates) x(3) += x(5) * dt;
+    return x;
+  }
+
   struct Turned {
     Turned(const Vector<N>& x, double dt) {
       const TurnMoments m = turn_moments(x(4) * dt);

@@ -16,7 +16,7 @@ constexpr void unrolled(const Body& body) {
       std::make_integer_sequence<int, N>{});
 }
 
-// The upper triangle becomes the lower one's mirror image: of what is symmetric but for rounding.
+// The lower triangle becomes the upper one's mirror image: of what is symmetric but for rounding.
 template <int N>
 void mirror(Matrix<N>& p) {
   unrolled<N>([&](auto c) { unrolled<c>([&](int r) { p(c.value, r) = p(r, c.value); }); });
@@ -48,21 +48,21 @@ Matrix<R, C> times_transposed(const Matrix<R, K>& a, const Matrix<C, K>& b) {
   return out;
 }
 
-// J P J'.
+// J P J'. Only the innermost loops are unrolled: most of the gain, little of the compiler's time.
 template <int N, int K>
 Matrix<N> sandwich(const Matrix<N, K>& j, const Matrix<K>& p) {
   Matrix<N, K> jp;
   for (int c = 0; c < K; ++c)
     for (int r = 0; r < N; ++r) {
       double sum = 0.0;
-      for (int k = 0; k < K; ++k) sum += j(r, k) * p(k, c);
+      unrolled<K>([&](int k) { sum += j(r, k) * p(k, c); });
       jp(r, c) = sum;
     }
   Matrix<N> out;
   for (int c = 0; c < N; ++c)
     for (int r = 0; r <= c; ++r) {
       double sum = 0.0;
-      for (int k = 0; k < K; ++k) sum += jp(r, k) * j(c, k);
+      unrolled<K>([&](int k) { sum += jp(r, k) * j(c, k); });
       out(r, c) = out(c, r) = sum;
     }
   return out;
@@ -71,8 +71,7 @@ Matrix<N> sandwich(const Matrix<N, K>& j, const Matrix<K>& p) {
 // P += weight v v'.
 template <int N>
 void add_outer(Matrix<N>& p, double weight, const Vector<N>& v) {
-  for (int c = 0; c < N; ++c)
-    for (int r = 0; r < N; ++r) p(r, c) += weight * (v(r) * v(c));
+  for (int c = 0; c < N; ++c) unrolled<N>([&](int r) { p(r, c) += weight * (v(r) * v(c)); });
 }
 
 // a += weight b, of any shape.

@@ -1,7 +1,7 @@
 // The update in order that all methods here share, and what they keep of it. With S = H P H' + R = L L' (Cholesky):
 //   h = L^-1 H,  nu = L^-1 (z - H x),  V = P h',  K = V L^-1;   x <- x + V nu,  T = P - V V',
 //   P <- T - (T H' - K R) K',   which is the Joseph form multiplied out: O(n^2 m), and I - K H is never formed.
-// It is update() of fusion/gaussian.h up to rounding, and cheaper. What later measurements say about earlier states
+// It is the update of fusion/filters/correct.h up to rounding, at any P and H. What later measurements say about earlier states
 // is made of h, nu and V alone:  H' S^-1 H = h' h,  H' S^-1 nu = h' nu,  K H = V h.
 //
 // [[gnu::flatten]], here and in the other small functions of this room that are all arithmetic: at -O2 the compiler

@@ -26,8 +26,8 @@ struct Crowd {
       camera.push_back(scan(1, k, at_ms(40 * k + 20), seen_by_camera.see(at_ms(40 * k + 20), k)));
     }
   }
-  std::unique_ptr<Strategy> start(StrategyKind kind, std::uint32_t cycles) const {
-    auto strategy = make_strategy(kind, TrackerConfig{}, sensors);
+  std::unique_ptr<Strategy> start(StrategyKind kind, std::uint32_t cycles, const TrackerConfig& config = {}) const {
+    auto strategy = make_strategy(kind, config, sensors);
     for (std::uint32_t k = 0; k < cycles; ++k) {
       strategy->accept(laser[k].view());
       strategy->accept(camera[k].view());

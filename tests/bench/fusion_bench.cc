@@ -20,8 +20,7 @@ void report_allocations(benchmark::State& state, std::int64_t allocations) {
 }
 
 // Lists of 25 + 25 observations in, image out.
-void Cycle(benchmark::State& state) {
-  const auto kind = static_cast<StrategyKind>(state.range(0));
+void cycle(benchmark::State& state, StrategyKind kind, const TrackerConfig& config) {
   std::vector<TrackView> image;
   image.reserve(64);
   std::unique_ptr<Strategy> strategy;
@@ -30,7 +29,7 @@ void Cycle(benchmark::State& state) {
   for (auto _ : state) {
     if (k == kCycles) {
       state.PauseTiming();
-      strategy = scene().start(kind, kWarm);
+      strategy = scene().start(kind, kWarm, config);
       k = kWarm;
       state.ResumeTiming();
     }
@@ -45,7 +44,18 @@ void Cycle(benchmark::State& state) {
   if (image.size() != 25) state.SkipWithError("not all 25 objects are tracked");
   report_allocations(state, allocations);
 }
+void Cycle(benchmark::State& state) { cycle(state, static_cast<StrategyKind>(state.range(0)), {}); }
 BENCHMARK(Cycle)->Arg(0)->Arg(1)->Arg(2)->ArgName("strategy")->Unit(benchmark::kMicrosecond);
+
+// The same, time-triggered, under every motion model (fusion/tracker_config.h) and filter.
+void CycleOf(benchmark::State& state) {
+  cycle(state, StrategyKind::kTt,
+        config_of(static_cast<MotionModel>(state.range(0)), 3.0, static_cast<FilterKind>(state.range(1))));
+}
+BENCHMARK(CycleOf)
+    ->ArgsProduct({{0, 1, 2, 3, 4}, {0, 1}})
+    ->ArgNames({"motion", "filter"})
+    ->Unit(benchmark::kMicrosecond);
 
 // One laser list of 25 observations that comes `scans` scans late.
 void LateScan(benchmark::State& state) {

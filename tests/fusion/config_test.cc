@@ -33,8 +33,13 @@ TEST(TrackerConfig, ReadsEveryKey) {
       "motion: constant_acceleration\nprocess_noise: 2.5\ninitial_velocity_sigma: 11\n"
       "initial_acceleration_sigma: 3\ngate_probability: 0.99\nconfirm_hits: 2\nconfirm_window: 4\n"
       "delete_misses: 6\ndelete_position_sigma: 7\nmax_objects: 12\nhistory_scans: 16\nheading_noise: 0.5\n"
+      "filter: unscented\nturn_noise: 0.4\ninitial_turn_rate_sigma: 0.7\nmode_seconds: 9\n"
       "extent_noise: 0.25\ncoast_after: 120 ms\ndelete_after: 2 s\n");
   EXPECT_EQ(c.motion, MotionModel::kConstantAcceleration);
+  EXPECT_EQ(c.filter, FilterKind::kUnscented);
+  EXPECT_EQ(c.turn_noise, 0.4);
+  EXPECT_EQ(c.initial_turn_rate_sigma, 0.7);
+  EXPECT_EQ(c.mode_seconds, 9.0);
   EXPECT_EQ(c.process_noise, 2.5);
   EXPECT_EQ(c.initial_velocity_sigma, 11.0);
   EXPECT_EQ(c.initial_acceleration_sigma, 3.0);
@@ -63,6 +68,29 @@ TEST(TrackerConfig, AllMistakesAtOnce) {
   EXPECT_NE(sentences[2].find("t.yaml:3: gate_probability"), std::string::npos) << sentences[2];
   EXPECT_NE(sentences[3].find("t.yaml:5: confirm_hits = 4"), std::string::npos) << sentences[3];
   EXPECT_NE(sentences[4].find("t.yaml:6: speed"), std::string::npos) << sentences[4];
+}
+
+TEST(TrackerConfig, NamesEveryMotionModelAndFilter) {
+  const std::pair<const char*, MotionModel> models[] = {{"constant_velocity", MotionModel::kConstantVelocity},
+                                                        {"constant_acceleration", MotionModel::kConstantAcceleration},
+                                                        {"ctrv", MotionModel::kCtrv},
+                                                        {"ctra", MotionModel::kCtra},
+                                                        {"interacting", MotionModel::kInteracting}};
+  for (const auto& model : models) EXPECT_EQ(load(std::string("motion: ") + model.first).motion, model.second);
+  EXPECT_EQ(load("filter: extended").filter, FilterKind::kExtended);
+
+  std::vector<std::string> sentences;
+  load("motion: coordinated\nfilter: particle\nturn_noise: 0\nmode_seconds: never\ninitial_turn_rate_sigma: 11\n",
+       &sentences);
+  ASSERT_EQ(sentences.size(), 5u);
+  EXPECT_NE(sentences[0].find("t.yaml:1: motion = coordinated"), std::string::npos) << sentences[0];
+  for (const auto& model : models)
+    EXPECT_NE(sentences[0].find(model.first), std::string::npos) << sentences[0] << " names " << model.first;
+  EXPECT_NE(sentences[1].find("t.yaml:2: filter = particle"), std::string::npos) << sentences[1];
+  EXPECT_NE(sentences[1].find("extended, unscented"), std::string::npos) << sentences[1];
+  EXPECT_NE(sentences[2].find("t.yaml:3: turn_noise = 0"), std::string::npos) << sentences[2];
+  EXPECT_NE(sentences[3].find("t.yaml:4: mode_seconds"), std::string::npos) << sentences[3];
+  EXPECT_NE(sentences[4].find("t.yaml:5: initial_turn_rate_sigma"), std::string::npos) << sentences[4];
 }
 
 // A track that ends before it coasts would never be said to.

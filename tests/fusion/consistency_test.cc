@@ -1,12 +1,13 @@
-// The filter's own covariance tells the truth about its errors: NEES and NIS in their 95 % bands on fixed
+// The estimator's own covariance tells the truth about its errors: NEES and NIS in their 95 % bands on fixed
 // seeds, and out of them where the model is wrong (Bar-Shalom, Li, Kirubarajan 2001, section 5.4).
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "fusion/filter.h"
+#include "fusion/estimator.h"
 #include "fusion/metrics.h"
+#include "fusion/sensors/range_bearing_rate.h"
 #include "tests/fusion/scenes.h"
 
 namespace ttf::fusion {
@@ -33,34 +34,36 @@ Statistics simulate(const Case& c, int runs, std::uint64_t seed) {
   s.runs = runs;
   const int n = c.motion == MotionModel::kConstantVelocity ? 4 : 6;
   const double dt = 0.05;
+  const auto estimator = make_estimator(config_of(c.motion, c.assumed_noise));
   for (int run = 0; run < runs; ++run) {
     RandomStream stream({.seed = seed, .replication = static_cast<std::uint32_t>(run)});
-    Estimate estimate;
-    estimate.x << 40.0, 10.0, -2.0, 1.0, 0.0, 0.0;
-    estimate.p.diagonal() << 0.25, 0.25, 4.0, 4.0, 1.0, 1.0;
-    if (n == 4) estimate.p(4, 4) = estimate.p(5, 5) = 0.0;
-    State truth = draw(estimate.x, estimate.p, stream);
+    Cartesian start;
+    start.x << 40.0, 10.0, -2.0, 1.0, 0.0, 0.0;
+    start.p.diagonal() << 0.25, 0.25, 4.0, 4.0, 1.0, 1.0;
+    if (n == 4) start.p(4, 4) = start.p(5, 5) = 0.0;
+    State truth = draw(start.x, start.p, stream);
+    Estimate estimate = estimate_of(c.motion, start.x, start.p);
     for (int k = 1; k <= 40; ++k) {
       truth = draw(transition(c.motion, dt) * truth, driving_noise(c.motion, c.true_noise, dt), stream);
-      predict(estimate, c.motion, c.assumed_noise, dt);
+      estimator->predict(estimate, dt);
       Observation z;
       if (c.with_radar && k % 2 == 0) {
         z = radar(0, 0, 0, 0.3, 0.01, 0.2);
-        z.z = expected(z.kind, truth);
+        z.z = sensors::RangeBearingRate{}.expected({.position = truth.head<2>(), .velocity = truth.segment<2>(2)});
         for (int i = 0; i < 3; ++i) z.z(i) += std::sqrt(z.r(i, i)) * stream.normal();
       } else {
         z = position(truth(0) + c.true_sigma * stream.normal(), truth(1) + c.true_sigma * stream.normal(),
                      c.assumed_sigma);
       }
-      const Innovation innovation = innovate(estimate, z);
       if (k == 40) {
-        s.nis += innovation.distance_squared / runs;
-        s.nis_degrees += innovation.dimension;
+        s.nis += estimator->distance_squared(estimate, z).value() / runs;
+        s.nis_degrees += dimension_of(z.kind);
       }
-      update(estimate, z, innovation);
+      estimator->update(estimate, z);
     }
-    const Eigen::VectorXd error = (truth - estimate.x).head(n);
-    s.nees += error.dot(estimate.p.topLeftCorner(n, n).ldlt().solve(error)) / runs;
+    const Cartesian end = seen_as(estimate);
+    const Eigen::VectorXd error = (truth - end.x).head(n);
+    s.nees += error.dot(end.p.topLeftCorner(n, n).ldlt().solve(error)) / runs;
     s.nees_degrees += n;
   }
   return s;

@@ -40,7 +40,7 @@ TEST_P(EveryStrategy, EndsWithTheBitsOfInOrderProcessing) {
   std::vector<TrackView> expected, image;
   for (const Track& track : timeline.current().tracks)
     if (track.confirmed)
-      expected.push_back(view_of(track, timeline.current().time, at_ms(3300), TrackerConfig{}));
+      expected.push_back(shown(track, timeline.current().time, at_ms(3300)));
   strategy->image(at_ms(3300), image);
   EXPECT_EQ(image.size(), 25u);
   EXPECT_TRUE(same_bits(image, expected));

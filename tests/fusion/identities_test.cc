@@ -64,7 +64,7 @@ TEST(Identities, ATrackKeepsItsIdThroughManyLateScans) {
       if (!track.confirmed) continue;
       int nearest = -1;
       for (int object = 0; object < 10; ++object)
-        if ((many.truth(object, t) - track.estimate.x).head<2>().norm() < 2.0) nearest = object;
+        if ((many.truth(object, t) - state_of(track)).head<2>().norm() < 2.0) nearest = object;
       ASSERT_GE(nearest, 0) << "scan " << k;
       const auto [known, first] = object_of.try_emplace(track.id, nearest);
       ASSERT_EQ(known->second, nearest)

@@ -48,7 +48,8 @@ std::vector<TrackView> in_order(std::vector<Arrival> arrivals, GlobalTime at) {
   const TrackSet& set = timeline.current();
   std::vector<TrackView> views;
   for (const Track& track : set.tracks)
-    if (track.confirmed && !given_up(track, set.time, at, {})) views.push_back(view_of(track, set.time, at, {}));
+    if (track.confirmed && !given_up(track, set.time, at, {}, timeline.estimator()))
+      views.push_back(view_of(track, set.time, at, {}, timeline.estimator()));
   return views;
 }
 

@@ -135,11 +135,11 @@ TEST(OutOfSequence, RewindingEqualsAlgorithmA) {
     ASSERT_EQ(timeline.insert(scan(0, 1, at_ms(1000), {last}).view()), Timeline::Insertion::kInOrder);
     ASSERT_EQ(timeline.insert(scan(1, 0, at_ms(tau), {between}).view()), Timeline::Insertion::kLate);
     ASSERT_EQ(timeline.current().tracks.size(), 1u);
-    const Estimate& rewound = timeline.current().tracks[0].estimate;
+    const Cartesian rewound = seen_as(timeline.current().tracks[0].estimate);
 
     const MotionModel motion = config.motion;
     const double whole = 1.0, back = 1.0 - 1e-3 * static_cast<double>(tau);
-    const Estimate start = initial_estimate(first, config);
+    const Cartesian start = seen_as(timeline.estimator().initial(first));
     const Matrix f = transition(motion, whole).topLeftCorner<4, 4>();
     const Matrix prior_p = f * Matrix(start.p.topLeftCorner<4, 4>()) * f.transpose() +
                            Matrix(driving_noise(motion, config.process_noise, whole).topLeftCorner<4, 4>());

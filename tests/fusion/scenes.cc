@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <type_traits>
 
 namespace ttf::fusion {
 
@@ -23,6 +24,32 @@ Observation radar(double range, double bearing, double rate, double sigma_range,
   z.r = Eigen::Vector3d(sigma_range * sigma_range, sigma_bearing * sigma_bearing, sigma_rate * sigma_rate)
             .asDiagonal();
   return z;
+}
+
+TrackerConfig config_of(MotionModel motion, double process_noise, FilterKind filter) {
+  TrackerConfig config;
+  config.motion = motion;
+  config.process_noise = process_noise;
+  config.filter = filter;
+  return config;
+}
+
+Estimate estimate_of(MotionModel motion, const State& x, const Covariance& p) {
+  if (motion == MotionModel::kConstantAcceleration) return Gaussian<6>{x, p};
+  return Gaussian<4>{x.head<4>(), p.topLeftCorner<4, 4>()};
+}
+
+Cartesian seen_as(const Estimate& estimate) {
+  if (const auto* whole = std::get_if<Gaussian<6>>(&estimate)) return *whole;
+  const auto& known = std::get<Gaussian<4>>(estimate);
+  Cartesian seen;
+  seen.x.head<4>() = known.x;
+  seen.p.topLeftCorner<4, 4>() = known.p;
+  return seen;
+}
+
+TrackView shown(const Track& track, GlobalTime time, GlobalTime at, const TrackerConfig& config) {
+  return view_of(track, time, at, config, *make_estimator(config));
 }
 
 Covariance transition(MotionModel motion, double dt) {
@@ -62,8 +89,8 @@ State draw(const State& mean, const Covariance& covariance, RandomStream& stream
 
 namespace {
 
-template <class Matrix>
-bool same(const Matrix& a, const Matrix& b) {
+template <int R, int C>
+bool same(const Eigen::Matrix<double, R, C>& a, const Eigen::Matrix<double, R, C>& b) {
   return std::memcmp(a.data(), b.data(), sizeof(double) * static_cast<std::size_t>(a.size())) == 0;
 }
 bool same(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
@@ -71,14 +98,28 @@ bool same(const Scalar& a, const Scalar& b) {
   return same(a.value, b.value) && same(a.variance, b.variance) && a.known == b.known;
 }
 
+template <int N>
+bool same(const Gaussian<N>& a, const Gaussian<N>& b) {
+  return same(a.x, b.x) && same(a.p, b.p);
+}
+bool same(const StraightOrTurning& a, const StraightOrTurning& b) {
+  return same(std::get<0>(a.estimates), std::get<0>(b.estimates)) &&
+         same(std::get<1>(a.estimates), std::get<1>(b.estimates)) && same(a.probability, b.probability);
+}
+
 }  // namespace
+
+bool same_bits(const Estimate& a, const Estimate& b) {
+  return a.index() == b.index() &&
+         std::visit([&](const auto& own) { return same(own, std::get<std::remove_cvref_t<decltype(own)>>(b)); }, a);
+}
 
 bool same_bits(const TrackSet& a, const TrackSet& b) {
   return a.time == b.time && a.started == b.started &&
          std::equal(a.tracks.begin(), a.tracks.end(), b.tracks.begin(), b.tracks.end(),
                     [](const Track& s, const Track& t) {
-                      return s.birth == t.birth && s.newest == t.newest && same(s.estimate.x, t.estimate.x) &&
-                             same(s.estimate.p, t.estimate.p) && same(s.heading, t.heading) &&
+                      return s.birth == t.birth && s.newest == t.newest && same_bits(s.estimate, t.estimate) &&
+                             same(s.heading, t.heading) &&
                              same(s.extent.size, t.extent.size) &&
                              same(s.extent.covariance, t.extent.covariance) && s.hits == t.hits &&
                              s.scans == t.scans && s.misses == t.misses && s.confirmed == t.confirmed;

@@ -3,11 +3,12 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 #include <numbers>
 #include <vector>
 
 #include "core/random.h"
-#include "fusion/filter.h"
+#include "fusion/estimator.h"
 #include "fusion/strategy.h"
 #include "fusion/tracker.h"
 
@@ -32,6 +33,18 @@ inline OwnedScan scan(std::uint8_t sensor, std::uint32_t sequence, GlobalTime me
   return {{static_cast<SensorId>(sensor), sequence}, measured, std::move(observations)};
 }
 
+// What a test varies of the default configuration.
+TrackerConfig config_of(MotionModel motion, double process_noise = 3.0, FilterKind filter = FilterKind::kExtended);
+
+// An estimate of a constant-velocity or constant-acceleration estimator, and what it is seen as; of tracks, under the
+// default configuration.
+Estimate estimate_of(MotionModel motion, const State& x, const Covariance& p);
+Cartesian seen_as(const Estimate& estimate);
+inline State state_of(const Track& track) { return seen_as(track.estimate).x; }
+
+// view_of() with the configuration's own estimator.
+TrackView shown(const Track& track, GlobalTime time, GlobalTime at, const TrackerConfig& config = {});
+
 // F(dt) over the whole state, and the covariance of the driving noise over dt, by numerical integration of
 // F(t) G q G' F(t)' with Gauss-Legendre nodes (exact for these polynomials): independent of the filter's
 // formulas.
@@ -41,8 +54,9 @@ Covariance driving_noise(MotionModel motion, double q, double dt);
 // A draw from N(mean, covariance), covariance positive semi-definite.
 State draw(const State& mean, const Covariance& covariance, RandomStream& stream);
 
-// The states of two sets of tracks, images, reports are the same to the last bit. Sets: whatever their tracks
+// Estimates, the states of two sets of tracks, images are the same to the last bit. Sets: whatever their tracks
 // are called.
+bool same_bits(const Estimate& a, const Estimate& b);
 bool same_bits(const TrackSet& a, const TrackSet& b);
 bool same_bits(const std::vector<TrackView>& a, const std::vector<TrackView>& b);
 

@@ -76,7 +76,7 @@ TEST(Timeline, ALateScanReopensAssociations) {
   timeline.insert(scan(1, 0, at_ms(1000), {position(7.5, 0.0, 0.1)}).view());
   ASSERT_EQ(timeline.current().tracks.size(), 1u);
   EXPECT_EQ(timeline.current().tracks[0].hits, 0b111u);
-  EXPECT_NEAR(timeline.current().tracks[0].estimate.x(0), 18.5, 0.2);
+  EXPECT_NEAR(state_of(timeline.current().tracks[0])(0), 18.5, 0.2);
 }
 
 // Four scans of history, ten in order at 0, 40 .. 360 ms:

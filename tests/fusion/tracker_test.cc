@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 
+#include "fusion/motion/angles.h"
 #include "tests/fusion/scenes.h"
 
 namespace ttf::fusion {
@@ -113,10 +114,10 @@ TEST(Tracker, Follows25ObjectsEachWithItsOwnTrack) {
       const State truth = lanes.truth(object, t);
       const auto nearest = std::min_element(bench.set.tracks.begin(), bench.set.tracks.end(),
                                             [&](const Track& a, const Track& b) {
-                                              return (a.estimate.x - truth).head<2>().squaredNorm() <
-                                                     (b.estimate.x - truth).head<2>().squaredNorm();
+                                              return (state_of(a) - truth).head<2>().squaredNorm() <
+                                                     (state_of(b) - truth).head<2>().squaredNorm();
                                             });
-      const double squared = (nearest->estimate.x - truth).head<2>().squaredNorm();
+      const double squared = (state_of(*nearest) - truth).head<2>().squaredNorm();
       ASSERT_LT(squared, 1.0);
       squares += squared;
       ++count;
@@ -134,7 +135,7 @@ TEST(Tracker, TheSecondEchoOfAConfirmedTrackIsNoNewObject) {
   ASSERT_EQ(confirmed(bench.set), 1);
   bench.step(300, {position(20.05, 0.0, 0.3), position(19.8, 0.1, 0.3), position(40.0, 5.0, 0.3)});
   ASSERT_EQ(bench.set.tracks.size(), 2u);
-  EXPECT_NEAR(bench.set.tracks[1].estimate.x(0), 40.0, 1e-12);
+  EXPECT_NEAR(state_of(bench.set.tracks[1])(0), 40.0, 1e-12);
 }
 
 TEST(Tracker, GatesOutWhatIsTooFar) {
@@ -143,7 +144,7 @@ TEST(Tracker, GatesOutWhatIsTooFar) {
   bench.step(1000, {position(21.5, 0.0, 0.1)});
   ASSERT_EQ(bench.set.tracks.size(), 2u);
   EXPECT_EQ(bench.set.tracks[0].misses, 1);
-  EXPECT_NEAR(bench.set.tracks[0].estimate.x(0), 20.0, 0.1);
+  EXPECT_NEAR(state_of(bench.set.tracks[0])(0), 20.0, 0.1);
 }
 
 TEST(Tracker, AConfirmedTrackKeepsItsObservationFromATentativeOne) {
@@ -168,7 +169,7 @@ TEST(Tracker, HeadingIsMeasuredUpToHalfATurnAndAveraged) {
   for (int k = 0; k < n; ++k) {
     Observation z = position(20.0, 0.0, 0.1);
     z.has_heading = z.has_length = true;
-    z.heading = wrap_angle(3.1 + 0.05 * stream.normal() + (stream.uniform() < 0.5 ? 0.0 : std::numbers::pi));
+    z.heading = to_half_turn(3.1 + 0.05 * stream.normal() + (stream.uniform() < 0.5 ? 0.0 : std::numbers::pi));
     z.sigma_heading = 0.05;
     z.length = 4.0 + 0.3 * stream.normal();
     z.sigma_length = 0.3;
@@ -177,7 +178,7 @@ TEST(Tracker, HeadingIsMeasuredUpToHalfATurnAndAveraged) {
   }
   ASSERT_EQ(bench.set.tracks.size(), 1u);
   const Track& track = bench.set.tracks[0];
-  const double off = wrap_angle(track.heading.value - 3.1);
+  const double off = to_half_turn(track.heading.value - 3.1);
   EXPECT_LT(std::min(std::abs(off), std::numbers::pi - std::abs(off)), 4.0 * 0.05 / std::sqrt(n));
   EXPECT_NEAR(track.heading.variance, 0.05 * 0.05 / n, 1e-12);
   EXPECT_NEAR(track.extent.size(0), length_sum / n, 0.3) << "half of the variance may be common to all";
@@ -188,14 +189,14 @@ TEST(Tracker, HeadingIsMeasuredUpToHalfATurnAndAveraged) {
 
 Track moving_track(double vx, double vy, double sigma_v) {
   Track track;
-  track.estimate.x << 10.0, 2.0, vx, vy, 0.0, 0.0;
-  track.estimate.p.diagonal() << 0.1, 0.1, sigma_v * sigma_v, sigma_v * sigma_v, 0.0, 0.0;
+  const double v = sigma_v * sigma_v;
+  track.estimate = Gaussian<4>{Vector<4>(10.0, 2.0, vx, vy), Vector<4>(0.1, 0.1, v, v).asDiagonal()};
   return track;
 }
 
 TEST(View, CourseTellsTheHeadingOfWhatMoves) {
   const Track track = moving_track(-3.0, 4.0, 0.5);
-  const TrackView view = view_of(track, at_ms(0), at_ms(0), TrackerConfig{});
+  const TrackView view = shown(track, at_ms(0), at_ms(0));
   EXPECT_NEAR(view.heading, std::atan2(4.0, -3.0), 1e-12);
   EXPECT_NEAR(view.sigma_heading, 0.5 / 5.0, 1e-12);
   EXPECT_NEAR(view.speed, 5.0, 1e-12);
@@ -205,15 +206,15 @@ TEST(View, CourseTellsTheHeadingOfWhatMoves) {
 TEST(View, AxisTellsTheHeadingOfWhatStandsAndCourseTellsItsFront) {
   Track standing = moving_track(0.01, 0.0, 0.5);
   standing.heading = {2.0, 0.01, true};
-  EXPECT_NEAR(view_of(standing, at_ms(0), at_ms(0), TrackerConfig{}).heading, 2.0, 1e-12);
+  EXPECT_NEAR(shown(standing, at_ms(0), at_ms(0)).heading, 2.0, 1e-12);
   // Driving along +x with an axis measured half a turn off: weighed on the side it drives to.
   Track driving = moving_track(10.0, 0.0, 1.0);
   driving.heading = {std::numbers::pi - 0.2, 0.01, true};  // course variance is 0.01 too
-  const TrackView view = view_of(driving, at_ms(0), at_ms(0), TrackerConfig{});
+  const TrackView view = shown(driving, at_ms(0), at_ms(0));
   EXPECT_NEAR(view.heading, -0.1, 1e-12);
   EXPECT_NEAR(view.sigma_heading, std::sqrt(0.005), 1e-12);
   Track unknown = moving_track(0.0, 0.0, 0.5);
-  EXPECT_NEAR(view_of(unknown, at_ms(0), at_ms(0), TrackerConfig{}).sigma_heading,
+  EXPECT_NEAR(shown(unknown, at_ms(0), at_ms(0)).sigma_heading,
               std::numbers::pi / std::sqrt(3.0), 1e-12);
 }
 
@@ -221,10 +222,12 @@ TEST(View, AccelerationIsAlongTheHeading) {
   TrackerConfig config;
   config.motion = MotionModel::kConstantAcceleration;
   Track track = moving_track(0.0, 10.0, 0.1);
-  track.estimate.x.tail<2>() << 5.0, -2.0;
-  track.estimate.p(4, 4) = 9.0;
-  track.estimate.p(5, 5) = 0.25;
-  const TrackView view = view_of(track, at_ms(0), at_ms(0), config);
+  Gaussian<6> accelerating = seen_as(track.estimate);
+  accelerating.x.tail<2>() << 5.0, -2.0;
+  accelerating.p(4, 4) = 9.0;
+  accelerating.p(5, 5) = 0.25;
+  track.estimate = accelerating;
+  const TrackView view = shown(track, at_ms(0), at_ms(0), config);
   EXPECT_NEAR(view.acceleration, -2.0, 1e-12) << "braking; what points sideways does not count";
   EXPECT_NEAR(view.sigma_acceleration, 0.5, 1e-9);
 }
@@ -234,14 +237,14 @@ TEST(View, IsPredictedButNeverBackwards) {
   Track track = moving_track(2.0, -1.0, 0.5);
   track.extent.size(0) = 4.0;
   track.extent.covariance(0, 0) = 0.04;
-  const TrackView later = view_of(track, at_ms(1000), at_ms(1500), config);
+  const TrackView later = shown(track, at_ms(1000), at_ms(1500), config);
   EXPECT_NEAR(later.state(0), 11.0, 1e-12);
   EXPECT_NEAR(later.state(1), 1.5, 1e-12);
   EXPECT_NEAR(later.covariance(0, 0), 0.1 + 0.25 * 0.25 + 3.0 * 0.125 / 3.0, 1e-12);
   EXPECT_NEAR(later.sigma_length, std::sqrt(0.04 + 0.01 * 0.5), 1e-12);
   EXPECT_EQ(later.valid_at, at_ms(1500));
-  const TrackView earlier = view_of(track, at_ms(1000), at_ms(900), config);
-  EXPECT_EQ(earlier.state, track.estimate.x);
+  const TrackView earlier = shown(track, at_ms(1000), at_ms(900), config);
+  EXPECT_EQ(earlier.state, state_of(track));
   EXPECT_EQ(earlier.valid_at, at_ms(1000)) << "the instant its state is of";
 }
 

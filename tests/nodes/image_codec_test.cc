@@ -122,12 +122,13 @@ TEST(ImageCodec, BindsAllSignalsOrNone) {
 
 // What a view says of a track's state.
 TEST(ImageStatus, CoastsAfterScansWithoutAnObservation) {
-  fusion::TrackerConfig config;
+  const fusion::TrackerConfig config;
+  const auto estimator = fusion::make_estimator(config);
   fusion::Track track;
   track.confirmed = true;
   for (int misses = 0; misses < 8; ++misses) {
     track.misses = misses;
-    const fusion::TrackView view = view_of(track, GlobalTime{}, GlobalTime{}, config);
+    const fusion::TrackView view = view_of(track, GlobalTime{}, GlobalTime{}, config, *estimator);
     EXPECT_EQ(view.coasting, misses >= config.coast_misses);
     EXPECT_FALSE(view.has_length || view.has_width) << "nothing was measured";
     EXPECT_EQ(view.sigma_length, fusion::Extent::kTypicalLengthSigma) << "and the uncertainty says so too";

@@ -1,4 +1,4 @@
-// Filters of one object against closed forms and second implementations: the dense linear filter of fusion/gaussian.h,
+// Filters of one object against closed forms and second implementations: the dense linear filter (textbook.h),
 // the information form, the scalar Riccati equation, the state augmented by the biases.
 #include <Eigen/LU>
 
@@ -10,6 +10,7 @@
 #include "fusion/sensors/range_bearing_rate.h"
 #include "fusion/sensors/systematic.h"
 #include "tests/fusion/models/drawn.h"
+#include "tests/fusion/textbook.h"
 #include "tests/support/allocation_counter.h"
 
 namespace ttf::fusion {
@@ -120,6 +121,15 @@ LinearMeasurement<M::kStates, S::kDimension> linearised(const S& sensor, const M
   return out;
 }
 
+// To the bit: what a gate is told is what an update finds.
+template <int M>
+void expect_same(const Innovation<M>& a, const Innovation<M>& b) {
+  EXPECT_TRUE((same<M, 1>(a.nu, b.nu) && same<M, M>(a.s, b.s)));
+  EXPECT_EQ(a.nis, b.nis);
+  EXPECT_EQ(a.determinant, b.determinant);
+  EXPECT_EQ(a.used, b.used);
+}
+
 // The filter against the dense one, step by step, on measurements of a vehicle somewhere ahead.
 template <class F, class M, class S>
 void is_the_dense_filter(const M& model, const S& sensor, double tolerance) {
@@ -140,8 +150,10 @@ void is_the_dense_filter(const M& model, const S& sensor, double tolerance) {
     z.r = drawn_covariance<kM>(stream, 0.2);
     z.z = drawn<kM>(sensor.expected(M::template kinematics<S::kParts>(dense.x)), z.r, stream);
     const auto expected = update<kN, kM>(dense, linearised<M>(sensor, z, dense.x));
+    const Innovation<kM> asked = F{}.innovate(model, sensor, z, state);
     const Innovation<kM> innovation = F{}.update(model, sensor, z, state);
     ASSERT_TRUE(innovation.used);
+    expect_same<kM>(asked, innovation);
     EXPECT_LT((apart<kM, 1>(innovation.nu, expected.nu)), tolerance);
     EXPECT_LT((apart<kM, kM>(innovation.s, expected.s)), tolerance);
     EXPECT_LT(M::difference(state.x, dense.x).norm() / dense.x.norm(), tolerance) << k;
@@ -195,7 +207,9 @@ TEST(UnscentedFilter, HeadingsAverageAsAngles) {
   EXPECT_NEAR(to_half_turn(state.x(2) - turned.x(2)), 3.0, 1e-13);
   EXPECT_NEAR(state.p(2, 2), turned.p(2, 2), 1e-13);
   Measurement<3> z{{state.x(0), state.x(1), 0.05}, 0.01 * Matrix<3>::Identity()};
+  const Innovation<3> asked = Unscented{}.innovate(model, PositionHeading{}, z, state);
   const Innovation<3> innovation = Unscented{}.update(model, PositionHeading{}, z, state);
+  expect_same<3>(asked, innovation);
   EXPECT_LT(std::abs(innovation.nu(2)), 0.5 * std::numbers::pi);
   EXPECT_LT(state.p(2, 2), 0.01);
 }

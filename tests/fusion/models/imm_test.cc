@@ -158,8 +158,10 @@ TEST(Imm, FollowsTheManoeuvre) {
     for (int i = 0; i < 2; ++i) z.z(i) += 0.1 * stream.normal();
     const std::int64_t before = support::allocations();
     imm.predict(modes, 0.1);
-    imm.update(Position{}, z, modes);
-    const Gaussian<4> mixed = imm.kinematics(modes);
+    const double asked = imm.innovate(Position{}, z, modes).nis;
+    const Innovation<2> innovation = imm.update(Position{}, z, modes);
+    EXPECT_EQ(asked, innovation.nis);
+    const Gaussian<6> mixed = imm.whole(modes);
     allocations += support::allocations() - before;
     Extended{}.predict(straight, only_straight, 0.1);
     Extended{}.update(straight, Position{}, z, only_straight);

@@ -8,6 +8,7 @@
 
 #include "core/random.h"
 #include "fusion/oosm/method.h"
+#include "tests/fusion/textbook.h"
 
 namespace ttf::fusion::oosm {
 
@@ -108,7 +109,7 @@ std::vector<Taken> take_all(X& method, const Timeline<N, M>& arrivals) {
   return taken;
 }
 
-// The textbook's filter, in order (fusion/gaussian.h).
+// The textbook's filter, in order (tests/fusion/textbook.h).
 template <int N, int M, Motion<N> Model>
 Gaussian<N> in_order(const Model& motion, Gaussian<N> state, Timeline<N, M> events) {
   std::sort(events.begin(), events.end(), [](const auto& a, const auto& b) { return a.stamp < b.stamp; });

@@ -1,0 +1,25 @@
+// What is believed of one object, in the terms of the estimator that made it (fusion/estimator.h): a value of fixed
+// size, that copies no more than it holds. Only an estimator looks inside; everybody else asks it for position() or
+// cartesian(). Which alternative is held is part of the belief: an object whose course is not known yet has no polar
+// state, whatever the model (fusion/estimators/model_estimator.h).
+#pragma once
+
+#include <variant>
+
+#include "fusion/filters/modes.h"
+#include "fusion/gaussian.h"
+#include "fusion/motion/constant_velocity.h"
+#include "fusion/motion/ctrv.h"
+
+namespace ttf::fusion {
+
+// (x, y, vx, vy, ax, ay) in metres and seconds, ISO 8855 axes: what images and metrics speak of. What a model holds
+// constant at zero is zero and certain.
+using State = Vector<6>;
+using Covariance = Matrix<6>;
+using Cartesian = Gaussian<6>;
+
+using StraightOrTurning = filters::Modes<motion::ConstantVelocity, motion::Ctrv>;
+using Estimate = std::variant<Gaussian<4>, Gaussian<5>, Gaussian<6>, StraightOrTurning>;
+
+}  // namespace ttf::fusion

@@ -1,0 +1,50 @@
+// Several motion models at a time (fusion/filters/imm.h), as ModelEstimator takes it: an object that drives straight on
+// and turns now and then.
+#pragma once
+
+#include <tuple>
+
+#include "fusion/estimators/single.h"
+#include "fusion/filters/imm.h"
+
+namespace ttf::fusion::estimators {
+
+template <class F>
+class StraightAndTurning {
+ public:
+  using Own = StraightOrTurning;
+  static constexpr bool kNeedsCourse = true;
+
+  StraightAndTurning(const filters::ModeChain<2>& chain, const Single<F, motion::ConstantVelocity>& straight,
+                     const Single<F, motion::Ctrv>& turning)
+      : imm_(chain, straight.model, turning.model), share_(chain.share), turning_(turning) {}
+
+  Own from(const Gaussian<4>& known) const {
+    return {.estimates = {known, turning_.from(known)}, .probability = share_};
+  }
+  void predict(Own& own, double dt) const {
+    imm_.predict(own, dt);
+    bound_heading<motion::Ctrv>(std::get<1>(own.estimates));
+  }
+  template <sensors::Model S>
+  filters::Innovation<S::kDimension> innovate(const S& sensor, const sensors::Measurement<S::kDimension>& z,
+                                              const Own& own) const {
+    return imm_.innovate(sensor, z, own);
+  }
+  template <sensors::Model S>
+  void update(const S& sensor, const sensors::Measurement<S::kDimension>& z, Own& own) const {
+    imm_.update(sensor, z, own);
+  }
+  Gaussian<2> position(const Own& own) const {
+    const Cartesian all = cartesian(own);
+    return {all.x.head<2>(), all.p.topLeftCorner<2, 2>()};
+  }
+  Cartesian cartesian(const Own& own) const { return imm_.whole(own); }
+
+ private:
+  filters::Imm<F, motion::ConstantVelocity, motion::Ctrv> imm_;
+  Vector<2> share_;
+  Single<F, motion::Ctrv> turning_;
+};
+
+}  // namespace ttf::fusion::estimators

@@ -1,0 +1,44 @@
+// The estimators by motion model, each under the filter that the configuration names. One source file each: the
+// compiler takes its time over them.
+#pragma once
+
+#include <memory>
+
+#include "fusion/estimator.h"
+#include "fusion/estimators/model_estimator.h"
+#include "fusion/filters/extended.h"
+#include "fusion/filters/unscented.h"
+
+namespace ttf::fusion::estimators {
+
+std::shared_ptr<const Estimator> make_straight(const TrackerConfig& config);      // constant velocity, acceleration
+std::shared_ptr<const Estimator> make_turning(const TrackerConfig& config);       // CTRV, CTRA
+std::shared_ptr<const Estimator> make_interacting(const TrackerConfig& config);   // constant velocity and CTRV
+
+template <template <class> class KernelOf, class Make>
+std::shared_ptr<const Estimator> under_the_filter(const TrackerConfig& config, const Make& make) {
+  if (config.filter == FilterKind::kUnscented)
+    return std::make_shared<ModelEstimator<filters::Unscented, KernelOf<filters::Unscented>>>(
+        config, make.template operator()<filters::Unscented>());
+  return std::make_shared<ModelEstimator<filters::Extended, KernelOf<filters::Extended>>>(
+      config, make.template operator()<filters::Extended>());
+}
+
+// What is believed of any road vehicle's turn rate, and of its acceleration, per axis or along its heading.
+template <motion::Model M>
+Gaussian<M::kStates> prior_of(const TrackerConfig& config) {
+  Gaussian<M::kStates> prior;
+  if constexpr (!M::kCartesian)
+    prior.p(M::kTurnRate, M::kTurnRate) = config.initial_turn_rate_sigma * config.initial_turn_rate_sigma;
+  if constexpr (M::kStates == 6)
+    for (int i = M::kCartesian ? 4 : 5; i < 6; ++i)
+      prior.p(i, i) = config.initial_acceleration_sigma * config.initial_acceleration_sigma;
+  return prior;
+}
+
+template <class F, motion::Model M>
+Single<F, M> single(const TrackerConfig& config, const M& model) {
+  return {.model = model, .prior = prior_of<M>(config), .filter = {}};
+}
+
+}  // namespace ttf::fusion::estimators

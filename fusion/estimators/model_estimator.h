@@ -1,0 +1,99 @@
+// The estimator over a kernel: one motion model under a filter (single.h), or several (interacting.h). It chooses the
+// sensor's model by the observation's kind, and starts an object.
+//
+// A polar state needs a course to begin with: with heading and speed unknown, nothing derived at one heading holds, and
+// a filter that starts there errs for good. So where a kernel needs a course, an object moves by constant velocity
+// until it is known that it moves, and where to: its velocity's spread (the root of its covariance's trace) is at most
+// kKnown of its speed, 0.25 rad across. Then it is converted (fusion/motion/conversion.h). The accelerations until then
+// are white noise of the density that in one second gives the velocity the spread that an unknown constant acceleration
+// gives it, initial_acceleration_sigma^2 times 1 s. Something that stands, or creeps, stays so.
+#pragma once
+
+#include "core/check.h"
+#include "fusion/estimator.h"
+#include "fusion/estimators/single.h"
+#include "fusion/sensors/position.h"
+#include "fusion/sensors/range_bearing_rate.h"
+
+namespace ttf::fusion::estimators {
+
+inline constexpr double kKnown = 0.25;
+
+// Position and velocity as one observation has them, `velocity_variance` in every direction it says nothing of.
+Gaussian<4> first_estimate(const Observation& observation, double velocity_variance);
+// Whether it is known that this moves, and where to.
+bool knows_course(const Gaussian<4>& state);
+
+template <class F, class Kernel>
+class ModelEstimator final : public Estimator {
+ public:
+  ModelEstimator(const TrackerConfig& config, const Kernel& kernel)
+      : kernel_(kernel),
+        velocity_variance_(config.initial_velocity_sigma * config.initial_velocity_sigma),
+        young_{.model = motion::ConstantVelocity(config.initial_acceleration_sigma *
+                                                 config.initial_acceleration_sigma)} {}
+
+  Estimate initial(const Observation& observation) const override {
+    const Gaussian<4> first = first_estimate(observation, velocity_variance_);
+    if constexpr (Kernel::kNeedsCourse)
+      return first;
+    else
+      return kernel_.from(first);
+  }
+
+  void predict(Estimate& estimate, double dt) const override {
+    TTF_CHECK(dt >= 0.0, "prediction by {} s", dt);
+    if (dt == 0.0) return;
+    with(estimate, [&](const auto& kernel, auto& own) { kernel.predict(own, dt); });
+  }
+
+  std::optional<double> distance_squared(const Estimate& estimate, const Observation& observation) const override {
+    return with(estimate, [&](const auto& kernel, const auto& own) {
+      return through_sensor(observation, [&](const auto& sensor, const auto& z) -> std::optional<double> {
+        const auto innovation = kernel.innovate(sensor, z, own);
+        if (!innovation.used) return std::nullopt;
+        return innovation.nis;
+      });
+    });
+  }
+
+  void update(Estimate& estimate, const Observation& observation) const override {
+    with(estimate, [&](const auto& kernel, auto& own) {
+      through_sensor(observation, [&](const auto& sensor, const auto& z) { kernel.update(sensor, z, own); });
+    });
+    if constexpr (Kernel::kNeedsCourse)
+      if (const auto* young = std::get_if<Gaussian<4>>(&estimate); young && knows_course(*young))
+        estimate = kernel_.from(Gaussian<4>(*young));
+  }
+
+  Gaussian<2> position(const Estimate& estimate) const override {
+    return with(estimate, [](const auto& kernel, const auto& own) { return kernel.position(own); });
+  }
+  Cartesian cartesian(const Estimate& estimate) const override {
+    return with(estimate, [](const auto& kernel, const auto& own) { return kernel.cartesian(own); });
+  }
+
+ private:
+  template <class E, class Body>
+  auto with(E& estimate, const Body& body) const {
+    if constexpr (Kernel::kNeedsCourse)
+      if (auto* young = std::get_if<Gaussian<4>>(&estimate)) return body(young_, *young);
+    auto* own = std::get_if<typename Kernel::Own>(&estimate);
+    TTF_CHECK(own, "an estimate of another estimator: alternative {}", estimate.index());
+    return body(kernel_, *own);
+  }
+
+  template <class Body>
+  static auto through_sensor(const Observation& o, const Body& body) {
+    if (o.kind == ObservationKind::kPosition)
+      return body(sensors::Position{},
+                  sensors::Measurement<2>{o.z.template head<2>(), o.r.template topLeftCorner<2, 2>()});
+    return body(sensors::RangeBearingRate{}, sensors::Measurement<3>{o.z, o.r});
+  }
+
+  Kernel kernel_;
+  double velocity_variance_;
+  Single<F, motion::ConstantVelocity> young_;
+};
+
+}  // namespace ttf::fusion::estimators

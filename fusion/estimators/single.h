@@ -1,0 +1,60 @@
+// One motion model under one filter, as ModelEstimator takes it.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "fusion/estimate.h"
+#include "fusion/filters/filter.h"
+#include "fusion/motion/conversion.h"
+
+namespace ttf::fusion::estimators {
+
+// A heading is never known less than not at all, uniform over the circle. Of something that stands for long, white
+// turn acceleration would say otherwise; scaling its row and column alike keeps the covariance positive.
+template <class M>
+void bound_heading(Gaussian<M::kStates>& state) {
+  if constexpr (!M::kCartesian) {
+    constexpr double kUnknown = std::numbers::pi * std::numbers::pi / 3.0;
+    const double variance = state.p(M::kHeading, M::kHeading);
+    if (variance <= kUnknown) return;
+    const double scale = std::sqrt(kUnknown / variance);
+    state.p.row(M::kHeading) *= scale;
+    state.p.col(M::kHeading) *= scale;
+  }
+}
+
+template <class F, motion::Model M>
+struct Single {
+  using Own = Gaussian<M::kStates>;
+  static constexpr bool kNeedsCourse = !M::kCartesian;
+
+  M model{};
+  Own prior{};   // what is believed of an object before anything is known of it
+  [[no_unique_address]] F filter{};
+
+  // From position and velocity, the rest being as of any object.
+  Own from(const Gaussian<4>& known) const {
+    return motion::converted<motion::ConstantVelocity, M>(known, prior);
+  }
+  void predict(Own& own, double dt) const {
+    filter.predict(model, own, dt);
+    bound_heading<M>(own);
+  }
+  template <sensors::Model S>
+  filters::Innovation<S::kDimension> innovate(const S& sensor, const sensors::Measurement<S::kDimension>& z,
+                                              const Own& own) const {
+    return filter.innovate(model, sensor, z, own);
+  }
+  template <sensors::Model S>
+  void update(const S& sensor, const sensors::Measurement<S::kDimension>& z, Own& own) const {
+    filter.update(model, sensor, z, own);
+  }
+  Gaussian<2> position(const Own& own) const {
+    return {own.x.template head<2>(), own.p.template topLeftCorner<2, 2>()};
+  }
+  Cartesian cartesian(const Own& own) const { return motion::whole<M>(own).estimate; }
+};
+
+}  // namespace ttf::fusion::estimators

@@ -1,0 +1,35 @@
+// The update as the textbook has it, the oracle of those that are fast (filters/correct.h, oosm/correction.h):
+//   nu = z - H x,  S = H P H' + R,  K = P H' S^-1 by an LDLT solve,  x <- x + K nu,
+//   P <- (I - K H) P (I - K H)' + K R K'  (Bar-Shalom, Li, Kirubarajan 2001, 5.2.3-18).
+#pragma once
+
+#include <Eigen/Cholesky>
+
+#include "fusion/gaussian.h"
+
+namespace ttf::fusion {
+
+// What an update did; nu and S are those before it.
+template <int N, int M>
+struct Correction {
+  Vector<M> nu;
+  Matrix<M> s;
+  Matrix<N, M> k;
+};
+
+template <int N, int M>
+Correction<N, M> update(Gaussian<N>& state, const LinearMeasurement<N, M>& measurement) {
+  Correction<N, M> c;
+  c.nu = measurement.z - measurement.h * state.x;
+  const Matrix<M, N> hp = measurement.h * state.p;
+  c.s = hp * measurement.h.transpose() + measurement.r;
+  symmetrise<M>(c.s);
+  c.k = c.s.ldlt().solve(hp).transpose();
+  state.x += c.k * c.nu;
+  const Matrix<N> a = Matrix<N>::Identity() - c.k * measurement.h;
+  state.p = (a * state.p * a.transpose() + c.k * measurement.r * c.k.transpose()).eval();
+  symmetrise<N>(state.p);
+  return c;
+}
+
+}  // namespace ttf::fusion
