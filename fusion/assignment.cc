@@ -23,7 +23,7 @@ Assignment::Assignment(std::size_t max_rows, std::size_t max_columns) : max_rows
   sorted_.reserve(max_rows * max_columns);
   // Each row also has a column of its own that stands for "unassigned".
   const std::size_t width = max_columns + max_rows;
-  cost_.resize(max_rows * width);
+  cost_ = std::make_unique_for_overwrite<double[]>(max_rows * width);   // a large one is never touched as a whole
   u_.resize(max_rows + 1);
   v_.resize(width + 1);
   shortest_.resize(width + 1);
@@ -84,7 +84,7 @@ void Assignment::solve_component() {
   const std::size_t n = component_rows_.size(), tracks = component_columns_.size(), m = tracks + n;
   for (std::size_t j = 0; j < tracks; ++j)
     local_column_[static_cast<std::size_t>(component_columns_[j])] = static_cast<int>(j);
-  std::fill(cost_.begin(), cost_.begin() + static_cast<std::ptrdiff_t>(n * m), kForbidden);
+  std::fill_n(cost_.get(), n * m, kForbidden);
   for (std::size_t i = 0; i < n; ++i) cost_[i * m + tracks + i] = 0.0;
   std::size_t i = 0;
   for (std::size_t c = first_; c < last_; ++c) {

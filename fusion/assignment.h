@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -37,7 +38,8 @@ class Assignment {
   std::vector<int> component_rows_, component_columns_, local_column_;
   std::vector<Candidate> sorted_;
   std::size_t first_ = 0, last_ = 0;  // candidates of the component being solved
-  std::vector<double> cost_, u_, v_, shortest_;
+  std::unique_ptr<double[]> cost_;
+  std::vector<double> u_, v_, shortest_;
   std::vector<int> match_, way_;
   std::vector<char> used_;
 };

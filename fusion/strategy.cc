@@ -13,10 +13,10 @@ namespace {
 class TimelineStrategy : public Strategy {
  public:
   TimelineStrategy(const TrackerConfig& config, std::span<const SensorTiming> sensors)
-      : config_(config), sensors_(sensors.begin(), sensors.end()), timeline_(config, kMaxObservations) {
+      : config_(config), sensors_(sensors.begin(), sensors.end()), timeline_(config, config.max_observations) {
     pending_.reserve(kMaxPending);
     for (std::size_t i = 0; i < kMaxPending; ++i) {
-      pending_.emplace_back(kMaxObservations);
+      pending_.emplace_back(config.max_observations);
       free_.push_back(kMaxPending - 1 - i);
     }
     waiting_.reserve(kMaxPending);

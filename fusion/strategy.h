@@ -60,9 +60,8 @@ struct FusedScan {
   Disposition disposition = Disposition::kFused;
 };
 
-// Most scans that can wait (of one more, the oldest is fused at once), and most observations in one.
+// Most scans that can wait: of one more, the oldest is fused at once.
 inline constexpr std::size_t kMaxPending = 32;
-inline constexpr std::size_t kMaxObservations = 64;
 // Most scans accepted between two fusion instants whose fate is certain to be listed. An accept() settles at most one, a
 // duplicate or the oldest that waits, and the fusion instant what waits then; of what accepting more settles, the first
 // kMaxListedArrivals are listed and the rest is counted.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "core/check.h"
 #include "fusion/metrics.h"
@@ -25,6 +26,9 @@ void correct_scalar(Scalar& scalar, double innovation, double measured, double s
 // Confirmed tracks take precedence over tentative ones for the same observation.
 constexpr double kConfirmedBonus = 100.0;
 
+// A bound that is rounded leaves nothing out.
+constexpr double kRoundedUp = 1.0 + 1e-12;
+
 }  // namespace
 
 void TrackSet::assign(const TrackSet& other) {
@@ -44,7 +48,7 @@ Tracker::Tracker(const TrackerConfig& config, std::size_t max_observations)
       near_track_(max_observations),
       observation_of_(max_tracks_) {
   candidates_.reserve(max_observations * max_tracks_);
-  positions_.reserve(max_tracks_);
+  by_x_.reserve(max_tracks_);
   for (int dimension = 1; dimension <= 3; ++dimension)
     gate_[dimension] = chi_square_quantile(config.gate_probability, dimension);
 }
@@ -86,21 +90,43 @@ void Tracker::predict_all(TrackSet& set, GlobalTime to) const {
   set.time = to;
 }
 
+void Tracker::sort_by_x(const TrackSet& set) {
+  by_x_.clear();
+  largest_variance_x_ = 0.0;
+  for (std::size_t t = 0; t < set.tracks.size(); ++t) {
+    const Gaussian<2> at = estimator_->position(set.tracks[t].estimate);
+    by_x_.push_back({at.x(0), at.x(1), at.p(0, 0), at.p(1, 1), t});
+    largest_variance_x_ = std::max(largest_variance_x_, at.p(0, 0));
+  }
+  std::sort(by_x_.begin(), by_x_.end(), [](const Placed& a, const Placed& b) {
+    return a.x != b.x ? a.x < b.x : a.track < b.track;
+  });
+}
+
+// In the order of the tracks along x; what is assigned does not depend on the order of candidates.
 void Tracker::associate(const TrackSet& set, const Scan& scan) {
   candidates_.clear();
   std::fill(near_track_.begin(), near_track_.end(), 0);
-  positions_.clear();
-  for (const Track& track : set.tracks) positions_.push_back(estimator_->position(track.estimate));
+  sort_by_x(set);
   for (std::size_t o = 0; o < scan.observations.size(); ++o) {
     const Observation& z = scan.observations[o];
     const double gate = gate_[dimension_of(z.kind)];
-    for (std::size_t t = 0; t < set.tracks.size(); ++t) {
+    const bool position = z.kind == ObservationKind::kPosition;
+    auto at = by_x_.begin();
+    double to = std::numeric_limits<double>::infinity();
+    if (position) {
+      // Further away than the least certain of all tracks reaches: outside every gate.
+      const double reach = kRoundedUp * std::sqrt(gate * (largest_variance_x_ + z.r(0, 0)));
+      at = std::partition_point(at, by_x_.end(), [&](const Placed& placed) { return placed.x < z.z(0) - reach; });
+      to = z.z(0) + reach;
+    }
+    for (; at != by_x_.end() && at->x <= to; ++at) {
+      const std::size_t t = at->track;
       const Track& track = set.tracks[t];
-      if (z.kind == ObservationKind::kPosition) {
+      if (position) {
         // Cheap bound first: outside the gate on one axis alone is outside the gate.
-        const Gaussian<2>& at = positions_[t];
-        const double dx = z.z(0) - at.x(0), dy = z.z(1) - at.x(1);
-        if (dx * dx > gate * (at.p(0, 0) + z.r(0, 0)) || dy * dy > gate * (at.p(1, 1) + z.r(1, 1))) continue;
+        const double dx = z.z(0) - at->x, dy = z.z(1) - at->y;
+        if (dx * dx > gate * (at->variance_x + z.r(0, 0)) || dy * dy > gate * (at->variance_y + z.r(1, 1))) continue;
       }
       const std::optional<double> distance_squared = estimator_->distance_squared(track.estimate, z);
       if (!distance_squared || *distance_squared > gate) continue;

@@ -43,6 +43,7 @@ class Tracker {
 
  private:
   void predict_all(TrackSet& set, GlobalTime to) const;
+  void sort_by_x(const TrackSet& set);
   void associate(const TrackSet& set, const Scan& scan);
   void correct(Track& track, const Observation& observation) const;
   void correct_extent(Track& track, const Observation& observation) const;
@@ -55,7 +56,12 @@ class Tracker {
   double gate_[4] = {};  // by dimension of the observation
   Assignment assignment_;
   std::vector<Candidate> candidates_;
-  std::vector<Gaussian<2>> positions_;   // of the tracks
+  struct Placed {
+    double x = 0.0, y = 0.0, variance_x = 0.0, variance_y = 0.0;
+    std::size_t track = 0;
+  };
+  std::vector<Placed> by_x_;   // the tracks, sorted: who is far away is not looked at
+  double largest_variance_x_ = 0.0;
   std::vector<char> near_track_;  // per observation: inside the gate of a confirmed track
   std::vector<int> observation_of_;
 };

@@ -34,6 +34,8 @@ TrackerConfig load_tracker(YamlMap& yaml) {
   c.delete_after = yaml.duration_or("delete_after", c.delete_after, kSilence);
   if (c.coast_after > c.delete_after) yaml.fail("coast_after", "must not be longer than delete_after");
   c.max_objects = static_cast<int>(yaml.integer_or("max_objects", c.max_objects, {1, 1000}));
+  c.max_observations = static_cast<std::size_t>(
+      yaml.integer_or("max_observations", static_cast<std::int64_t>(c.max_observations), {1, 4096}));
   c.history_scans = static_cast<std::size_t>(
       yaml.integer_or("history_scans", static_cast<std::int64_t>(c.history_scans), {2, 4096}, "scans"));
   c.heading_noise = yaml.number_or("heading_noise", c.heading_noise, {0.0, 100.0}, "rad^2/s");

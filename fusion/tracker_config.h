@@ -44,6 +44,7 @@ struct TrackerConfig {
   Duration coast_after = Duration::milliseconds(300);
   Duration delete_after = Duration::milliseconds(1000);
   int max_objects = 25;                // confirmed tracks: what the image's list carries
+  std::size_t max_observations = 64;   // in one list
   std::size_t history_scans = 64;      // how far back a late scan can be taken in
   double heading_noise = 0.05;         // spectral density of the heading's random walk [rad^2/s]
   double extent_noise = 0.01;          // of length and width [m^2/s]

@@ -61,7 +61,8 @@ std::vector<fusion::SensorTiming> sensor_timings(const schedules::Cluster& clust
 FusionHost::FusionHost(const schedules::Cluster& cluster, fusion::StrategyKind kind,
                        const fusion::TrackerConfig& tracker)
     : strategy(fusion::make_strategy(kind, tracker, sensor_timings(cluster))),
-      most_objects(static_cast<std::size_t>(tracker.max_objects)) {}
+      most_objects(static_cast<std::size_t>(tracker.max_objects)),
+      most_observations(tracker.max_observations) {}
 
 bool RoundsBelieved::believed(std::int64_t rounds) {
   if (rounds != rounds_ && claimed_ != rounds) {
@@ -79,10 +80,11 @@ FusionStep::FusionStep(const schedules::Cluster& cluster, const schedules::Task&
   std::size_t most = 0;
   for (const schedules::PortBinding& binding : task.reads) {
     const schedules::PduLayout& layout = cluster.pdu(binding.pdu);
-    if (static_cast<std::size_t>(layout.max_elements) > fusion::kMaxObservations)
+    if (static_cast<std::size_t>(layout.max_elements) > host_->most_observations)
       throw InputError({cluster.file, layout.line, "pdus." + layout.name + ".max_elements",
                         std::to_string(layout.max_elements),
-                        "must be at most " + std::to_string(fusion::kMaxObservations) + " for a list that is fused"});
+                        "must be at most " + std::to_string(host_->most_observations) +
+                            " for a list that is fused (max_observations of the scenario's tracker)"});
     codecs_.emplace_back(cluster, binding.pdu);
     most = std::max(most, static_cast<std::size_t>(cluster.pdu(binding.pdu).max_elements));
   }

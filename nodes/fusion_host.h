@@ -26,6 +26,7 @@ struct FusionHost {
   FusionHost(const schedules::Cluster& cluster, fusion::StrategyKind kind, const fusion::TrackerConfig& tracker);
   std::unique_ptr<fusion::Strategy> strategy;
   std::size_t most_objects;        // confirmed tracks there can be
+  std::size_t most_observations;   // in one list
   std::uint32_t step = 0;          // numbered fusion instants, from 1
   std::uint64_t unlisted = 0;      // of the strategy's, up to the last one
 };

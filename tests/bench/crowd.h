@@ -1,4 +1,4 @@
-// 25 objects for 16 s, as two sensors see them, and strategies that have tracked them for a while.
+// Objects as two sensors see them, and strategies that have tracked them for a while: 25 for 16 s, and 1,000.
 #pragma once
 
 #include <cstdint>
@@ -12,16 +12,19 @@ namespace ttf::fusion {
 
 inline constexpr std::uint32_t kCycles = 400;
 
-// Laser and camera see all 25 objects every 40 ms, the camera 20 ms later.
+// Laser and camera see all objects every 40 ms, the camera 20 ms later.
 struct Crowd {
   std::vector<OwnedScan> laser, camera;
   const std::vector<SensorTiming> sensors{
       {SensorId{0}, Settling::after(Duration::milliseconds(60)), true, at_ms(0), Duration::milliseconds(40)},
       {SensorId{1}, Settling::after(Duration::milliseconds(35)), true, at_ms(20), Duration::milliseconds(40)}};
 
-  Crowd() {
-    const Lanes seen_by_laser{.seed = 1}, seen_by_camera{.sigma = 0.4, .seed = 2};
-    for (std::uint32_t k = 0; k < kCycles; ++k) {
+  explicit Crowd(const Lanes& lanes, std::uint32_t cycles) {
+    Lanes seen_by_laser = lanes, seen_by_camera = lanes;
+    seen_by_laser.seed = 1;
+    seen_by_camera.seed = 2;
+    seen_by_camera.sigma = 0.4;
+    for (std::uint32_t k = 0; k < cycles; ++k) {
       laser.push_back(scan(0, k, at_ms(40 * k), seen_by_laser.see(at_ms(40 * k), k)));
       camera.push_back(scan(1, k, at_ms(40 * k + 20), seen_by_camera.see(at_ms(40 * k + 20), k)));
     }
@@ -38,8 +41,22 @@ struct Crowd {
 };
 
 inline const Crowd& scene() {
-  static const Crowd the_crowd;
+  static const Crowd the_crowd({}, kCycles);
   return the_crowd;
+}
+
+// 1,000 objects, 6 m and 12 m apart.
+inline constexpr std::uint32_t kThousandCycles = 60;
+inline const Crowd& thousand() {
+  static const Crowd the_crowd({.objects = 1000, .across = 40}, kThousandCycles);
+  return the_crowd;
+}
+inline TrackerConfig for_thousand() {
+  TrackerConfig config;
+  config.max_objects = 1000;
+  config.max_observations = 1000;
+  config.history_scans = 16;
+  return config;
 }
 
 inline constexpr std::uint32_t kWarm = 40;  // cycles: 80 scans, more than the history holds

@@ -107,6 +107,17 @@ void fusion_late_scan() {
   });
 }
 
+void fusion_cycle_of_thousand() {
+  const auto strategy = fusion::thousand().start(fusion::StrategyKind::kAdva, 20, fusion::for_thousand());
+  const auto& laser = fusion::thousand().laser[20];
+  const auto& camera = fusion::thousand().camera[20];
+  counted([&] {
+    strategy->accept(laser.view());
+    strategy->accept(camera.view());
+    strategy->fuse(camera.measured + Duration::milliseconds(60));
+  });
+}
+
 // ---- the bus
 
 struct Frame {
@@ -194,6 +205,7 @@ const Path kPaths[] = {
     {"late_b_1", late_by<AlgorithmB, 1>},
     {"late_c_1", late_by<AlgorithmC, 1>},
     {"fusion_cycle", fusion_cycle},
+    {"fusion_cycle_of_thousand", fusion_cycle_of_thousand},
     {"fusion_late_scan", fusion_late_scan},
     {"frame_encode", frame_encode},
     {"frame_decode", frame_decode},

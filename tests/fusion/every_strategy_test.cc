@@ -35,7 +35,7 @@ TEST_P(EveryStrategy, EndsWithTheBitsOfInOrderProcessing) {
   std::sort(in_order.begin(), in_order.end(), [](const OwnedScan& a, const OwnedScan& b) {
     return before(a.id, a.measured, b.id, b.measured);
   });
-  Timeline timeline(TrackerConfig{}, kMaxObservations);
+  Timeline timeline(TrackerConfig{}, TrackerConfig{}.max_observations);
   for (const OwnedScan& s : in_order) timeline.insert(s.view());
   std::vector<TrackView> expected, image;
   for (const Track& track : timeline.current().tracks)

@@ -43,7 +43,7 @@ std::vector<TrackView> in_order(std::vector<Arrival> arrivals, GlobalTime at) {
   std::sort(arrivals.begin(), arrivals.end(), [](const Arrival& a, const Arrival& b) {
     return before(a.scan.id, a.scan.measured, b.scan.id, b.scan.measured);
   });
-  Timeline timeline(TrackerConfig{}, kMaxObservations);
+  Timeline timeline(TrackerConfig{}, TrackerConfig{}.max_observations);
   for (const Arrival& arrival : arrivals) timeline.insert(arrival.scan.view());
   const TrackSet& set = timeline.current();
   std::vector<TrackView> views;

@@ -142,10 +142,11 @@ bool same_bits(const std::vector<TrackView>& a, const std::vector<TrackView>& b)
 State Lanes::truth(int object, GlobalTime at) const {
   const double t = (at - GlobalTime{}).seconds();
   State x = State::Zero();
-  x(2) = 3.0 + 0.5 * (object / 5);
-  x(3) = 0.1 * (object % 5 - 2);
-  x(0) = 10.0 + 12.0 * (object / 5) + x(2) * t;
-  x(1) = 6.0 * (object % 5 - 2) + x(3) * t;
+  const int row = object / across, lane = object % across - across / 2;
+  x(2) = 3.0 + 0.5 * row;
+  x(3) = 0.1 * lane;
+  x(0) = 10.0 + 12.0 * row + x(2) * t;
+  x(1) = 6.0 * lane + x(3) * t;
   return x;
 }
 
