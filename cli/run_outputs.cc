@@ -83,6 +83,10 @@ const Row kRows[] = {
     {"  arrived out of sequence", [](const StrategyResult& r) { return number(r.summary.out_of_sequence); }},
     {"  fused late (retrodicted)", [](const StrategyResult& r) { return number(r.summary.fused_late); }},
     {"  times held back", [](const StrategyResult& r) { return number(r.summary.held); }},
+    {"  held back for, mean / worst [ms]", [](const StrategyResult& r) {
+       const experiments::AgeStatistics& held = r.summary.held_for;
+       return held.count == 0 ? std::string("-") : mean_cell(held) + " / " + worst_cell(held);
+     }},
     {"  dropped", [](const StrategyResult& r) { return number(lost_lists(r)); }},
     {"    too old to be fused", [](const StrategyResult& r) { return number(r.summary.dropped); }, true},
     {"    torn on the way", [](const StrategyResult& r) { return number(r.outcome.counts.torn_lists); }, true},
@@ -189,6 +193,7 @@ nlohmann::ordered_json to_json(const nodes::Scenario& scenario, std::uint64_t se
                            {"duplicates", s.duplicates}, {"torn", result.outcome.counts.torn_lists},
                            {"overwritten", result.outcome.counts.overwritten_lists},
                            {"discarded", result.outcome.counts.discarded_lists}, {"lost", lost_lists(result)}};
+    one["held_back_for"] = ages(s.held_for);
     one["objects"] = {{"compared", s.matched}, {"missed", s.missed}, {"spurious", s.spurious}};
     one["uses"] = s.uses;
     one["uses_with_warning"] = s.warnings;

@@ -32,7 +32,23 @@ void DriveMeasures::on(const records::FusionInput& input) {
   newest_received_ = newest_received_ ? std::max(*newest_received_, input.measured) : input.measured;
 }
 
+// Until something else becomes of it. A fusion node that restarts has forgotten what it held.
+void DriveMeasures::note_held(const records::ListFused& list) {
+  const auto known = std::find_if(held_.begin(), held_.end(), [&](const Held& held) {
+    return held.id == list.id && held.measured == list.measured;
+  });
+  if (list.disposition == records::Disposition::kHeld) {
+    if (known != held_.end()) return;
+    held_.push_back({list.id, list.measured, list.stamp.global});
+    if (held_.size() > kMostHeld) held_.pop_front();
+  } else if (known != held_.end() && list.disposition != records::Disposition::kDuplicate) {
+    if (list.stamp.global >= known->since) summary_.held_for.add(list.stamp.global - known->since);
+    held_.erase(known);
+  }
+}
+
 void DriveMeasures::on(const records::ListFused& fused) {
+  note_held(fused);
   switch (fused.disposition) {
     case records::Disposition::kFused: ++summary_.fused; break;
     case records::Disposition::kFusedLate: ++summary_.fused_late; break;

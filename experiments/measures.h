@@ -65,6 +65,7 @@ struct DriveSummary {
   std::uint64_t fused = 0;
   std::uint64_t fused_late = 0;            // retrodicted
   std::uint64_t held = 0;                  // fusion instants at which a list was kept back
+  AgeStatistics held_for;                  // of each such list: from the first of them until it was fused
   std::uint64_t dropped = 0;               // too old for the history
   std::uint64_t duplicates = 0;
   std::uint64_t warnings = 0;              // uses in which an object warned
@@ -110,6 +111,7 @@ class DriveMeasures final : public records::Sink {
     bool fresh = true;
     std::vector<PlaneEstimate> objects;
   };
+  void note_held(const records::ListFused& list);
   void judge(const Use& use);
   void judge_age(const Image& image, TrueTime used);
   void judge_consistency(const Predicted& predicted, const records::TruthState& truth);
@@ -122,6 +124,12 @@ class DriveMeasures final : public records::Sink {
   std::uint32_t receiving_step_ = 0;
   GlobalTime receiving_{};                                        // instant of that step
   std::optional<GlobalTime> newest_received_, newest_before_;     // before: in earlier steps
+  struct Held {
+    MeasurementId id;
+    GlobalTime measured{}, since{};
+  };
+  static constexpr std::size_t kMostHeld = 64;                    // more than any strategy keeps
+  std::deque<Held> held_;                                         // the first was first
   std::map<SensorId, Fused> newest_fused_;
   std::vector<Predicted> predicted_;                              // for the image that is being written
   std::deque<Image> images_;                                      // as they were written, the last few

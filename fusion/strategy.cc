@@ -1,6 +1,7 @@
 #include "fusion/strategy.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "core/check.h"
 #include "fusion/timeline.h"
@@ -20,6 +21,7 @@ class TimelineStrategy : public Strategy {
       free_.push_back(kMaxPending - 1 - i);
     }
     waiting_.reserve(kMaxPending);
+    seen_.resize(kMaxPending);
     between_.reserve(kMaxListedArrivals);
     report_.reserve(kMaxListedArrivals + kMaxPending);
     views_.reserve(static_cast<std::size_t>(config.max_objects));
@@ -27,6 +29,7 @@ class TimelineStrategy : public Strategy {
     newest_stamps_.reserve(sensors_.size());
     newest_received_.resize(sensors_.size());
     any_received_.resize(sensors_.size());
+    longest_delay_.resize(sensors_.size());
     settled_.resize(sensors_.size());
     for (const SensorTiming& s : sensors_)
       TTF_CHECK(!s.scheduled || s.period.ns > 0, "sensor {}: period of {} ns", index_of(s.sensor),
@@ -52,6 +55,7 @@ class TimelineStrategy : public Strategy {
     const std::size_t slot = free_.back();
     free_.pop_back();
     pending_[slot].assign(scan);
+    seen_[slot] = 0;
     const auto place = std::find_if(waiting_.begin(), waiting_.end(), [&](std::size_t w) {
       return before(scan.id, scan.measured, pending_[w].id, pending_[w].measured);
     });
@@ -61,10 +65,11 @@ class TimelineStrategy : public Strategy {
   void fuse(GlobalTime now) final {
     report_.assign(between_.begin(), between_.end());
     between_.clear();
-    for (std::size_t s = 0; s < sensors_.size(); ++s) settled_[s] = sensors_[s].settling.settled(now);
+    now_ = now;
     // A stamp from the future tells nothing of what else may still come from its sensor.
     for (const std::size_t slot : waiting_)
-      if (pending_[slot].measured <= now) receive(pending_[slot]);
+      if (pending_[slot].measured <= now && seen_[slot]++ == 0) receive(pending_[slot]);
+    for (std::size_t s = 0; s < sensors_.size(); ++s) settled_[s] = settled_now(s);
     std::size_t kept = 0;
     bool blocked = false;
     for (std::size_t i = 0; i < waiting_.size(); ++i) {
@@ -104,6 +109,13 @@ class TimelineStrategy : public Strategy {
  protected:
   // At the present fusion instant.
   virtual bool may_fuse(const StoredScan& scan) const = 0;
+  // What sensor s measured until then has arrived, or never will.
+  virtual GlobalTime settled_now(std::size_t s) const { return sensors_[s].settling.settled(now_); }
+
+  const TrackerConfig& config() const { return config_; }
+  GlobalTime now() const { return now_; }
+  // The longest that a list of sensor s was on its way, as far as fusion instants tell.
+  std::optional<Duration> longest_delay(std::size_t s) const { return longest_delay_[s]; }
 
   std::size_t sensor_count() const { return sensors_.size(); }
   const SensorTiming& sensor(std::size_t s) const { return sensors_[s]; }
@@ -128,6 +140,7 @@ class TimelineStrategy : public Strategy {
       if (sensors_[s].sensor != scan.id.sensor) continue;
       newest_received_[s] = any_received_[s] ? std::max(newest_received_[s], scan.measured) : scan.measured;
       any_received_[s] = 1;
+      longest_delay_[s] = std::max(longest_delay_[s].value_or(Duration{}), now_ - scan.measured);
     }
   }
 
@@ -176,6 +189,7 @@ class TimelineStrategy : public Strategy {
   Timeline timeline_;
   std::vector<StoredScan> pending_;          // storage
   std::vector<std::size_t> free_, waiting_;  // waiting: chronological
+  std::vector<char> seen_;                   // by a fusion instant, of those that wait
   std::vector<FusedScan> report_, between_;  // between_: what happened since the last fusion instant
   std::uint64_t unlisted_ = 0;
   std::vector<TrackView> views_;
@@ -184,6 +198,8 @@ class TimelineStrategy : public Strategy {
   std::vector<GlobalTime> newest_stamps_;  // of these
   std::vector<GlobalTime> newest_received_;
   std::vector<char> any_received_;
+  std::vector<std::optional<Duration>> longest_delay_;
+  GlobalTime now_{};
   std::vector<GlobalTime> settled_;  // by sensor, at the present fusion instant
 };
 
@@ -191,7 +207,14 @@ class Buff final : public TimelineStrategy {
   using TimelineStrategy::TimelineStrategy;
 
  private:
+  GlobalTime settled_now(std::size_t s) const override {
+    const auto longest = longest_delay(s);
+    if (config().buff_waits != BuffWaiting::kMeasured || !longest) return TimelineStrategy::settled_now(s);
+    return now() - *longest;
+  }
+
   bool may_fuse(const StoredScan& scan) const override {
+    if (config().buff_waits == BuffWaiting::kFixedLag) return now() - scan.measured >= config().fixed_lag;
     for (std::size_t s = 0; s < sensor_count(); ++s) {
       if (sensor(s).sensor == scan.id.sensor) continue;
       if (!arrived_since(s, scan.measured) && !settled(s, scan.measured)) return false;

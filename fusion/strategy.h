@@ -2,7 +2,8 @@
 // interface.
 //
 // BUFF  keeps a scan back until chronological order is certain: for every other sensor, a scan that is not
-//       older has arrived, or none can arrive any more (fusion/settling.h). Then fuses in order.
+//       older has arrived, or none can arrive any more (fusion/settling.h). Then fuses in order. Or until the delays
+//       that were measured so far, or a fixed lag, say so (BuffWaiting): then what is later still is taken in late.
 // ADVA  takes scans as they come. One that is older than what is fused already is taken in exactly: the
 //       tracker goes back to before it, takes it in, and takes in again what came after, associations
 //       included. That is bit-identical to having received everything in order.

@@ -34,6 +34,11 @@ TrackerConfig load_tracker(YamlMap& yaml) {
   c.delete_after = yaml.duration_or("delete_after", c.delete_after, kSilence);
   if (c.coast_after > c.delete_after) yaml.fail("coast_after", "must not be longer than delete_after");
   c.max_objects = static_cast<int>(yaml.integer_or("max_objects", c.max_objects, {1, 1000}));
+  c.buff_waits = yaml.choice_or<BuffWaiting>("buff_waits", c.buff_waits,
+                                             {{"schedule", BuffWaiting::kSchedule},
+                                              {"measured", BuffWaiting::kMeasured},
+                                              {"fixed_lag", BuffWaiting::kFixedLag}});
+  c.fixed_lag = yaml.duration_or("fixed_lag", c.fixed_lag, {Duration{}, Duration::milliseconds(10'000)});
   c.max_observations = static_cast<std::size_t>(
       yaml.integer_or("max_observations", static_cast<std::int64_t>(c.max_observations), {1, 4096}));
   c.history_scans = static_cast<std::size_t>(

@@ -16,6 +16,13 @@ enum class MotionModel : unsigned char { kConstantVelocity, kConstantAcceleratio
 // are linear, the extended filter is the Kalman filter, and so is the unscented one but for rounding.
 enum class FilterKind : unsigned char { kExtended, kUnscented };
 
+// What BUFF waits for (fusion/strategy.h).
+enum class BuffWaiting : unsigned char {
+  kSchedule,   // until the schedule says that nothing older can come
+  kMeasured,   // until the longest delay that each sensor's lists have had so far is over; before the first, as kSchedule
+  kFixedLag,   // fixed_lag behind the measurement, whatever has arrived
+};
+
 struct TrackerConfig {
   MotionModel motion = MotionModel::kConstantVelocity;
   FilterKind filter = FilterKind::kExtended;
@@ -45,6 +52,8 @@ struct TrackerConfig {
   Duration delete_after = Duration::milliseconds(1000);
   int max_objects = 25;                // confirmed tracks: what the image's list carries
   std::size_t max_observations = 64;   // in one list
+  BuffWaiting buff_waits = BuffWaiting::kSchedule;
+  Duration fixed_lag = Duration::milliseconds(100);
   std::size_t history_scans = 64;      // how far back a late scan can be taken in
   double heading_noise = 0.05;         // spectral density of the heading's random walk [rad^2/s]
   double extent_noise = 0.01;          // of length and width [m^2/s]

@@ -144,6 +144,31 @@ void fuse(records::Sink& sink, std::uint8_t sensor, std::uint32_t sequence, std:
   sink.on(fused);
 }
 
+// Two lists are held back, one over three fusion instants and one over one; a third not at all.
+TEST(Measures, HowLongAListWasHeldBack) {
+  DriveMeasures measures(TrueTime{});
+  const auto becomes = [&](std::uint32_t sequence, records::Disposition what, std::int64_t ms) {
+    records::ListFused list;
+    list.id = {SensorId{0}, sequence};
+    list.measured = global(10 * sequence);
+    list.disposition = what;
+    list.stamp.global = global(ms);
+    measures.on(list);
+  };
+  using enum records::Disposition;
+  for (const std::int64_t ms : {50, 60, 70}) becomes(1, kHeld, ms);
+  becomes(2, kHeld, 70);
+  becomes(2, kDuplicate, 75);
+  becomes(1, kFused, 80);
+  becomes(2, kFusedLate, 80);
+  becomes(3, kFused, 80);
+  const DriveSummary summary = measures.finish();
+  EXPECT_EQ(summary.held, 4u);
+  EXPECT_EQ(summary.held_for.count, 2u);
+  EXPECT_EQ(summary.held_for.mean(), Duration::milliseconds(20));
+  EXPECT_EQ(summary.held_for.worst, Duration::milliseconds(30));
+}
+
 // Sensor 1 falls silent at 100 ms; what is known of it is older at every use, however long that lasts.
 TEST(Measures, TheAgeOfADeadSensorGrowsOn) {
   DriveMeasures measures(TrueTime{});

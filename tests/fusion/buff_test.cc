@@ -77,6 +77,42 @@ TEST(Buff, RepairsABrokenPromise) {
             (std::vector{fused(70, 1, 0), fused(90, 0, 0, Disposition::kFusedLate)}));
 }
 
+// 25 ms behind every measurement, at the next fusion instant, whatever has arrived.
+//
+//   t [ms]    0     10    20    30    40    50    60
+//   sensor 0  x0 ------------------------------>55
+//   sensor 1        x0 --------->30
+//   fused                             1/0       0/0 late
+TEST(Buff, WithAFixedLagWaitsNoLongerAndRepairsWhatComesLater) {
+  const std::vector<SensorTiming> sensors{free_running(0, 60), free_running(1, 30)};
+  TrackerConfig config;
+  config.buff_waits = BuffWaiting::kFixedLag;
+  config.fixed_lag = Duration::milliseconds(25);
+  const auto strategy = make_strategy(StrategyKind::kBuff, config, sensors);
+  EXPECT_EQ(run(*strategy, {{55, scan(0, 0, at_ms(0))}, {30, scan(1, 0, at_ms(10))}}, 150),
+            (std::vector{fused(40, 1, 0), fused(60, 0, 0, Disposition::kFusedLate)}));
+}
+
+// Sensor 0 may take 60 ms, but its first list took 20, as fusion instants see it: from then on nobody waits for longer.
+// When one takes 50, that counts.
+//
+//   t [ms]    0     10    20    30    40    50    60    70    80   ...  100   110   120   130   140   150   160
+//   sensor 0  x0 --------->15         x1 ------------------------------>85
+//   sensor 1        x0 ->15                 x1 ->55                           x2 ->115
+//   fused                 0/0   1/0               .           1/1        0/1 late                      1/2
+TEST(Buff, WithMeasuredDelaysWaitsForTheLongestSoFar) {
+  const std::vector<SensorTiming> sensors{free_running(0, 60), free_running(1, 30)};
+  TrackerConfig config;
+  config.buff_waits = BuffWaiting::kMeasured;
+  const auto strategy = make_strategy(StrategyKind::kBuff, config, sensors);
+  EXPECT_EQ(run(*strategy,
+                {{15, scan(0, 0, at_ms(0))}, {15, scan(1, 0, at_ms(10))}, {85, scan(0, 1, at_ms(40))},
+                 {55, scan(1, 1, at_ms(50))}, {115, scan(1, 2, at_ms(110))}},
+                250),
+            (std::vector{fused(20, 0, 0), fused(30, 1, 0), fused(70, 1, 1), fused(90, 0, 1, Disposition::kFusedLate),
+                         fused(160, 1, 2)}));
+}
+
 // Any drive that keeps its promises: released in chronological order, never late, and no later than the last
 // promise.
 TEST(Buff, IsInOrderAndNeverWaitsLongerThanTheWorstDelay) {

@@ -34,7 +34,11 @@ TEST(TrackerConfig, ReadsEveryKey) {
       "initial_acceleration_sigma: 3\ngate_probability: 0.99\nconfirm_hits: 2\nconfirm_window: 4\n"
       "delete_misses: 6\ndelete_position_sigma: 7\nmax_objects: 12\nhistory_scans: 16\nheading_noise: 0.5\n"
       "filter: unscented\nturn_noise: 0.4\ninitial_turn_rate_sigma: 0.7\nmode_seconds: 9\n"
-      "extent_noise: 0.25\ncoast_after: 120 ms\ndelete_after: 2 s\n");
+      "extent_noise: 0.25\ncoast_after: 120 ms\ndelete_after: 2 s\n"
+      "max_observations: 200\nbuff_waits: fixed_lag\nfixed_lag: 70 ms\n");
+  EXPECT_EQ(c.max_observations, 200u);
+  EXPECT_EQ(c.buff_waits, BuffWaiting::kFixedLag);
+  EXPECT_EQ(c.fixed_lag, Duration::milliseconds(70));
   EXPECT_EQ(c.motion, MotionModel::kConstantAcceleration);
   EXPECT_EQ(c.filter, FilterKind::kUnscented);
   EXPECT_EQ(c.turn_noise, 0.4);
