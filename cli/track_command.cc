@@ -69,10 +69,11 @@ int run_track(const TrackOptions& options) {
   const experiments::ReplaySetup setup{config.strategy, config.tracker,
                                        experiments::sensor_timings(arrivals, config, config.strategy), options.predict};
   std::string tracks(recording::track_heading());
-  result.account = experiments::replay(arrivals, setup, [&](GlobalTime known, std::span<const fusion::TrackView> views) {
-    for (const fusion::TrackView& view : views)
-      tracks += recording::track_line(experiments::track_row_of(view, known));
-  });
+  result.account =
+      experiments::replay(arrivals, setup, [&](GlobalTime known, std::span<const fusion::TrackView> views) {
+        for (const fusion::TrackView& view : views)
+          tracks += recording::track_line(experiments::track_row_of(view, known));
+      });
 
   if (options.out.empty()) {
     fmt::print("{}", tracks);
@@ -89,15 +90,17 @@ int run_track(const TrackOptions& options) {
 
 void add_sensor_options(CLI::App& command, TrackOptions& options) {
   const auto each_takes_one = [](CLI::Option* option) { option->allow_extra_args(false); };
-  each_takes_one(command.add_option("--noise", options.noise,
-                                    "SENSOR:WHAT=SIGMA: noise of what has no covariance of its own, as in radar:range=0.3; "
-                                    "may be repeated, as the next three"));
+  each_takes_one(
+      command.add_option("--noise", options.noise,
+                         "SENSOR:WHAT=SIGMA: noise of what has no covariance of its own, as in radar:range=0.3; "
+                         "may be repeated, as the next three"));
   each_takes_one(command.add_option("--worst-delay", options.worst_delay,
                                     "SENSOR=DURATION: what buff and tt rely on; else the longest that is seen"));
-  each_takes_one(command.add_option("--period", options.period,
-                                    "SENSOR=DURATION: the schedule tt relies on; else as the sensor is seen to measure"));
-  each_takes_one(command.add_option("--delay", options.delay,
-                                    "SENSOR=LEAST..MOST: delays drawn in place of the recorded ones, as in radar=20ms..70ms"));
+  each_takes_one(command.add_option(
+      "--period", options.period, "SENSOR=DURATION: the schedule tt relies on; else as the sensor is seen to measure"));
+  each_takes_one(
+      command.add_option("--delay", options.delay,
+                         "SENSOR=LEAST..MOST: delays drawn in place of the recorded ones, as in radar=20ms..70ms"));
 }
 
 }  // namespace
@@ -110,7 +113,8 @@ void add_track(CLI::App& app, Action& action) {
       "Example: ttfusion track observations.csv --strategy buff --delay radar=20ms..70ms --seed 7 -o tracks.csv");
   command->add_option("observations", options->observations, "Recorded observations")->required();
   command->add_option("--config", options->config, "Tracker, strategy and sensors (YAML)");
-  command->add_option("--format", options->format, "csv (docs/track.md; the default) or laser_radar (docs/recordings.md)")
+  command
+      ->add_option("--format", options->format, "csv (docs/track.md; the default) or laser_radar (docs/recordings.md)")
       ->check(CLI::IsMember({"csv", "laser_radar"}));
   command->add_option("--strategy", options->strategy, "Instead of the configuration's; adva where there is none")
       ->check(CLI::IsMember({"buff", "adva", "tt"}));

@@ -29,7 +29,8 @@ struct OfSensor {
   std::string value;
 };
 
-std::size_t sensor_named(const char* option, const std::string& text, const std::string& name, const ReplayConfig& config) {
+std::size_t sensor_named(const char* option, const std::string& text, const std::string& name,
+                         const ReplayConfig& config) {
   std::string names;
   for (std::size_t s = 0; s < config.sensors.size(); ++s) {
     if (config.sensors[s].first == name) return s;

@@ -20,8 +20,9 @@ struct TrackOptions {
   bool predict = false, skip_damaged = false, json = false;
 };
 
-// What the options say of sensors, over what the configuration says. Throws InputError that names the option, the value and
-// what is allowed; so for a sensor that is not in the configuration. Of --worst-delay, --period and --noise the last counts.
+// What the options say of sensors, over what the configuration says. Throws InputError that names the option, the value
+// and what is allowed; so for a sensor that is not in the configuration. Of --worst-delay, --period and --noise the
+// last counts.
 void apply_sensor_options(const TrackOptions& options, experiments::ReplayConfig& config);
 experiments::SimulatedArrivals simulated_arrivals(const TrackOptions& options, const experiments::ReplayConfig& config);
 

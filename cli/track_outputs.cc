@@ -29,8 +29,8 @@ experiments::SensorAccount sum_of(const std::vector<experiments::SensorAccount>&
 
 void add_row(report::Table& table, const std::string& name, const experiments::SensorAccount& account) {
   std::vector<std::string> row{name};
-  for (const std::uint64_t count : {account.lists, account.observations, account.in_order, account.late, account.too_old,
-                                    account.duplicates, account.held})
+  for (const std::uint64_t count : {account.lists, account.observations, account.in_order, account.late,
+                                    account.too_old, account.duplicates, account.held})
     row.push_back(std::to_string(count));
   row.push_back(report::cell(in_ms(account.longest_hold), 1));
   row.push_back(report::cell(in_ms(account.longest_delay), 1));

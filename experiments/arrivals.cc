@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include "core/random.h"
 #include "fusion/converted_position.h"
@@ -69,7 +70,9 @@ std::string joined_names(const std::vector<std::string>& names) {
   return text;
 }
 
-bool arrives_before(const ListArrival& a, const ListArrival& b) { return a.arrival < b.arrival; }
+bool arrives_before(const ListArrival& a, const ListArrival& b) {
+  return std::tuple(a.arrival, a.measured, a.id.sensor) < std::tuple(b.arrival, b.measured, b.id.sensor);
+}
 
 // Numbers the lists of each sensor by their time, and those that were heard before by their arrival.
 void give_numbers(std::vector<ListArrival>& lists, std::size_t sensors) {
@@ -96,7 +99,8 @@ void list_sensors(ReplayConfig& config, const std::vector<ObservationRow>& rows,
   for (const ObservationRow& row : rows) {
     seen.insert(row.sensor);
     if (seen.size() > kMostSensors)
-      throw InputError({name, row.line, "sensor", row.sensor, fmt::format("must be one of at most {} sensors", kMostSensors)});
+      throw InputError(
+          {name, row.line, "sensor", row.sensor, fmt::format("must be one of at most {} sensors", kMostSensors)});
   }
   for (const std::string& sensor : seen) config.sensors.emplace_back(sensor, any);
 }
@@ -126,7 +130,8 @@ Arrivals arrivals_of(const std::vector<ObservationRow>& rows, const ReplayConfig
     }
     const auto [place, is_new] = list_at.emplace(Place{s, row.time_ns, row.arrival_ns}, arrivals.lists.size());
     if (is_new)
-      arrivals.lists.push_back({{static_cast<SensorId>(s), 0}, GlobalTime{row.time_ns}, GlobalTime{row.arrival_ns}, 0, {}});
+      arrivals.lists.push_back(
+          {{static_cast<SensorId>(s), 0}, GlobalTime{row.time_ns}, GlobalTime{row.arrival_ns}, 0, {}});
     std::vector<fusion::Observation>& list = arrivals.lists[place->second].observations;
     if (list.size() == fusion::kMaxObservations) {
       findings.add({name, row.line, "sensor", row.sensor,
@@ -148,7 +153,8 @@ void simulate(Arrivals& arrivals, const SimulatedArrivals& simulated) {
                          .purpose = Purpose::kArrival,
                          .entity = static_cast<std::uint16_t>(s),
                          .index = list.id.sequence});
-    list.arrival = list.measured + Duration{stream.integer(simulated.delays[s]->least.ns, simulated.delays[s]->most.ns)};
+    list.arrival =
+        list.measured + Duration{stream.integer(simulated.delays[s]->least.ns, simulated.delays[s]->most.ns)};
   }
   std::stable_sort(arrivals.lists.begin(), arrivals.lists.end(), arrives_before);
   if (simulated.shuffle <= 1) return;

@@ -1,5 +1,5 @@
-// What recorded observations are replayed with: the tracker, the strategy, and what is known of each sensor. As YAML, in
-// which every key has a default:
+// What recorded observations are replayed with: the tracker, the strategy, and what is known of each sensor. As YAML,
+// in which every key has a default:
 //
 //   strategy: adva                # buff, adva or tt
 //   tracker: {process_noise: 4.0}                # the same keys as in a scenario (fusion/tracker_config.h)

@@ -1,6 +1,7 @@
-// Recorded observations through a strategy and its tracker, as a fusion node would: list by list as they arrive, online.
-// What arrives is accepted and fused at once, as far as the strategy lets it; while it holds lists back, it is asked again
-// at every instant at which one of them may be let go. After the last arrival the replay goes on until nothing is held.
+// Recorded observations through a strategy and its tracker, as a fusion node would: list by list as they arrive,
+// online. What arrives is accepted and fused at once, as far as the strategy lets it; while it holds lists back, it is
+// asked again at every instant at which one of them may be let go. After the last arrival the replay goes on until
+// nothing is held.
 #pragma once
 
 #include <cstdint>

@@ -6,7 +6,8 @@
 //   R12 = c r^2 sin b cos b + (r^2 + sr^2) lambda^4 sin 2b / 2
 // (Longbin, Xiaoquan, Yiyu, Kang, Bar-Shalom: "Unbiased converted measurements for tracking", IEEE TAES 34(3), 1998,
 // pp. 1023-1027.) Computed along and across the line of sight, where it is
-//   along:  r^2 (lambda^-2 - 2 + (1 + lambda^4) / 2) + sr^2 (1 + lambda^4) / 2,   across: (r^2 + sr^2) (1 - lambda^4) / 2
+//   along:   r^2 (lambda^-2 - 2 + (1 + lambda^4) / 2) + sr^2 (1 + lambda^4) / 2
+//   across:  (r^2 + sr^2) (1 - lambda^4) / 2
 // and with expm1, so that little noise far away is not lost in the difference of large numbers.
 #pragma once
 

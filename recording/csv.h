@@ -1,7 +1,7 @@
 // Comma-separated text, line by line (RFC 4180, but for line ends within quotes, which nothing here needs).
 //
-// A byte order mark at the beginning, line ends of Windows and a last line without an end are fine; empty lines and those
-// that begin with # are passed over. Blanks around a field without quotes do not count.
+// A byte order mark at the beginning, line ends of Windows and a last line without an end are fine; empty lines and
+// those that begin with # are passed over. Blanks around a field without quotes do not count.
 #pragma once
 
 #include <cstddef>

@@ -23,9 +23,10 @@ struct NumberColumn {
 
 // Bounds tell numbers from garbage, and keep the filters' arithmetic within what doubles can do.
 constexpr double kAway = 1e7, kCovariance = 1e8, kAngle = 100, kSide = 1e3;
+// In the order of kNumberColumns.
 enum NumberIndex : std::size_t {
-  kX, kY, kRange, kBearing, kRangeRate, kCov11, kCov12, kCov22, kCov13, kCov23, kCov33, kHeading, kSigmaHeading, kLength,
-  kSigmaLength, kWidth, kSigmaWidth, kZ, kHeight, kScore, kNumbers
+  kX, kY, kRange, kBearing, kRangeRate, kCov11, kCov12, kCov22, kCov13, kCov23, kCov33, kHeading, kSigmaHeading,
+  kLength, kSigmaLength, kWidth, kSigmaWidth, kZ, kHeight, kScore, kNumbers
 };
 constexpr std::array<NumberColumn, kNumbers> kNumberColumns{{
     {"x", -kAway, kAway, " m"},
@@ -157,7 +158,8 @@ class RowReader {
       double value = 0;
       const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
       if (error != std::errc{} || end != field.data() + field.size() || !(value >= column.low && value <= column.high))
-        return fail(column.name, field, fmt::format("must be a number in {:g}..{:g}{}", column.low, column.high, column.unit));
+        return fail(column.name, field,
+                    fmt::format("must be a number in {:g}..{:g}{}", column.low, column.high, column.unit));
       value_[i] = value;
     }
     return true;

@@ -21,8 +21,8 @@ struct TrackRow {
   bool coasting = false;                    // not observed of late: predicted only
 };
 
-// With its line end. Times are exact decimals in seconds; positions, velocities, angles and sizes have six decimals, the
-// covariance nine significant digits; what is not known is empty.
+// With its line end. Times are exact decimals in seconds; positions, velocities, angles and sizes have six decimals,
+// the covariance nine significant digits; what is not known is empty.
 std::string_view track_heading();
 std::string track_line(const TrackRow& row);
 
