@@ -72,7 +72,7 @@ int run_track(const TrackOptions& options) {
   result.account =
       experiments::replay(arrivals, setup, [&](GlobalTime known, std::span<const fusion::TrackView> views) {
         for (const fusion::TrackView& view : views)
-          tracks += recording::track_line(experiments::track_row_of(view, known));
+          tracks += recording::track_line(experiments::track_row_of(view, known, arrivals.classes));
       });
 
   if (options.out.empty()) {

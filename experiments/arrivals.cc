@@ -58,6 +58,27 @@ fusion::Observation observation_of(const ObservationRow& row, const SensorNoise&
   return out;
 }
 
+// In the order of their names, whatever that of the rows: of equal scores the first one's counts.
+std::vector<std::string> classes_of(const std::vector<ObservationRow>& rows, const std::string& name) {
+  std::set<std::string> seen;
+  for (const ObservationRow& row : rows) {
+    if (!row.class_name.empty()) seen.insert(row.class_name);
+    if (seen.size() > fusion::kMostClasses)
+      throw InputError({name, row.line, "class", row.class_name,
+                        fmt::format("must be one of at most {} classes", fusion::kMostClasses)});
+  }
+  return {seen.begin(), seen.end()};
+}
+
+void take_unfiltered(fusion::Observation& out, const ObservationRow& row, const std::vector<std::string>& classes) {
+  out.third = {row.elevation.value_or(0.0), row.height.value_or(0.0), row.elevation.has_value(),
+               row.height.has_value()};
+  if (row.class_name.empty()) return;
+  const auto place = std::lower_bound(classes.begin(), classes.end(), row.class_name);
+  out.class_id = static_cast<fusion::ClassId>(place - classes.begin());
+  out.score = row.score;
+}
+
 bool has_covariance(const fusion::Observation& observation) {
   if (fusion::dimension_of(observation.kind) == 3) return fusion::positive_definite<3>(observation.r);
   return fusion::positive_definite<2>(fusion::Matrix<2>(observation.r.topLeftCorner<2, 2>()));
@@ -109,6 +130,7 @@ Arrivals arrivals_of(const std::vector<ObservationRow>& rows, const ReplayConfig
                      Findings& findings) {
   Arrivals arrivals;
   for (const auto& sensor : config.sensors) arrivals.sensors.push_back(sensor.first);
+  arrivals.classes = classes_of(rows, name);
   struct Place {
     std::size_t sensor;
     std::int64_t time, arrival;
@@ -123,11 +145,12 @@ Arrivals arrivals_of(const std::vector<ObservationRow>& rows, const ReplayConfig
       continue;
     }
     const auto s = static_cast<std::size_t>(known - arrivals.sensors.begin());
-    const fusion::Observation observation = observation_of(row, config.sensors[s].second.noise);
+    fusion::Observation observation = observation_of(row, config.sensors[s].second.noise);
     if (!has_covariance(observation)) {
       findings.add({name, row.line, "covariance", "", "must be positive definite, and more than rounding"});
       continue;
     }
+    take_unfiltered(observation, row, arrivals.classes);
     const auto [place, is_new] = list_at.emplace(Place{s, row.time_ns, row.arrival_ns}, arrivals.lists.size());
     if (is_new)
       arrivals.lists.push_back(

@@ -33,6 +33,7 @@ struct ListArrival {
 
 struct Arrivals {
   std::vector<std::string> sensors;   // by SensorId
+  std::vector<std::string> classes;   // by fusion::ClassId, in the order of their names
   std::vector<ListArrival> lists;     // in the order of arrival; at one instant, in that of measurement
 };
 
@@ -43,6 +44,7 @@ void list_sensors(ReplayConfig& config, const std::vector<recording::Observation
 
 // One finding, and the row left out, for each row of a sensor that the configuration does not list, with a covariance
 // that is none, or beyond the most observations that a list may have (fusion::kMaxObservations). `name`: the file's.
+// Throws InputError where there are more classes than fusion::kMostClasses.
 Arrivals arrivals_of(const std::vector<recording::ObservationRow>& rows, const ReplayConfig& config,
                      const std::string& name, Findings& findings);
 

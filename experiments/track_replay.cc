@@ -156,7 +156,8 @@ ReplayAccount replay(const Arrivals& arrivals, const ReplaySetup& setup, const T
   return Replay(arrivals, setup, sink).run();
 }
 
-recording::TrackRow track_row_of(const fusion::TrackView& view, GlobalTime known) {
+recording::TrackRow track_row_of(const fusion::TrackView& view, GlobalTime known,
+                                 const std::vector<std::string>& classes) {
   recording::TrackRow row;
   row.time_ns = view.valid_at.ns;
   row.known_ns = known.ns;
@@ -172,6 +173,12 @@ recording::TrackRow track_row_of(const fusion::TrackView& view, GlobalTime known
   row.sigma_heading = view.sigma_heading;
   if (view.has_length) row.length = view.length;
   if (view.has_width) row.width = view.width;
+  const fusion::ThirdAxis& third = view.unfiltered.third;
+  if (third.has_z) row.z = third.z;
+  if (third.has_height) row.height = third.height;
+  const fusion::ClassId best = view.unfiltered.classes.best();
+  if (best != fusion::kNoClass) row.class_name = classes.at(static_cast<std::size_t>(best));
+  row.class_share = view.unfiltered.classes.share();
   row.coasting = view.coasting;
   return row;
 }

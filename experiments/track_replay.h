@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/time.h"
@@ -43,6 +44,8 @@ struct ReplaySetup {
 
 ReplayAccount replay(const Arrivals& arrivals, const ReplaySetup& setup, const TrackSink& sink);
 
-recording::TrackRow track_row_of(const fusion::TrackView& view, GlobalTime known);
+// `classes`: those of the arrivals.
+recording::TrackRow track_row_of(const fusion::TrackView& view, GlobalTime known,
+                                 const std::vector<std::string>& classes);
 
 }  // namespace ttf::experiments

@@ -124,6 +124,7 @@ void Tracker::correct(Track& track, const Observation& z, const Innovation& inno
     track.heading.value = wrap_angle(track.heading.value);
   }
   correct_extent(track, z);
+  carry(track.unfiltered, z);
 }
 
 // The span needs the aspect: it comes last, when position, course and axis know what this observation says of
@@ -155,6 +156,7 @@ void Tracker::give_birth(TrackSet& set, const Scan& scan) {
     track.estimate = initial_estimate(z, config_);
     if (z.has_heading) track.heading = {z.heading, z.sigma_heading * z.sigma_heading, true};
     correct_extent(track, z);
+    carry(track.unfiltered, z);
     track.hits = 1;
     track.scans = 1;
     set.tracks.push_back(track);

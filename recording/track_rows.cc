@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/decimal.h"
+#include "recording/csv.h"
 
 namespace ttf::recording {
 namespace {
@@ -20,7 +21,7 @@ std::string if_known(const std::optional<double>& value) { return value ? six_de
 
 std::string_view track_heading() {
   return "time,known,track,x,y,vx,vy,p_x_x,p_x_y,p_x_vx,p_x_vy,p_y_y,p_y_vx,p_y_vy,p_vx_vx,p_vx_vy,p_vy_vy,"
-         "heading,sigma_heading,length,width,coasting\n";
+         "heading,sigma_heading,length,width,z,height,class,class_share,coasting\n";
 }
 
 std::string track_line(const TrackRow& row) {
@@ -30,7 +31,8 @@ std::string track_line(const TrackRow& row) {
   for (const double value : {row.x, row.y, row.vx, row.vy}) line += ',' + six_decimals(value);
   for (const double value : row.covariance) line += fmt::format(",{:.9g}", value);
   line += ',' + six_decimals(row.heading) + ',' + six_decimals(row.sigma_heading);
-  line += ',' + if_known(row.length) + ',' + if_known(row.width);
+  line += ',' + if_known(row.length) + ',' + if_known(row.width) + ',' + if_known(row.z) + ',' + if_known(row.height);
+  line += ',' + csv_field(row.class_name) + ',' + (row.class_name.empty() ? "" : six_decimals(row.class_share));
   line += row.coasting ? ",1\n" : ",0\n";
   return line;
 }

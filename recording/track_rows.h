@@ -18,6 +18,9 @@ struct TrackRow {
   std::array<double, 10> covariance{};
   double heading = 0, sigma_heading = 0;    // [rad]
   std::optional<double> length, width;      // [m], where they were measured
+  std::optional<double> z, height;          // [m], of the newest observation that had them
+  std::string class_name;                   // empty: none was told
+  double class_share = 0;                   // of all scores, the part of that class
   bool coasting = false;                    // not observed of late: predicted only
 };
 

@@ -92,6 +92,29 @@ TEST(Arrivals, WhatNoFilterCanTakeIsAFinding) {
   EXPECT_EQ(arrivals.lists[0].observations.size(), fusion::kMaxObservations);
 }
 
+TEST(Arrivals, ClassesAreNumberedByTheirNames) {
+  ReplayConfig config;
+  std::vector<recording::ObservationRow> rows;
+  for (int i = 0; i < 17; ++i) {
+    rows.push_back(position_row("a", i, i, 0, 0));
+    rows.back().class_name = std::string(1, static_cast<char>('z' - i));
+    rows.back().line = i + 2;
+  }
+  try {
+    arrivals_of_rows(rows, config);
+    FAIL() << "17 classes";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(), "o.csv:18: class = j: must be one of at most 16 classes");
+  }
+  rows.pop_back();
+  rows.back().class_name.clear();
+  const Arrivals arrivals = arrivals_of_rows(rows, config);
+  EXPECT_EQ(arrivals.classes.front(), "l");
+  EXPECT_EQ(arrivals.lists[0].observations[0].class_id, fusion::ClassId{14}) << "z";
+  EXPECT_EQ(arrivals.lists[0].observations[0].score, 1.0);
+  EXPECT_EQ(arrivals.lists[15].observations[0].class_id, fusion::kNoClass);
+}
+
 std::map<MeasurementId, GlobalTime> arrival_of(const Arrivals& arrivals) {
   std::map<MeasurementId, GlobalTime> result;
   for (const ListArrival& list : arrivals.lists) result[list.id] = list.arrival;

@@ -53,7 +53,7 @@ class TrackRecorded : public testing::Test {
     const ReplayAccount account =
         replay(arrivals, setup, [&](GlobalTime known, std::span<const fusion::TrackView> tracks) {
           ASSERT_EQ(tracks.size(), 1u) << "one vehicle, one track";
-          const recording::TrackRow row = track_row_of(tracks[0], known);
+          const recording::TrackRow row = track_row_of(tracks[0], known, arrivals.classes);
           const recording::RecordedTruth& truth = truth_at.at(row.time_ns);
           const std::array<double, 4> off{row.x - truth.x, row.y - truth.y, row.vx - truth.vx, row.vy - truth.vy};
           for (std::size_t i = 0; i < 4; ++i) error.rmse[i] += off[i] * off[i];

@@ -26,7 +26,7 @@ Outcome outcome_of(const Arrivals& arrivals, const ReplayConfig& config, Strateg
     outcome.known.push_back(known);
     outcome.last.clear();
     for (const fusion::TrackView& track : tracks) {
-      outcome.last.push_back(track_row_of(track, known));
+      outcome.last.push_back(track_row_of(track, known, arrivals.classes));
       outcome.lines.push_back(recording::track_line(outcome.last.back()));
     }
   });
@@ -87,6 +87,43 @@ TEST(TrackReplay, AdvaEndsTheSameForEveryOrderOfArrival) {
       EXPECT_EQ(outcome.account.sensors[0].too_old + outcome.account.sensors[1].too_old, 0u);
       expect_same_end(expected, outcome);
     }
+}
+
+// Two vans and a car, says the camera of the one at 10 m; of the other it says as much car as van, and the first name
+// counts.
+TEST(TrackReplay, ClassAndThirdAxisGoWithTheTrackForEveryOrderOfArrival) {
+  ReplayConfig config;
+  std::vector<recording::ObservationRow> rows = two_cars(2);
+  int seen = 0;
+  for (recording::ObservationRow& row : rows) {
+    if (row.sensor != "camera") continue;
+    const bool near = seen % 2 == 0;
+    row.class_name = near ? (seen % 6 == 0 ? "car" : "van") : (seen % 4 == 1 ? "van" : "car");
+    row.score = near ? 0.25 : 0.5;
+    row.elevation = 0.001 * static_cast<double>(row.time_ns / 1'000'000);
+    if (near) row.height = 2.0;
+    ++seen;
+  }
+  rows.back().class_name = "zebra";   // of the radar's last list, with which the tracks end
+  rows.back().score = 0.0;
+  const Arrivals in_order = arrivals_of_rows(rows, config);
+  EXPECT_THAT(in_order.classes, testing::ElementsAre("car", "van", "zebra"));
+  const Outcome expected = outcome_of(in_order, config, StrategyKind::kAdva);
+  ASSERT_EQ(expected.last.size(), 2u);
+  const std::size_t near = expected.last[0].x < expected.last[1].x ? 0 : 1;
+  EXPECT_EQ(expected.last[near].class_name, "van");
+  EXPECT_NEAR(expected.last[near].class_share, 26.0 / 40.0, 1e-12)
+      << "every third of 40 lists says car, the first one, too";
+  EXPECT_EQ(expected.last[near].height, 2.0);
+  EXPECT_EQ(expected.last[near].z, 1.95) << "of the newest that had it";
+  EXPECT_EQ(expected.last[1 - near].class_name, "car");
+  EXPECT_EQ(expected.last[1 - near].class_share, 0.5);
+  EXPECT_FALSE(expected.last[1 - near].height);
+  Arrivals shuffled = in_order;
+  SimulatedArrivals simulated;
+  simulated.shuffle = 25;
+  simulate(shuffled, simulated);
+  expect_same_end(expected, outcome_of(shuffled, config, StrategyKind::kAdva));
 }
 
 TEST(TrackReplay, AllStrategiesEndTheSameAndLoseNothing) {

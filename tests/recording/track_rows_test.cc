@@ -20,6 +20,9 @@ TEST(TrackRows, OneCellForEachColumn) {
   for (std::size_t i = 0; i < row.covariance.size(); ++i) row.covariance[i] = 1.0 / static_cast<double>(3 * i + 3);
   row.sigma_heading = 0.5;
   row.width = 1.8;
+  row.height = 2.5;
+  row.class_name = "van, white";
+  row.class_share = 0.75;
   row.coasting = true;
   const std::string text = std::string(track_heading()) + track_line(row);
   CsvLines lines(text);
@@ -42,6 +45,10 @@ TEST(TrackRows, OneCellForEachColumn) {
   EXPECT_EQ(cell("p_vy_vy"), "0.0333333333");
   EXPECT_EQ(cell("length"), "");
   EXPECT_EQ(cell("width"), "1.800000");
+  EXPECT_EQ(cell("z"), "");
+  EXPECT_EQ(cell("height"), "2.500000");
+  EXPECT_EQ(cell("class"), "van, white");
+  EXPECT_EQ(cell("class_share"), "0.750000");
   EXPECT_EQ(cell("coasting"), "1");
 }
 
