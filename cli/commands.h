@@ -17,5 +17,6 @@ void add_schedule(CLI::App& app, Action& action);
 void add_experiment(CLI::App& app, Action& action);
 void add_launch(CLI::App& app, Action& action);
 void add_node(CLI::App& app, Action& action);
+void add_track(CLI::App& app, Action& action);
 
 }  // namespace ttf::cli

@@ -62,6 +62,7 @@ int main(int argc, char** argv) {
   ttf::cli::add_experiment(app, action);
   ttf::cli::add_launch(app, action);
   ttf::cli::add_node(app, action);
+  ttf::cli::add_track(app, action);
   if (const std::string words = unknown_command(app, argc, argv); !words.empty()) return refuse(words);
   try {
     app.parse(argc, argv);

@@ -28,6 +28,7 @@ enum class Purpose : std::uint16_t {
   kFault = 11,
   kPowerOn = 12,
   kCampaign = 13,
+  kArrival = 14,
 };
 
 struct StreamKey {

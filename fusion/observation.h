@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -17,6 +18,17 @@ enum class ObservationKind : std::uint8_t {
 
 constexpr int dimension_of(ObservationKind kind) { return kind == ObservationKind::kPosition ? 2 : 3; }
 
+// What an object is taken for: a number in a list of names that whoever makes observations keeps.
+enum class ClassId : std::uint8_t {};
+inline constexpr std::size_t kMostClasses = 16;
+inline constexpr ClassId kNoClass{0xff};
+
+// Height of a box's centre over the plane of the tracks, and its third side [m]: passed through, not estimated.
+struct ThirdAxis {
+  double z = 0.0, height = 0.0;
+  bool has_z = false, has_height = false;
+};
+
 // Only the first dimension_of(kind) rows and columns of z and r are meaningful; r is symmetric positive definite there.
 struct Observation {
   ObservationKind kind = ObservationKind::kPosition;
@@ -28,6 +40,9 @@ struct Observation {
   double width = 0.0, sigma_width = 0.0;       // [m], the object's own, across its axis
   // [rad], the angle the outline subtends at the sensor: a rear's or a side's, as the object happens to be turned.
   double span = 0.0, sigma_span = 0.0;
+  ClassId class_id = kNoClass;   // below kMostClasses, or that
+  double score = 0.0;            // not negative: how much the class counts
+  ThirdAxis third;
 };
 
 // One list of a sensor: everything in it was measured at `measured`.

@@ -92,6 +92,7 @@ TrackView view_of(const Track& track, GlobalTime time, GlobalTime at, const Trac
   view.width = extent.size(1);
   view.sigma_width = std::sqrt(extent.covariance(1, 1));
   view.has_width = extent.knows_width();
+  view.unfiltered = track.unfiltered;
   return view;
 }
 

@@ -8,6 +8,7 @@
 #include "fusion/estimator.h"
 #include "fusion/extent.h"
 #include "fusion/tracker_config.h"
+#include "fusion/unfiltered.h"
 
 namespace ttf::fusion {
 
@@ -34,6 +35,7 @@ struct Track {
   Estimate estimate;
   Scalar heading;  // [rad], the direction it faces
   Extent extent;
+  Unfiltered unfiltered;
   std::uint32_t hits = 0;  // bit i: the scan i scans ago had an observation of it
   int scans = 0;           // since birth, the first included
   int misses = 0;          // scans in a row without an observation
@@ -66,6 +68,7 @@ struct TrackView {
   bool has_length = false, has_width = false;
   bool confirmed = false;
   bool coasting = false;  // not observed of late: predicted only
+  Unfiltered unfiltered;
 };
 // Whether a track whose state is of `time` has ended at `at`, as it is without observations since its newest: by scans
 // that did not see it the tracker ends it itself (TrackerConfig::delete_misses); where none come,

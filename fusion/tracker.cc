@@ -156,6 +156,7 @@ void Tracker::correct(Track& track, const Observation& z) const {
     track.heading.value = to_half_turn(track.heading.value);
   }
   correct_extent(track, z);
+  carry(track.unfiltered, z);
 }
 
 // The span needs the aspect: it comes last, when position, course and axis know what this observation says of
@@ -188,6 +189,7 @@ void Tracker::give_birth(TrackSet& set, const Scan& scan) {
     track.estimate = estimator_->initial(z);
     if (z.has_heading) track.heading = {z.heading, z.sigma_heading * z.sigma_heading, true};
     correct_extent(track, z);
+    carry(track.unfiltered, z);
     track.hits = 1;
     track.scans = 1;
     set.tracks.push_back(track);

@@ -119,6 +119,27 @@ void recorded_seeds(const fs::path& folder) {
   write_dictionary(folder / "recorded.dict", {"L\\x09", "R\\x09", "frame", "e308", "nan", "-", "\\x0d\\x0a", "#"});
 }
 
+void observation_seeds(const fs::path& folder) {
+  std::string cars = "time,arrival,sensor,x,y,heading,length,width,class,score,z,height\n";
+  std::string radar = "time,sensor,range,bearing,range_rate,cov_11,cov_12,cov_22,cov_13,cov_23,cov_33\n";
+  for (int i = 0; i < 8; ++i) {
+    const std::string time = "0." + std::to_string(i);
+    for (const char* car : {"1", "3"})
+      cars += time + "," + time + (i % 3 == 0 ? "9" : "1") + "," + (i % 2 == 0 ? "lidar" : "camera") + "," + car +
+              std::to_string(i) + ".5,-2,0.1,4.4,1.8," + (i % 4 == 0 ? "\"van, white\"" : "car") + ",0.8,0.7,1.5\n";
+    radar += time + ",radar,2" + std::to_string(i) + ",0.1,10,0.09,0.001,0.0004,0,0,0.04\n";
+  }
+  write(folder / "observations/cars", cars);
+  write(folder / "observations/radar", radar);
+  write(folder / "observations/bearings",
+        "\xef\xbb\xbftime,sensor,range,bearing\r\n0,a,5,0.1\r\n0,a,9,-3\r\n# end\r\n");
+  write_dictionary(folder / "observations.dict",
+                   {"time", "arrival", "sensor", "x", "y", "range", "bearing", "range_rate", "cov_11", "cov_12",
+                    "cov_22", "cov_13", "cov_23", "cov_33", "heading", "sigma_heading", "length", "sigma_length",
+                    "width", "sigma_width", "z", "height", "class", "score", "gt_", "e308", "nan", "-", "\\x0d\\x0a",
+                    "#", "\\x22"});
+}
+
 void frame_seeds(const fs::path& folder) {
   for (const std::size_t payload : {0u, 16u, 254u}) {
     wire::FrameHeader header;
@@ -331,6 +352,7 @@ int main(int argc, char** argv) {
              {"paper_scenario1", "paper_scenario2", "laser_radar_recorded", "faulty_bus", "cold_start"});
   fibex_seeds(folder);
   recorded_seeds(folder);
+  observation_seeds(folder);
   frame_seeds(folder);
   turn_seeds(folder);
   flexray_on_can_seeds(folder);

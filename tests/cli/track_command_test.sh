@@ -1,0 +1,146 @@
+#!/usr/bin/env bash
+# ttfusion track as docs/track.md has it: the example there, the same bytes for the same seed, the same tracks in the end for
+# every order of arrival, and one clear sentence for each kind of bad input.
+#   track_command_test.sh PROGRAM SOURCE_DIR
+set -u
+program=$1
+source=$2
+source "$(dirname "$0")/expect.sh"
+
+# block N: the N-th fenced block of the page.
+block() { awk -v n="$1" '/^```/ { inside = !inside; if (inside) ++count; next } inside && count == n' "$source/docs/track.md"; }
+
+expect 0 "Example: ttfusion track" track --help
+
+# The example of the page.
+block 1 >"$work/observations.csv"
+block 2 >"$work/track.yaml"
+block 3 >"$work/tracks.csv"
+block 4 >"$work/table.txt"
+block 5 >"$work/buff.txt"
+example=(track "$work/observations.csv" --config "$work/track.yaml")
+"$program" "${example[@]}" >"$work/out.csv" 2>"$work/words" || fail "the example fails"
+diff "$work/tracks.csv" "$work/out.csv" || fail "the example's tracks are not those of the page"
+diff "$work/table.txt" "$work/words" || fail "the example's table is not that of the page"
+"$program" "${example[@]}" --strategy buff -o "$work/buff.csv" >"$work/words" 2>/dev/null || fail "the example with buff fails"
+diff "$work/buff.txt" "$work/words" || fail "the example's table with buff is not that of the page"
+# All but when it was known.
+[[ $(tail -1 "$work/tracks.csv" | cut -d, -f1,3-) == $(tail -1 "$work/buff.csv" | cut -d, -f1,3-) ]] ||
+  fail "buff does not end as adva does"
+
+# As JSON, next to a file.
+"$program" "${example[@]}" -o "$work/again.csv" --json 2>/dev/null | python3 -c '
+import json, sys
+s = json.load(sys.stdin)
+assert (s["strategy"], s["tracks"], s["rows"], s["damaged_rows"]) == ("adva", 1, 4, 0), s
+assert s["all"]["fused_late"] == 2 and [x["name"] for x in s["sensors"]] == ["lidar", "radar"], s
+assert s["sensors"][1]["longest_delay_ms"] == 80, s
+' || fail "--json is not the documented JSON"
+cmp -s "$work/again.csv" "$work/tracks.csv" || fail "--out writes something else than standard output"
+expect 2 '^error: command line: --json: needs --out' "${example[@]}" --json
+
+# Three cars, two sensors, ten seconds; noise of the linear congruential kind.
+awk 'BEGIN {
+  r = 12345
+  print "time,sensor,x,y,class"
+  for (ms = 0; ms < 10000; ms += 10)
+    for (s = 0; s < 2; ++s)
+      if (ms % (s ? 70 : 50) == 0)
+        for (car = 0; car < 3; ++car) {
+          r = (r * 1103515245 + 12345) % 2147483648; a = r / 2147483648 - 0.5
+          r = (r * 1103515245 + 12345) % 2147483648; b = r / 2147483648 - 0.5
+          printf "%.3f,%s,%.4f,%.4f,car\n", ms / 1000, s ? "radar" : "lidar", 10 + 30 * car + 8 * ms / 1000 + a, 2 * car + b
+        }
+}' >"$work/cars.csv"
+cars=(track "$work/cars.csv" --noise lidar:position=0.3 --noise radar:position=0.3)
+delays=(--delay lidar=5ms..60ms --delay "radar=0.02s..150 ms")
+last() { tail -3 "$1" | cut -d, -f1,4- | sort; }   # states of the last instant, without names and without when it was known
+expect 0 '^3 tracks by adva, ' "${cars[@]}" -o "$work/in_order.csv"
+expect 0 'longest delay' "${cars[@]}" "${delays[@]}" --seed 7 -o "$work/a.csv"
+expect 0 '' "${cars[@]}" "${delays[@]}" --seed 7 -o "$work/b.csv"
+expect 0 '' "${cars[@]}" "${delays[@]}" --seed 8 -o "$work/c.csv"
+cmp -s "$work/a.csv" "$work/b.csv" || fail "the same seed gives other bytes"
+cmp -s "$work/a.csv" "$work/c.csv" && fail "another seed gives the same bytes"
+expect 0 '' "${cars[@]}" --shuffle 20 -o "$work/shuffled.csv"
+(head -1 "$work/cars.csv"; grep radar "$work/cars.csv"; grep lidar "$work/cars.csv") >"$work/by_sensor.csv"
+expect 0 '' track "$work/by_sensor.csv" "${cars[@]:2}" -o "$work/by_sensor_tracks.csv"
+cmp -s "$work/in_order.csv" "$work/by_sensor_tracks.csv" || fail "the order of rows of different sensors counts"
+for tracks in a c shuffled; do
+  [[ $(last "$work/$tracks.csv") == $(last "$work/in_order.csv") ]] || fail "adva: $tracks.csv does not end as arrival in order does"
+done
+for strategy in buff tt; do
+  expect 0 "^3 tracks by $strategy, " "${cars[@]}" --strategy $strategy --delay "radar=60ms" -o "$work/$strategy.csv"
+  [[ $(last "$work/$strategy.csv") == $(last "$work/in_order.csv") ]] || fail "$strategy does not end as arrival in order does"
+done
+"$program" "${cars[@]}" --predict --delay lidar=30ms --delay radar=30ms 2>/dev/null | awk -F, 'NR > 1 && $1 != $2 { bad = 1 } END { exit bad }' ||
+  fail "--predict does not show the instant of the fusion"
+
+# Files as other programs write them.
+(printf '\xef\xbb\xbf'; sed 's/radar/"radar"/; s/$/\r/' "$work/cars.csv") >"$work/windows.csv"
+expect 0 '' track "$work/windows.csv" "${cars[@]:2}" -o "$work/windows_tracks.csv"
+cmp -s "$work/in_order.csv" "$work/windows_tracks.csv" || fail "a byte order mark, quotes or Windows' line ends count"
+
+# Damaged rows: all are told, or left out and counted.
+awk -F, -v OFS=, 'NR == 5 { $3 = "nan" } NR == 9 { $2 = "sonar" } NR == 12 { $0 = "0.07,radar" } 1' \
+  "$work/cars.csv" >"$work/damaged.csv"
+printf 'sensors: {lidar: {}, radar: {}}\n' >"$work/two.yaml"
+expect 2 '^error: .*damaged.csv:12: columns = 2: must be 5, as in the heading$' track "$work/damaged.csv" --config "$work/two.yaml"
+expect 2 '^error: .*damaged.csv:5: x = nan: must be a number' track "$work/damaged.csv" --config "$work/two.yaml"
+expect 2 '^error: .*damaged.csv:9: sensor = sonar: must be a sensor of .*two.yaml: lidar or radar$' \
+  track "$work/damaged.csv" --config "$work/two.yaml" -o "$work/none.csv"
+[[ -e $work/none.csv ]] && fail "a refused file leaves tracks"
+expect 0 '^3 damaged rows left out$' track "$work/damaged.csv" --config "$work/two.yaml" --skip-damaged -o "$work/damaged_tracks.csv"
+expect 0 '^warning: .*damaged.csv:12: columns' track "$work/damaged.csv" --config "$work/two.yaml" --skip-damaged
+
+# What is wrong with a file, the configuration, or an option.
+: >"$work/empty.csv"
+expect 2 'empty.csv: holds no heading' track "$work/empty.csv"
+expect 2 'empty.csv: holds no heading' track "$work/empty.csv" --skip-damaged
+printf 'time,sensor,x,y\n' >"$work/bare.csv"
+expect 2 'bare.csv: holds no row' track "$work/bare.csv"
+printf 'time,x,y\n0,1,1\n' >"$work/nameless.csv"
+expect 2 'nameless.csv:1: sensor: is missing' track "$work/nameless.csv"
+printf 'time,sensor,x,y\n1,a,0,0\n0,a,0,0\n' >"$work/backwards.csv"
+expect 2 'backwards.csv:3: time = 0: must not be before the row above of a, 1 s' track "$work/backwards.csv"
+printf 'time,sensor,x,y,cov_11,cov_12,cov_22\n1,a,0,0,1,2,1\n' >"$work/indefinite.csv"
+expect 2 'indefinite.csv:2: covariance: must be positive definite' track "$work/indefinite.csv"
+expect 2 'indefinite.csv:2: covariance' track "$work/indefinite.csv" --skip-damaged
+expect 2 'absent.csv: cannot be read' track "$work/absent.csv"
+expect 2 'absent.yaml: cannot be read' track "$work/cars.csv" --config "$work/absent.yaml"
+printf 'tracker: {proces_noise: 4}\n' >"$work/typo.yaml"
+expect 2 'typo.yaml:1: tracker.proces_noise: is not a known key' track "$work/cars.csv" --config "$work/typo.yaml"
+expect 2 '--delay = sonar=5ms: must begin with a sensor \(lidar, radar\)' "${cars[@]}" --delay sonar=5ms
+expect 2 '--delay = radar: must be SENSOR=VALUE' "${cars[@]}" --delay radar
+expect 2 '--delay = radar=5: must be SENSOR= and 0..3600 s with its unit' "${cars[@]}" --delay radar=5
+expect 2 '--delay = radar=9ms..5ms: must be LEAST..MOST' "${cars[@]}" --delay radar=9ms..5ms
+expect 2 '--delay = radar=2ms: must name each sensor once' "${cars[@]}" --delay radar=1ms --delay radar=2ms
+expect 2 '--worst-delay = radar=2h: must be SENSOR= and 0..3600 s' "${cars[@]}" --worst-delay radar=2h
+expect 2 '--period = radar=0ms: must be SENSOR= and 0.000001..3600 s' "${cars[@]}" --period radar=0ms
+expect 2 '--noise = radar:colour=1: must name one of position, range' "${cars[@]}" --noise radar:colour=1
+expect 2 '--noise = radar:range=0: must be a number 0.001..100 m' "${cars[@]}" --noise radar:range=0
+expect 2 '--noise = radar=1: must be SENSOR:WHAT=SIGMA' "${cars[@]}" --noise radar=1
+expect 2 '--seed = -1: must be a whole number' "${cars[@]}" --seed=-1
+expect 2 'command line: --shuffle' "${cars[@]}" --shuffle 0
+expect 2 'command line: --strategy' "${cars[@]}" --strategy best
+expect 2 'must be another file than the input' "${cars[@]}" -o "$work/cars.csv"
+expect 1 'cannot be written' "${cars[@]}" -o "$work/no/such/folder.csv"
+printf 'time,sensor,x,y\n1,a,0,0\n' >"$work/once.csv"
+expect 2 'command line: strategy = tt: needs the period of at least one sensor' track "$work/once.csv" --strategy tt
+expect 0 '^0 tracks by tt, 0 rows written$' track "$work/once.csv" --strategy tt --period a=50ms
+
+# A recording of laser and radar.
+printf 'L\t1.0\t0.1\t1000000\t1.0\t0.1\t5.0\t0.0\t0.0\t0.0\nX\t1\n' >"$work/short.txt"
+expect 2 'short.txt:2: sensor = X: must be L' track "$work/short.txt" --format laser_radar
+recording=${TTF_RECORDINGS:-$source/../shared/data}/laser_radar/measurements.txt
+if [[ -r $recording ]]; then
+  expect 0 '^1 track by adva, 49[0-9] rows written$' track "$recording" --format laser_radar -o "$work/recorded.csv"
+  expect 0 '^radar +250 +250 ' track "$recording" --format laser_radar --strategy buff --delay radar=20ms..90ms -o "$work/late.csv"
+  [[ $(tail -1 "$work/recorded.csv" | cut -d, -f1,3-) == $(tail -1 "$work/late.csv" | cut -d, -f1,3-) ]] ||
+    fail "the recording's tracks end otherwise with a late radar"
+else
+  echo "laser and radar: skipped, there is no recording $recording;" \
+    "set TTF_RECORDINGS to the folder that holds laser_radar/measurements.txt"
+fi
+
+[[ $failures -eq 0 ]] && echo "track: all as documented"
+exit $((failures > 0))

@@ -1,0 +1,114 @@
+// Any text as recorded observations. Laws: one finding per broken line, which names the file; rows that are taken are
+// within their bounds, in the order of their sensor's time, and the same when they are written and read again; every
+// list that is made of them has a covariance and arrives no sooner than it is measured; and the tracks that follow are
+// finite.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/check.h"
+#include "core/decimal.h"
+#include "experiments/arrivals.h"
+#include "experiments/sensor_timing.h"
+#include "experiments/track_replay.h"
+#include "recording/csv.h"
+#include "recording/observation_rows.h"
+#include "tests/fuzz/harness.h"
+
+namespace {
+
+using namespace ttf;
+using recording::ObservationRow;
+
+constexpr char kFile[] = "o.csv";
+
+std::string cell(const std::optional<double>& value) { return value ? fmt::to_string(*value) : ""; }
+
+std::string written(const std::vector<ObservationRow>& rows) {
+  std::string text =
+      "time,arrival,sensor,x,y,range,bearing,range_rate,cov_11,cov_12,cov_22,cov_13,cov_23,cov_33,heading,sigma_"
+      "heading,"
+      "length,sigma_length,width,sigma_width,z,height,class,score\n";
+  for (const ObservationRow& row : rows) {
+    const bool position = row.kind == ObservationRow::Kind::kPosition;
+    const bool three = recording::dimension_of(row.kind) == 3;
+    text += scaled_text(row.time_ns, 1'000'000'000) + ',' + scaled_text(row.arrival_ns, 1'000'000'000) + ',' +
+            recording::csv_field(row.sensor) + ',';
+    text += position ? fmt::format("{},{},,,", row.z[0], row.z[1]) : fmt::format(",,{},{},", row.z[0], row.z[1]);
+    text += three ? fmt::to_string(row.z[2]) : "";
+    for (std::size_t i = 0; i < 6; ++i) {
+      // Where range and bearing alone were measured, what is off the diagonal is not given.
+      const bool given = row.covariance && (three || i == 0 || i == 2 || (i == 1 && position));
+      text += ',' + (given ? fmt::to_string((*row.covariance)[i]) : "");
+    }
+    for (const auto& value : {row.heading, row.sigma_heading, row.length, row.sigma_length, row.width, row.sigma_width,
+                              row.elevation, row.height})
+      text += ',' + cell(value);
+    text += ',' + recording::csv_field(row.class_name) + ',' +
+            (row.class_name.empty() ? "" : fmt::to_string(row.score)) + '\n';
+  }
+  return text;
+}
+
+void check_rows(const std::vector<ObservationRow>& rows) {
+  std::map<std::string, std::int64_t> newest;
+  for (const ObservationRow& row : rows) {
+    const auto [last, first] = newest.emplace(row.sensor, row.time_ns);
+    TTF_CHECK(first || last->second <= row.time_ns, "line {} goes back in time", row.line);
+    last->second = row.time_ns;
+    TTF_CHECK(row.line > 1 && !row.sensor.empty() && row.arrival_ns >= row.time_ns, "line {}", row.line);
+    for (const double value : row.z) TTF_CHECK(std::abs(value) <= 1e7, "line {}: {}", row.line, value);
+    TTF_CHECK(row.score >= 0.0 && row.score <= 1e6, "line {}: score {}", row.line, row.score);
+  }
+}
+
+void check_tracks(const std::vector<ObservationRow>& rows) {
+  experiments::ReplayConfig config;
+  config.tracker.history_scans = 8;   // little to set up, and soon too old
+  experiments::Arrivals arrivals;
+  Findings findings;
+  if (!fuzz::accepted(kFile, [&] {
+        experiments::list_sensors(config, rows, {}, kFile);
+        arrivals = experiments::arrivals_of(rows, config, kFile, findings);
+        findings.throw_if_any();
+      }))
+    return;
+  for (const experiments::ListArrival& list : arrivals.lists)
+    TTF_CHECK(list.arrival >= list.measured && !list.observations.empty(), "list of {} ns", list.measured.ns);
+  for (const auto strategy : {fusion::StrategyKind::kAdva, fusion::StrategyKind::kBuff}) {
+    std::uint64_t fates = 0;
+    const experiments::ReplaySetup setup{strategy, config.tracker,
+                                         experiments::sensor_timings(arrivals, config, strategy), true};
+    const experiments::ReplayAccount account =
+        experiments::replay(arrivals, setup, [](GlobalTime, std::span<const fusion::TrackView> tracks) {
+          for (const fusion::TrackView& track : tracks)
+            TTF_CHECK(track.state.allFinite() && track.covariance.allFinite() && std::isfinite(track.heading),
+                      "track {} at {} ns", index_of(track.id), track.valid_at.ns);
+        });
+    for (const experiments::SensorAccount& one : account.sensors)
+      fates += one.in_order + one.late + one.too_old + one.duplicates;
+    TTF_CHECK(fates == arrivals.lists.size(), "{} fates of {} lists", fates, arrivals.lists.size());
+  }
+}
+
+}  // namespace
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string text = fuzz::text_of(data, size);
+  std::vector<ObservationRow> rows;
+  Findings findings;
+  if (!fuzz::accepted(kFile, [&] { rows = recording::parse_observation_rows(text, kFile, findings); })) return 0;
+  if (!findings.empty()) fuzz::check_refusal(InputError(findings.list()), kFile);
+  check_rows(rows);
+  if (rows.empty()) return 0;
+  const std::string once = written(rows);
+  Findings again;
+  TTF_CHECK(written(recording::parse_observation_rows(once, kFile, again)) == once && again.empty(),
+            "rows change when written again: {}", again.empty() ? once : again.list().front().sentence());
+  check_tracks(rows);
+  return 0;
+}
