@@ -156,9 +156,10 @@ Arrivals arrivals_of(const std::vector<ObservationRow>& rows, const ReplayConfig
       arrivals.lists.push_back(
           {{static_cast<SensorId>(s), 0}, GlobalTime{row.time_ns}, GlobalTime{row.arrival_ns}, 0, {}});
     std::vector<fusion::Observation>& list = arrivals.lists[place->second].observations;
-    if (list.size() == fusion::kMaxObservations) {
+    if (list.size() == config.tracker.max_observations) {
       findings.add({name, row.line, "sensor", row.sensor,
-                    fmt::format("must have at most {} observations at one time", fusion::kMaxObservations)});
+                    fmt::format("must have at most {} observations at one time (max_observations of the tracker)",
+                                config.tracker.max_observations)});
       continue;
     }
     list.push_back(observation);

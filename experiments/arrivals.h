@@ -43,7 +43,7 @@ void list_sensors(ReplayConfig& config, const std::vector<recording::Observation
                   const std::string& name);
 
 // One finding, and the row left out, for each row of a sensor that the configuration does not list, with a covariance
-// that is none, or beyond the most observations that a list may have (fusion::kMaxObservations). `name`: the file's.
+// that is none, or beyond the most observations that a list may have (max_observations of the tracker). `name`: the file's.
 // Throws InputError where there are more classes than fusion::kMostClasses.
 Arrivals arrivals_of(const std::vector<recording::ObservationRow>& rows, const ReplayConfig& config,
                      const std::string& name, Findings& findings);

@@ -80,16 +80,17 @@ TEST(Arrivals, WhatNoFilterCanTakeIsAFinding) {
                                               position_row("b", 0, 0, 3, 0)};
   for (std::size_t i = 0; i < rows.size(); ++i) rows[i].line = static_cast<int>(i) + 2;
   rows[2].covariance = {{0.04, 0.2, 0.04, 0, 0, 0}};
-  for (std::size_t i = 0; i < fusion::kMaxObservations; ++i) rows.push_back(position_row("a", 0, 0, 1, 0));
+  for (std::size_t i = 0; i < config.tracker.max_observations; ++i) rows.push_back(position_row("a", 0, 0, 1, 0));
   rows.back().line = 99;
   Findings findings;
   const Arrivals arrivals = arrivals_of(rows, config, "o.csv", findings);
   EXPECT_THAT(sentences_of(findings),
               ElementsAre("o.csv:3: sensor = c: must be a sensor of c.yaml: a or b",
                           "o.csv:4: covariance: must be positive definite, and more than rounding",
-                          "o.csv:99: sensor = a: must have at most 64 observations at one time"));
+                          "o.csv:99: sensor = a: must have at most 64 observations at one time "
+                          "(max_observations of the tracker)"));
   ASSERT_EQ(arrivals.lists.size(), 1u);
-  EXPECT_EQ(arrivals.lists[0].observations.size(), fusion::kMaxObservations);
+  EXPECT_EQ(arrivals.lists[0].observations.size(), 64u);
 }
 
 TEST(Arrivals, ClassesAreNumberedByTheirNames) {
