@@ -36,7 +36,9 @@ for command in launch "node fusion"; do
     expect 2 '--session: must be 1 to 64 letters' $command "$drive" --session ''
     expect 2 '--session = a b: must be 1 to 64 letters' $command "$drive" --session 'a b'
     expect 2 '--out: must not be empty' $command "$drive" --out ''
+    pushd "$work" >/dev/null   # where it would be, were it taken for a folder
     expect 2 "--out: must not .* begin with a '-'" $command "$drive" --out= --virtual-time
+    popd >/dev/null
     expect 2 '--can = laser_can=can2: goes with --bus socketcan' $command "$drive" --can laser_can=can2
     can="$command $drive --bus socketcan:vcan0,vcan1 --can"
     for option in laser_can laser_can= =can2 laser_can=a/b laser_can=sixteen_letters_; do
