@@ -10,8 +10,6 @@
 namespace ttf::cli {
 namespace {
 
-constexpr const char* kInterfaceNames = "1..15 characters without white space, '/', ':' and ','";
-
 InputError refused(const std::string& option, std::string expected) {
   return InputError({"command line", 0, "--can", option, std::move(expected)});
 }
@@ -25,7 +23,7 @@ std::map<std::string, std::string> interfaces_by_name(const schedules::Cluster& 
     const std::string interface = sign == std::string::npos ? "" : option.substr(sign + 1);
     if (!launch::is_interface_name(interface))
       throw refused(option, fmt::format("must be NAME=IF, a CAN of {} and its interface ({})", cluster.file,
-                                        kInterfaceNames));
+                                        launch::kInterfaceNames));
     const std::string name = option.substr(0, sign);
     if (std::ranges::find(cluster.can_buses, name, &schedules::CanBus::name) == cluster.can_buses.end()) {
       std::vector<std::string> names;
@@ -61,7 +59,7 @@ std::vector<std::string> can_interfaces(const schedules::Cluster& cluster, const
       throw InputError(
           {cluster.file, can.line, fmt::format("can.{}", can.name), "",
            fmt::format("needs --can NAME=IF on SocketCAN, as its own name is none of an interface ({})",
-                       kInterfaceNames)});
+                       launch::kInterfaceNames)});
     if (const auto [user, only] = users.emplace(interface, can.name); !only)
       throw refused(fmt::format("{}={}", can.name, interface),
                     fmt::format("must be another interface than that of {}", user->second));

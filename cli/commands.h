@@ -4,11 +4,19 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <string>
 
 namespace ttf::cli {
 
 // Set by the command that was chosen; run after parsing.
 using Action = std::function<int()>;
+
+// For names of files and folders: no name is not the default one, and an option behind `--out=` is none.
+inline const CLI::Validator kNamed(
+    [](const std::string& text) {
+      return text.empty() || text.front() == '-' ? "must not be empty or begin with a '-' (./- does)" : "";
+    },
+    "");
 
 void add_run(CLI::App& app, Action& action);
 void add_diagram(CLI::App& app, Action& action);

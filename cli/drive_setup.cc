@@ -8,6 +8,7 @@
 #include "cli/fault_tables.h"
 #include "core/errors.h"
 #include "core/file_bytes.h"
+#include "core/strict_yaml.h"
 #include "nodes/catalog.h"
 #include "schedules/checker.h"
 #include "schedules/loader.h"
@@ -25,6 +26,20 @@ schedules::Cluster checked_cluster(const std::string& file) {
   if (auto findings = schedules::check(cluster); !findings.empty()) throw InputError(std::move(findings));
   schedules::bind_ports(cluster, nodes::step_ports());
   return cluster;
+}
+
+schedules::Cluster checked_cluster(const nodes::Scenario& scenario, fusion::StrategyKind strategy) {
+  const std::string& file = scenario.cluster_files[static_cast<std::size_t>(strategy)];
+  try {
+    (void)read_file(file);
+  } catch (const InputError& error) {
+    Findings none;
+    const std::string name(nodes::name_of(strategy));
+    YamlMap clusters = StrictYaml::parse(scenario.text, scenario.file).root(none).map("clusters");
+    throw InputError({scenario.file, clusters.line(name), "clusters." + name, file,
+                      "must be a cluster file, but it " + error.findings().front().expected});
+  }
+  return checked_cluster(file);
 }
 
 Recording read_recording(const std::string& path) {

@@ -24,6 +24,8 @@ std::string hex_hash(const std::string& text);
 
 // A cluster that has passed its check, ready to run. Throws InputError.
 schedules::Cluster checked_cluster(const std::string& file);
+// That of the scenario's strategy. One that cannot be read at all is told as the scenario's mistake, with its line.
+schedules::Cluster checked_cluster(const nodes::Scenario& scenario, fusion::StrategyKind strategy);
 
 // What --input gives: the observations, and what the manifest says of the file they came from. Its name goes without
 // the folder, so that a log does not depend on where the file lay.

@@ -58,6 +58,12 @@ launch::Hooks LiveLaunch::hooks() {
   return hooks;
 }
 
+std::vector<std::string> LiveLaunch::states_at_end(const launch::HealthTable& health, const StrategyResult*) const {
+  std::vector<std::string> states;
+  for (std::size_t node = 0; node < set_.cluster.nodes.size(); ++node) states.push_back(health.of(node).state);
+  return states;
+}
+
 std::vector<std::string> LiveLaunch::warnings() const {
   std::vector<std::string> warnings;
   for (const auto& [sentence, nodes] : not_granted_)

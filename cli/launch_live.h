@@ -23,6 +23,8 @@ class LiveLaunch {
   // The nodes' logs and the truth as one, STRATEGY.mcap in the folder, and what is made of it. A log that cannot be
   // read at all is left out, with a warning; nothing where none can.
   std::optional<StrategyResult> result(const std::vector<std::string>& logs) const;
+  // Of the nodes' controllers, as they said it last; empty off FlexRay.
+  std::vector<std::string> states_at_end(const launch::HealthTable& health, const StrategyResult*) const;
   // What the kernel did not grant the nodes' processes, each sentence once, with how many it is of.
   std::vector<std::string> warnings() const;
 

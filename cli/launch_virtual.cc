@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "cli/drive_end.h"
 #include "cli/launch_result.h"
 #include "cli/launch_session.h"
 #include "cli/node_drive.h"
@@ -25,6 +26,11 @@ std::optional<StrategyResult> VirtualLaunch::result(const std::vector<std::strin
   StrategyResult result = merged_result(set_, readable);
   result.outcome = outcome_;
   return result;
+}
+
+std::vector<std::string> VirtualLaunch::states_at_end(const launch::HealthTable&, const StrategyResult* result) const {
+  if (result == nullptr) return std::vector<std::string>(set_.cluster.nodes.size());
+  return cli::states_at_end(set_.cluster, set_.scenario.startup.cold, result->startup);
 }
 
 }  // namespace ttf::cli

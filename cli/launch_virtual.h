@@ -21,6 +21,8 @@ class VirtualLaunch {
   // The nodes' logs as one, STRATEGY.mcap in the folder, and what is made of it. A log that cannot be read at all is
   // left out, with a warning; nothing where none can.
   std::optional<StrategyResult> result(const std::vector<std::string>& logs) const;
+  // Of the nodes' controllers, from the records, which are all that tells; empty off FlexRay, and without records.
+  std::vector<std::string> states_at_end(const launch::HealthTable&, const StrategyResult* result) const;
   std::vector<std::string> warnings() const { return {}; }
 
  private:

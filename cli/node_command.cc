@@ -44,7 +44,8 @@ void add_node(CLI::App& app, Action& action) {
   command->add_option("--host", arguments->set.host,
                       "Name of the clock that this process goes by, the same for all on one host and for no others "
                       "(default: the host's name); real time only");
-  command->add_option("--out", arguments->set.out, "Folder for the node's log (default: out/<scenario>/launch)");
+  command->add_option("--out", arguments->set.out, "Folder for the node's log (default: out/<scenario>/launch)")
+      ->check(kNamed);
   command->add_flag("--json", arguments->json, "What came of it as JSON on standard output");
   command->callback([arguments, &action] { action = [arguments] { return run_node(*arguments); }; });
 }

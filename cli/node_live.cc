@@ -8,8 +8,10 @@
 #include <stdexcept>
 #include <string>
 
+#include "cli/dds_preflight.h"
 #include "cli/drive_setup.h"
 #include "cli/launch/control.h"
+#include "cli/launch/folder_lock.h"
 #include "cli/launch/signal_watch.h"
 #include "cli/launch_session.h"
 #include "cli/live_bus.h"
@@ -85,6 +87,14 @@ Start told_start(const NodeSet& set) {
   return {origin, set.rejoin};
 }
 
+// Who waits says for what.
+void tell_wait(const Start& start) {
+  const Duration ahead = start.origin - bus::host_now();
+  if (ahead.ns > 0)
+    fmt::print(stderr, "the drive begins in {:.1f} s (--start-at){}\n", ahead.seconds(),
+               start.rejoins ? ": until then there is no cluster to rejoin" : "");
+}
+
 // Waits for it.
 Start start_of(launch::ControlLine& supervisor) {
   supervisor.ready();
@@ -142,7 +152,11 @@ int run_node_live(const NodeOptions& options) {
   const NodeSet& set = options.set;
   launch::SignalWatch signals;   // before there are threads
   auto supervisor = launch::ControlLine::from_environment();
-  if (!supervisor) check_told_start(set);
+  if (!supervisor) {
+    check_told_start(set);
+    launch::FolderLock::refuse_if_held(set.folder);
+    if (set.bus.kind == launch::BusKind::kDds || set.topics) check_dds_configuration();
+  }
   if (set.topics) check_topics(set);
   create_folder(set.folder);
   const sim::Surroundings around = sim::surroundings_of(set.scenario, set.cluster, set.seed, 0, nullptr);
@@ -152,6 +166,7 @@ int run_node_live(const NodeOptions& options) {
   if (set.topics) try_topics(set);
   const std::optional<Start> told = supervisor ? std::nullopt : std::optional(told_start(set));
   recording::LogWriter log(free_log(options), wall_manifest(set), recording::LogWriter::Writing::kBehind);
+  if (told) tell_wait(*told);
   const Start start = told ? *told : start_of(*supervisor);
   const runner::RunnerConfig config = config_of(options, start, signals.fd());
   std::optional<LiveTopics> topics;

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "bus/dds/session.h"
 #include "cli/can_interfaces.h"
 #include "cli/decimal_option.h"
 #include "cli/drive_setup.h"
@@ -63,13 +64,24 @@ bool is_cluster_file(const std::string& file) {
   return root.has("flexray") && !root.has("clusters");
 }
 
-void set_duration(nodes::Scenario& scenario, const std::string& text) {
-  const Duration duration{decimal_option("--duration", text, kNsPerSecond, kDurations_ns, " s")};
-  if (duration < scenario.evaluate_from)
-    throw InputError({"command line", 0, "--duration", text,
-                      fmt::format("must be at least {} s: from there on {} is evaluated",
-                                  scaled_text(scenario.evaluate_from.ns, kNsPerSecond), scenario.file)});
-  scenario.duration = scenario.world.duration = duration;
+void set_duration(nodes::Scenario& scenario, const std::string& name, const std::string& text) {
+  const std::string unit = fmt::format(" s ({} is evaluated from {} s on)", name,
+                                       scaled_text(scenario.evaluate_from.ns, kNsPerSecond));
+  const Range<std::int64_t> allowed{std::max(kDurations_ns.low, scenario.evaluate_from.ns), kDurations_ns.high};
+  scenario.duration = scenario.world.duration =
+      Duration{decimal_option("--duration", text, kNsPerSecond, allowed, unit)};
+}
+
+// As a session on DDS is named, whatever the bus.
+std::string session_option(const std::string& name) {
+  dds::Session session;
+  session.name = name;
+  session.members = {NodeId{0}};
+  try {
+    return dds::validate(session).name;
+  } catch (const InputError& error) {
+    throw InputError({"command line", 0, "--session", name, error.findings().front().expected});
+  }
 }
 
 fusion::StrategyKind strategy_of(const std::string& name) {
@@ -154,7 +166,7 @@ NodeSet read_node_set(const NodeSetArguments& arguments) {
   set.file = arguments.scenario;
   set.strategy = strategy_of(arguments.strategy);
   set.bus = launch::Bus::parse(arguments.bus);
-  set.session = arguments.session;
+  set.session = session_option(arguments.session);
   set.virtual_time = arguments.virtual_time;
   set.topics = !arguments.no_topics && !arguments.virtual_time;
   if (arguments.time_scale)
@@ -165,19 +177,21 @@ NodeSet read_node_set(const NodeSetArguments& arguments) {
   set.rejoin = arguments.rejoin;
   set.host = arguments.host ? host_option(*arguments.host) : this_host();
 
+  std::string drive = set.file;   // as messages call it
   if (is_cluster_file(set.file)) {
     set.cluster = checked_cluster(set.file);
     set.scenario = default_scene(set.cluster);
+    drive = "the default scene";
   } else {
     set.scenario = nodes::load_scenario(set.file);
-    set.cluster = checked_cluster(set.scenario.cluster_files[static_cast<std::size_t>(set.strategy)]);
+    set.cluster = checked_cluster(set.scenario, set.strategy);
   }
   if (nodes::is_recorded(set.cluster))
     throw InputError(
         {set.file, 0, "clusters", set.cluster.file,
          "must be a cluster with sensors: a recording is played by `ttfusion run --input`, in one process"});
   set.seed = arguments.seed ? seed_of(*arguments.seed) : set.scenario.seed;
-  if (arguments.duration) set_duration(set.scenario, *arguments.duration);
+  if (arguments.duration) set_duration(set.scenario, drive, *arguments.duration);
   sim::check_fits(set.scenario, set.cluster, false);
   set.can_interfaces = can_interfaces(set.cluster, set.bus, arguments.cans);
   if (!set.virtual_time) check_fit_for_real_time(set);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <memory>
@@ -32,6 +33,28 @@ void create_folder(const std::string& path) {
   std::error_code failure;
   std::filesystem::create_directories(path, failure);
   if (failure) throw std::runtime_error(path + ": cannot be created: " + failure.message());
+}
+
+void try_folder(const std::string& path) {
+  namespace fs = std::filesystem;
+  std::vector<fs::path> made;   // the innermost first
+  std::error_code none;
+  for (fs::path folder = fs::absolute(path).lexically_normal(); !fs::exists(folder, none) && folder.has_relative_path();
+       folder = folder.parent_path())
+    made.push_back(folder);
+  const auto unmake = [&] {
+    for (const fs::path& folder : made) fs::remove(folder, none);   // not what somebody has put something into
+  };
+  try {
+    create_folder(path);
+    std::string probe = path + "/ttfusion-XXXXXX";
+    if (mkdtemp(probe.data()) == nullptr) fail(path);
+    fs::remove(probe, none);
+  } catch (...) {
+    unmake();
+    throw;
+  }
+  unmake();
 }
 
 void print_warnings(std::string_view text) {

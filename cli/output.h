@@ -17,6 +17,9 @@ void refuse_overwriting(const std::string& input, const std::string& path, const
 // Creates the folder and those it is in, as far as they are not there. Throws std::runtime_error with path and reason.
 void create_folder(const std::string& path);
 
+// Throws what create_folder() and the first file in it would; leaves nothing behind.
+void try_folder(const std::string& path);
+
 // Prints each line of `text` on standard error as a warning of its own.
 void print_warnings(std::string_view text);
 void print_warnings(const std::vector<std::string>& warnings);

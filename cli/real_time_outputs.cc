@@ -56,7 +56,10 @@ std::string problems(const StrategyResult& result) {
                fmt::format("{}", timing.missing.away),
                fmt::format("{}", timing.lost_on_the_way()),
                timing.largest_offset_correction ? report::cell(in_us(*timing.largest_offset_correction), 1) : "-"});
-  return table.text();
+  return table.text() +
+         "Slots missed: withheld by this node; frames: of others, not heard by it. Slot problems, in the table above: "
+         "every slot of every\nnode and channel whose frame was not there when the static segment ended "
+         "(docs/lateness.md).\n";
 }
 
 // Empty where no node told of its medium.

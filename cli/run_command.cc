@@ -34,7 +34,7 @@ StrategyResult run_strategy(const RunOptions& options, const nodes::Scenario& sc
                             std::uint64_t seed, const Recording& recording, const std::string& folder) {
   StrategyResult result;
   result.strategy = strategy;
-  result.cluster = checked_cluster(scenario.cluster_files[static_cast<std::size_t>(strategy)]);
+  result.cluster = checked_cluster(scenario, strategy);
   DriveJudge judge(scenario, result.cluster);
   std::vector<records::Sink*> sinks = judge.sinks();
   std::unique_ptr<recording::LogWriter> log;
@@ -63,7 +63,7 @@ int run_scenario(const RunOptions& options) {
   const std::string folder = options.out.empty() ? folder_of(scenario) : options.out;
   // Before anything is simulated or an earlier run's log is written over.
   for (const fusion::StrategyKind strategy : chosen(options.strategy))
-    sim::check_fits(scenario, checked_cluster(scenario.cluster_files[static_cast<std::size_t>(strategy)]),
+    sim::check_fits(scenario, checked_cluster(scenario, strategy),
                     recording.rows != nullptr);
   create_folder(folder);
 
@@ -101,8 +101,10 @@ void add_run(CLI::App& app, Action& action) {
   command->add_option("--strategy", options->strategy, "Only one strategy; all three otherwise")
       ->check(CLI::IsMember({"buff", "adva", "tt"}));
   command->add_option("--seed", options->seed, "Seed of every random stream, instead of the scenario's");
-  command->add_option("--input", options->input, "Recorded observations in place of the sensor models");
-  command->add_option("--out", options->out, "Folder for logs and pictures (default: out/<scenario>)");
+  command->add_option("--input", options->input, "Recorded observations in place of the sensor models")
+      ->check(kNamed);
+  command->add_option("--out", options->out, "Folder for logs and pictures (default: out/<scenario>)")
+      ->check(kNamed);
   command->add_flag("--json", options->json, "Summary as JSON on standard output");
   command->add_flag("--no-log", options->no_log, "Write no logs (and so no pictures)");
   command->add_flag("--no-pictures", options->no_pictures, "Write logs only");

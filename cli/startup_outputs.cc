@@ -15,7 +15,8 @@ std::string startup_text(const std::vector<StrategyResult>& results, bool cold) 
   for (const StrategyResult& result : results) {
     if (result.startup.empty()) continue;
     report::Table table({"node", cold ? "powered on [ms]" : "powered on again [ms]",
-                         cold ? "active in cycle" : "active again in cycle", "at [ms]", "in state now, and why"});
+                         cold ? "first active in cycle" : "first active again in cycle", "at [ms]",
+                         "in state at the end, and why"});
     for (const experiments::NodeStartup& node : result.startup) {
       const bool on_flexray = !node.state.empty();
       table.add({result.cluster.node(node.node).name, node.powered ? report::cell(in_ms(*node.powered), 1) : "-",

@@ -43,12 +43,30 @@ std::optional<Finding> misfit(const StoredLog& log, const StoredLog& first) {
 }
 
 Finding given_twice(const StoredLog& log, const StoredLog& other) {
-  return {log.name(), 0, "", "", fmt::format("holds the same records as {}: each log may be given once", other.name())};
+  return {log.name(), 0, "", "",
+          fmt::format("holds the same records as {}: each log may be given once, and a merged one without its parts",
+                      other.name())};
 }
 
 bool is_copy(const StoredLog& log, const StoredLog& other) {
   return log.name() == other.name() ||
          (log.info().records.records() > 0 && log.info().content_hash == other.info().content_hash);
+}
+
+// One of them that holds what the others, two or more, hold together; end() where there is none.
+std::vector<StoredLog>::iterator whole_among(std::vector<StoredLog>& logs) {
+  ContentHash all;
+  std::size_t with_records = 0;
+  for (const StoredLog& log : logs) {
+    all.add(log.info().records);
+    with_records += log.info().records.records() > 0;
+  }
+  if (with_records < 3) return logs.end();
+  return std::find_if(logs.begin(), logs.end(), [&](const StoredLog& log) {
+    ContentHash twice = log.info().records;
+    twice.add(log.info().records);
+    return twice.value() == all.value();
+  });
 }
 
 std::vector<StoredLog> stored(const std::vector<std::string>& paths) {
@@ -62,6 +80,12 @@ std::vector<StoredLog> stored(const std::vector<std::string>& paths) {
 MergedLogs::MergedLogs(const std::vector<std::string>& paths) : MergedLogs(stored(paths)) {}
 
 MergedLogs::MergedLogs(std::vector<StoredLog> logs) : logs_(std::move(logs)) {
+  if (const auto whole = whole_among(logs_); whole != logs_.end()) {
+    warnings_.push_back(
+        fmt::format("{}: is passed over: it holds what the other {} logs hold together", whole->name(),
+                    logs_.size() - 1));
+    logs_.erase(whole);
+  }
   Findings findings;
   const StoredLog* first = nullptr;
   for (auto log = logs_.begin(); log != logs_.end(); ++log) {

@@ -32,11 +32,12 @@ class MergedLogs {
  public:
   // Throws InputError where a log cannot be read at all, is given twice, or is of another run than the first: any key
   // of the manifest but checksum and host differs. A log whose manifest is damaged is taken to belong to the others.
-  // What else is damaged is missing and has its warning in that log's info; all others are read whole.
+  // What else is damaged is missing and has its warning in that log's info; all others are read whole. One that holds
+  // what all others hold together, as a folder has it where they were merged, is passed over, which is a warning.
   explicit MergedLogs(std::vector<StoredLog> logs);
   explicit MergedLogs(const std::vector<std::string>& paths);
 
-  const std::vector<StoredLog>& logs() const { return logs_; }   // as given
+  const std::vector<StoredLog>& logs() const { return logs_; }   // as given, but for one passed over
   const LogManifest& manifest() const { return manifest_; }
   std::vector<Attachment> attachments() const;   // each once, in the order of the logs, then by name and bytes
   ContentHash content_hash() const;              // of all records, as they are in the logs

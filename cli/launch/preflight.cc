@@ -68,7 +68,9 @@ bool is_interface_name(std::string_view name) {
 Bus Bus::parse(const std::string& text) {
   constexpr std::string_view kSocketCan = "socketcan:";
   if (text == "dds") return {};
-  const auto refuse = [&]() { return InputError({"command line", 0, "--bus", text, std::string(kBusExpected)}); };
+  const auto refuse = [&]() {
+    return InputError({"command line", 0, "--bus", text, fmt::format("{} (each {})", kBusExpected, kInterfaceNames)});
+  };
   if (!text.starts_with(kSocketCan)) throw refuse();
   Bus bus{BusKind::kSocketCan, {}};
   const std::string list = text.substr(kSocketCan.size());

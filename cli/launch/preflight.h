@@ -23,6 +23,7 @@ struct Bus {
 // As the kernel takes it (dev_valid_name), and without the commas that --bus puts between two: 1..15 bytes, no '/', ':'
 // or white space, and neither "." nor "..".
 bool is_interface_name(std::string_view name);
+inline constexpr const char* kInterfaceNames = "1..15 characters without white space, '/', ':' and ','";   // in words
 
 // A CAN between sensors and hosts, on SocketCAN.
 struct PrivateCan {

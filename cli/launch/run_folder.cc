@@ -15,7 +15,6 @@
 
 #include "cli/output.h"
 #include "core/check.h"
-#include "core/errors.h"
 
 namespace ttf::launch {
 namespace {
@@ -68,9 +67,8 @@ std::optional<EarlierLaunch> earlier_launch(const std::string& folder) {
 
 RunFolder::RunFolder(std::string folder, nlohmann::ordered_json facts, WallInstant now)
     : folder_(std::move(folder)), facts_(std::move(facts)), began_(now) {
-  std::error_code failure;
-  std::filesystem::create_directories(folder_, failure);
-  if (failure) throw InputError({folder_, 0, "--out", "", "cannot be created: " + failure.message()});
+  cli::create_folder(folder_);
+  lock_.emplace(folder_);
   write();
 }
 

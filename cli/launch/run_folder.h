@@ -5,6 +5,7 @@
 //                      so a reader, or a kill at any instant, finds a complete one
 //   launch.log         all words of the launch, as on the screen, without colour
 //   NODE.mcap          the node's own log: the node writes it, the supervisor only names it
+//   launch.lock        whose folder it is (cli/launch/folder_lock.h)
 //   NODE.txt           what the node's processes printed, byte for byte, one after the other
 //
 // A node's name becomes a file's with every character but letters, digits, '_', '-' and inner '.' as %XX: no name leads
@@ -23,6 +24,7 @@
 
 #include "cli/launch/child.h"
 #include "cli/launch/descriptor.h"
+#include "cli/launch/folder_lock.h"
 
 namespace ttf::launch {
 
@@ -42,9 +44,9 @@ std::optional<EarlierLaunch> earlier_launch(const std::string& folder);
 
 class RunFolder {
  public:
-  // Makes the folder and the empty text files, and writes the manifest: `facts` (an object: command line, scenario,
-  // seed, hashes) first, then state and nodes. Throws InputError where the folder cannot be made, std::runtime_error
-  // where a file cannot be written.
+  // Makes the folder, which is this launch's alone from then on, and writes the manifest: `facts` (an object: command
+  // line, scenario, seed, hashes) first, then state and nodes. Throws InputError where another launch has it,
+  // std::runtime_error where the folder or a file cannot be written.
   RunFolder(std::string folder, nlohmann::ordered_json facts, WallInstant now);
 
   struct Entry {
@@ -95,6 +97,7 @@ class RunFolder {
     std::vector<Process> processes;
   };
   std::string folder_;
+  std::optional<FolderLock> lock_;
   nlohmann::ordered_json facts_;
   std::string state_ = "starting";
   WallInstant began_;

@@ -42,7 +42,7 @@ expect 2 'is given twice' run "$drive"
 head -c 300 "$source/scenarios/paper_scenario1.yaml" >"$drive"
 expect 2 'broken.yaml' run "$drive"
 mutate scenarios/paper_scenario1.yaml 's/paper_synchronised.yaml/absent.yaml/' "$drive"
-expect 2 'absent.yaml: cannot be read' run "$drive" --strategy tt --out "$work/none"
+expect 2 'absent.yaml: must be a cluster file, but it cannot be read' run "$drive" --strategy tt --out "$work/none"
 
 cluster=$work/schedules/broken.yaml
 mutate schedules/paper_synchronised.yaml 's/gdNIT: [0-9]*/gdNIT: 100/' "$cluster"

@@ -27,10 +27,18 @@ for command in launch "node fusion"; do
       expect 2 "--time-scale = $scale: must be a decimal number 0.1..1000" $command "$drive" "--time-scale=$scale"
     done
     expect 2 '--time-scale = 2: must not be given with --virtual-time' $command "$drive" --time-scale 2 --virtual-time
-    for duration in 0.09 3600.1 x; do
-      expect 2 "--duration = $duration: must be a decimal number 0.1..3600 s" $command "$drive" --duration "$duration"
+    for duration in 0.09 1.4 3600.1 x; do
+      expect 2 "--duration = $duration: must be a decimal number 1.5..3600 s \(.*paper_scenario1.yaml is evaluated from 1.5 s on\)" \
+        $command "$drive" --duration "$duration"
     done
-    expect 2 '--duration = 1.4: must be at least 1.5 s: from there on .*paper_scenario1.yaml is evaluated' $command "$drive" --duration 1.4
+    expect 2 '--duration = 1: must be a decimal number 1.5..3600 s \(the default scene is evaluated from' $command "$cluster" --duration 1
+    expect 2 '--bus = socketcan:sixteen_letters_: must be dds, or .* \(each 1..15 characters' $command "$drive" --bus socketcan:sixteen_letters_
+    expect 2 '--session: must be 1 to 64 letters' $command "$drive" --session ''
+    expect 2 '--session = a b: must be 1 to 64 letters' $command "$drive" --session 'a b'
+    expect 2 '--out: must not be empty' $command "$drive" --out ''
+    pushd "$work" >/dev/null   # where it would be, were it taken for a folder
+    expect 2 "--out: must not .* begin with a '-'" $command "$drive" --out= --virtual-time
+    popd >/dev/null
     expect 2 '--can = laser_can=can2: goes with --bus socketcan' $command "$drive" --can laser_can=can2
     can="$command $drive --bus socketcan:vcan0,vcan1 --can"
     for option in laser_can laser_can= =can2 laser_can=a/b laser_can=sixteen_letters_; do
@@ -58,11 +66,11 @@ expect 2 'must be at most 1999.999 us at time scale 3.44234,' \
 expect 0 'node fusion .* --time-scale 3.442341 ' launch "$work/edited.yaml" --time-scale 3.442341 --dry-run
 edited 's/observation_can/observation_can_/g'
 expect 2 'edited.yaml:[0-9]+: can.observation_can_: needs --can NAME=IF on SocketCAN' launch "$work/edited.yaml" --bus socketcan:vcan0 --dry-run
-expect 0 'can observation_can_=vcan4' launch "$work/edited.yaml" --bus socketcan:vcan0 --can observation_can_=vcan4 --dry-run
+expect 1 'can observation_can_=vcan_absent' launch "$work/edited.yaml" --bus socketcan:vcan0 --can observation_can_=vcan_absent --dry-run
 edited '0,/slot: 6, channels: AB/s//slot: 6, channels: B/'
 expect 2 '--bus = socketcan:vcan0: must name an interface for channel B, too: slot 6 of .*edited.yaml is sent on B alone' \
   launch "$work/edited.yaml" --bus socketcan:vcan0 --dry-run
-expect 0 'node fusion' launch "$work/edited.yaml" --bus socketcan:vcan0,vcan1 --dry-run
+expect 1 'node fusion' launch "$work/edited.yaml" --bus socketcan:vcan0,vcan_absent --dry-run
 expect 2 'faulty_bus.yaml:[0-9]+: faults: must be run in virtual time' launch "$source/scenarios/faulty_bus.yaml" --dry-run
 expect 0 'node fusion' launch "$source/scenarios/faulty_bus.yaml" --virtual-time --dry-run
 
@@ -109,11 +117,78 @@ sed "s#\.\./schedules#$source/schedules#; 0,/node: camera_pre/s//node: camera_pe
 expect 2 'camera_per: must be a node' launch "$work/typo.yaml" --dry-run
 
 # What cannot run says so, and starts nothing.
-expect 1 'ip link add dev vcan_absent type vcan' launch "$drive" --bus socketcan:vcan_absent --out "$work/real"
+for dry in '' --dry-run; do
+  # shellcheck disable=SC2086
+  {
+    expect 1 'ip link add dev vcan_absent type vcan' launch "$drive" --bus socketcan:vcan_absent $dry --out "$work/real"
+    expect 1 'without any CAN: --bus dds .* tools/test_bed.sh' launch "$drive" --bus socketcan:vcan_absent $dry --out "$work/real"
+  }
+done
+[[ -x $source/tools/test_bed.sh ]] || fail "there is no test bed"
 [[ -e $work/real ]] && fail "a launch that cannot be leaves a folder"
 expect 2 '--policy = fusion=restart: must not be given with --virtual-time' \
   launch "$drive" --virtual-time --policy fusion=restart --out "$work/real"
 [[ -e $work/real ]] && fail "a launch that is refused leaves a folder"
+
+# What cannot be written is no mistake of the command line's, also not in a dry run, which leaves nothing.
+touch "$work/file"
+for dry in '' --dry-run; do
+  for time in '' --virtual-time; do
+    # shellcheck disable=SC2086
+    {
+      expect 1 'file/run: cannot be created: Not a directory' launch "$drive" $time $dry --out "$work/file/run"
+      expect 1 '/proc/ttfusion/run: cannot be created' launch "$drive" $time $dry --out /proc/ttfusion/run
+    }
+  done
+done
+expect 1 'file/run: cannot be created: Not a directory' run "$drive" --out "$work/file/run"
+expect 1 'file/run: cannot be created: Not a directory' node fusion "$drive" --virtual-time --out "$work/file/run"
+expect 0 'node fusion' launch "$drive" --dry-run --out "$work/several/folders/deep"
+[[ -e $work/several ]] && fail "the dry run leaves folders"
+mkdir "$work/there"
+expect 0 'node fusion' launch "$drive" --dry-run --out "$work/there/run"
+[[ -d $work/there && $(ls -A "$work/there") == '' ]] || fail "the dry run changes what was there"
+
+# A log has one writer, by hand too.
+mkdir "$work/written"
+exec 9>"$work/written/fusion.mcap"
+flock 9
+expect 2 '--out = .*/written: must be another folder: .*/written/fusion.mcap is being written' \
+  node fusion "$drive" --virtual-time --session "written-$$" --out "$work/written"
+exec 9>&-
+
+# What DDS is told is tried before anything is started.
+export CYCLONEDDS_URI=file://$work/absent.xml
+for arguments in "launch $drive" "launch $drive --virtual-time" "launch $drive --dry-run" "node fusion $drive --virtual-time" \
+  "node fusion $drive --start-at 4000000000"; do
+  # shellcheck disable=SC2086
+  expect 2 "environment: CYCLONEDDS_URI = file://.*absent.xml: must be a configuration .* it says: can't open configuration file" \
+    $arguments --out "$work/real"
+  [[ -e $work/real ]] && fail "'$arguments' with a wrong CYCLONEDDS_URI leaves a folder"
+done
+CYCLONEDDS_URI='<CycloneDDS><Domain><Gneral/></Domain></CycloneDDS>'
+expect 2 'it says: config: //CycloneDDS/Domain: Gneral: unknown element' launch "$drive" --out "$work/real"
+CYCLONEDDS_URI=file://$source/bus/dds/loopback.xml
+expect 0 'node fusion' launch "$drive" --dry-run
+unset CYCLONEDDS_URI
+
+# A cluster that cannot be read: who wants it, and where. A duration that is none limits nothing else.
+sed 's#\.\./schedules/paper_sync#absent/paper_sync#' "$drive" >"$work/wanting.yaml"
+line=$(grep -n '^ *tt:' "$drive" | cut -d: -f1)
+for command in launch run; do
+  expect 2 "wanting.yaml:$line: clusters.tt = .*absent/paper_synchronised.yaml: must be a cluster file, but it cannot be read: No such file" \
+    $command "$work/wanting.yaml" --strategy tt
+  sed 's/^duration: .*/duration: forever/' "$source/scenarios/faulty_bus.yaml" >"$work/forever.yaml"
+  [[ $("$program" $command "$work/forever.yaml" 2>&1) =~ ^'error: '[^$'\n']*'forever.yaml:'[0-9]+': duration = forever: must be a time'[^$'\n']*$ ]] ||
+    fail "$command with a duration that is none says more than that"
+done
+expect 2 '--out: must not be empty' run "$drive" --out ''
+
+# Who rejoins a drive that has not begun says that it waits.
+timeout 3 "$program" node fusion "$drive" --no-topics --session "early-$$" --rejoin --start-at $(($(date +%s) + 100)) \
+  --out "$work/early" >"$work/early.words" 2>&1
+grep -Eq '^the drive begins in (9[0-9]|100)\.[0-9] s \(--start-at\): until then there is no cluster to rejoin$' "$work/early.words" ||
+  fail "nobody says what is waited for: $(cat "$work/early.words")"
 
 # The dry run: one command per node on standard output, words on the other; each command is taken as it stands.
 "$program" launch "$drive" --virtual-time --seed 5 --duration 2.50 --out "$work/it's dry" --dry-run >"$work/commands" 2>"$work/words" ||
@@ -129,7 +204,8 @@ while IFS= read -r line; do
   grep -q 'not expected: --dry' "$work/refused" || fail "a shell does not take: $line"
 done <"$work/commands"
 "$program" launch "$drive" --strategy buff --time-scale 2.50 --bus socketcan:vcan_absent --can camera_can=can7 --policy fusion=restart --dry-run --json \
-  >"$work/plan.json" || fail "the dry run's JSON fails"
+  >"$work/plan.json"
+[[ $? -eq 1 ]] || fail "the dry run's JSON does not fail where no CAN is"
 python3 - "$work/plan.json" <<'PY' || fail "the dry run's JSON is another"
 import json, sys
 plan = json.load(open(sys.argv[1]))

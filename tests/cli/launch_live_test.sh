@@ -69,6 +69,17 @@ manifest = read(folder + "/manifest.json")
 assert manifest["exit_code"] == 0 and manifest["virtual_time"] is False and manifest["time_scale"] == 5, manifest' \
     "$folder" "$strategy"
 done
+# What --help has as an example: all that is in the folder, the merged log among its parts.
+expect 0 'warning: .*/tt.mcap: is passed over: it holds what the other 8 logs hold together' \
+  diagram "$work"/tt/*.mcap --from 1 --to 1.04 -o "$work/all.svg"
+expect 0 '' diagram "$work/tt/tt.mcap" --from 1 --to 1.04 -o "$work/merged.svg"
+cmp "$work/all.svg" "$work/merged.svg" || fail "the picture of all logs in the folder is not the merged log's"
+expect 0 'tt.mcap: is passed over' export "$work"/tt/*.mcap --format csv -o "$work/all.csv"
+expect 0 '' export "$work/tt/tt.mcap" --format csv -o "$work/merged.csv"
+cmp "$work/all.csv" "$work/merged.csv" || fail "the frames of all logs in the folder are not the merged log's"
+expect 0 'tt.mcap: is passed over' diagram "$work"/tt/*.mcap --kind position -o "$work/all.svg"
+expect 2 'fusion.mcap: holds the same records as .*tt.mcap: each log may be given once, and a merged one without its parts' \
+  diagram "$work"/tt/{tt,fusion}.mcap --from 1 --to 1.04 -o "$work/none.svg"
 logs=$(for node in $nodes; do echo "$work/tt/$node.mcap"; done)
 # shellcheck disable=SC2086
 for kind in timing position lateness; do
@@ -126,6 +137,15 @@ wait "$required"
 code=$?
 [[ $code -eq 137 ]] || fail "a launch whose fusion is killed exits with $code: $(cat "$work/required.err")"
 grep -q 'fusion: signal 9 (Killed)' "$work/required.err" || fail "nobody says that fusion was killed"
+# ---- one whose nodes are powered on when it is all but over
+sed "s#\.\./schedules#$source/schedules#" "$drive" >"$work/nobody.yaml"
+{
+  echo "startup:"
+  echo "  kind: cold"
+  echo "  power_on: {$(for node in $nodes; do echo "$node: 1595 ms, "; done | tr -d '\n' | sed 's/, $//')}"
+} >>"$work/nobody.yaml"
+begin "$work/nobody" "$work/nobody.yaml" --time-scale 2 --duration 1.6
+nobody=$!
 # ---- and a launch that can do without one, and nodes by hand: no supervisor but one instant, and one of them comes later
 begin "$work/optional" "$drive" --time-scale 4 --duration 1.5 --policy feature=optional
 optional=$!
@@ -161,8 +181,20 @@ assert facts["features"], ("nobody uses an image", facts["states"])
 for node in ("laser_pre", "camera_pre", "gateway", "fusion", "feature"):
     assert read(f"{sys.argv[1]}/hand.{node}")["real_time"]["state"] == "normal active", node' "$work"
 
+wait "$nobody"
+code=$?
+[[ $code -eq 1 ]] || fail "a launch at whose end nobody is there exits with $code: $(cat "$work/nobody.err")"
+grep -Eq '^error: nobody was in operation at the end: [a-z ]+' "$work/nobody.err" || fail "nobody says so: $(cat "$work/nobody.err")"
+check "the manifest does not tell why a launch failed at whose end nobody is there" '
+manifest = read(sys.argv[1] + "/manifest.json")
+assert manifest["exit_code"] == 1 and manifest["why"].startswith("nobody was in operation at the end: "), manifest
+assert len(manifest["not_in_operation_at_end"]) == 5, manifest' "$work/nobody"
 wait "$optional" || fail "a launch that can do without its dead node exits with $?: $(cat "$work/optional.err")"
 grep -q 'feature: signal 9 (Killed)' "$work/optional.err" || fail "nobody says that feature was killed"
+grep -Eq '^warning: .*feature.* not in operation at the end: .*signal 9 \(Killed\)' "$work/optional.err" ||
+  fail "nobody says that feature was gone at the end: $(cat "$work/optional.err")"
+check "the summary does not tell who was gone" '
+assert {"node": "feature", "state": "signal 9 (Killed)"} in read(sys.argv[1] + "/summary.json")["not_in_operation_at_end"]' "$work/optional"
 wait "$stops"
 wait "$stopped" || fail "seed $seed: a launch whose nodes are stopped exits with $?: $(cat "$work/stopped.err")"
 facts "$work/stopped"

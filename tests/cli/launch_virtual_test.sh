@@ -52,6 +52,35 @@ for folder in beside stopped; do
   [[ $(hash_of "$work/$folder") == "$(hash_of "$work/run_paper_scenario1")" ]] || fail "$folder: other records"
 done
 
+# A cold start that takes longer than the drive: of one node, a warning; of all, a failure.
+absent() {   # FOLDER WORD SENTENCE CODE WHO...: in words, in the summary and in the manifest
+  local folder=$1
+  grep -qx "$2: $3" "$folder.err" || fail "$folder does not say '$3': $(cat "$folder.err")"
+  python3 - "$folder" "$3" "$4" "${@:5}" <<'PY' || fail "$folder: summary and manifest say something else"
+import json, sys
+folder, sentence, code, *who = sys.argv[1:]
+summary, manifest = (json.load(open(f"{folder}/{name}.json")) for name in ("summary", "manifest"))
+assert summary["not_in_operation_at_end"] == manifest["not_in_operation_at_end"], summary
+assert [one["node"] for one in summary["not_in_operation_at_end"]] == who, summary
+assert all(one["state"] in sentence for one in summary["not_in_operation_at_end"]), summary
+assert manifest["exit_code"] == int(code) and manifest["state"] == "ended", manifest
+assert manifest["why"] == (sentence if int(code) else ""), manifest
+PY
+}
+cold() { sed "s#\.\./schedules#$source/schedules#; $2" "$source/scenarios/cold_start.yaml" >"$work/$1.yaml"; }
+cold late_feature 's/feature: 4 ms/feature: 2995 ms/'
+cold too_late 's/: [0-9]* [um]s$/: 2995 ms/; s/^duration:.*/duration: 3 s/; s/^evaluate_from:.*/evaluate_from: 1500 ms/'
+launch "$work/late_feature" "$work/late_feature.yaml" || fail "a launch of which one node is late exits with $?"
+sentence=$(sed -n 's/^warning: \(feature was not in operation at the end: [a-z ]*\)$/\1/p' "$work/late_feature.err")
+absent "$work/late_feature" warning "${sentence:-feature was not}" 0 feature
+launch "$work/too_late" "$work/too_late.yaml"
+[[ $? -eq 1 ]] || fail "a launch at whose end nobody is there does not exit with 1: $(cat "$work/too_late.err")"
+sentence=$(sed -n 's/^error: \(nobody was in operation at the end: [a-z _,();]*\)$/\1/p' "$work/too_late.err")
+absent "$work/too_late" error "${sentence:-nobody}" 1 laser_pre camera_pre fusion feature laser camera
+grep -q '^warning: no image was used from 1.5 s on' "$work/too_late.err" || fail "nobody says that nothing is compared"
+[[ $(python3 -c 'import json, sys; print(json.load(open(sys.argv[1]))["not_in_operation_at_end"])' "$work/beside/summary.json") == '[]' ]] ||
+  fail "somebody is missing from a sound drive's end"
+
 # A killed one: the others go on to the end; its log is readable.
 begin "$work/killed" "$drive" --duration 8 --policy camera=optional
 killed=$!
@@ -61,6 +90,8 @@ sleep 0.3
 kill -9 "${pid[camera]}"
 wait "$killed" || fail "the survivors of a killed node: $(cat "$work/killed.err")"
 grep -q 'camera: signal 9' "$work/killed.err" || fail "nobody says that camera was killed"
+grep -qx 'warning: camera was not in operation at the end: signal 9 (Killed)' "$work/killed.err" ||
+  fail "nobody says that camera was gone at the end: $(cat "$work/killed.err")"
 "$program" diagram "$work/killed/camera.mcap" --kind timing --from 0 --to 0.05 -o "$work/killed.svg" >/dev/null 2>&1 ||
   "$program" export "$work/killed/camera.mcap" --format csv -o "$work/killed.csv" 2>/dev/null || fail "a killed node's log is not readable"
 # Into a folder that another launch has left, of another strategy with another node, and that the user has put files into.
@@ -73,6 +104,14 @@ for file in $left $users; do echo old >"$work/required/$file"; done
 begin "$work/required" "$drive" --duration 60
 required=$!
 wait_begun "$work/required"
+# While it runs the folder is its own, for whoever else comes.
+before=$(md5sum "$work/required/launch.log" "$work/required/laser.txt")
+for arguments in "launch" "launch --dry-run" "node fusion"; do
+  # shellcheck disable=SC2086
+  expect 2 "--out = $work/required: must be another folder: it is of a launch that still runs, process $required\$" \
+    $arguments "$drive" --virtual-time --out "$work/required"
+done
+[[ $(md5sum "$work/required/launch.log" "$work/required/laser.txt") == "$before" ]] || fail "who was refused has written over the folder"
 pids_of "$work/required"
 kill -9 "${pid[fusion]}"
 wait "$required"

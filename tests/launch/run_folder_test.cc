@@ -1,6 +1,11 @@
 #include "cli/launch/run_folder.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <functional>
+#include <stdexcept>
 
 #include "core/errors.h"
 #include "tests/launch/launch_fixture.h"
@@ -135,10 +140,40 @@ TEST_F(Folder, SaysWhyItCannotBe) {
   try {
     RunFolder run(path("file/run"), json::object(), at(0));
     FAIL() << "a folder within a file";
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("--out: cannot be created: Not a directory"), std::string::npos)
+  } catch (const std::runtime_error& error) {
+    EXPECT_EQ(dynamic_cast<const InputError*>(&error), nullptr) << "what cannot be written is no input";
+    EXPECT_NE(std::string(error.what()).find("file/run: cannot be created: Not a directory"), std::string::npos)
         << error.what();
   }
+}
+
+TEST_F(Folder, IsOfOneLaunchAtATime) {
+  const auto sentence_of = [&](const std::function<void()>& taken) -> std::string {
+    try {
+      taken();
+      return "";
+    } catch (const InputError& error) {
+      return error.what();
+    }
+  };
+  const auto another = [&] { RunFolder(path("run"), {{"seed", 8}}, at(1)); };
+  const auto look = [&] { launch::FolderLock::refuse_if_held(path("run")); };
+  EXPECT_EQ(sentence_of(look), "");
+  EXPECT_FALSE(std::filesystem::exists(path("run")));
+  const std::string expected = fmt::format(
+      "command line: --out = {}: must be another folder: it is of a launch that still runs, process {}", path("run"),
+      getpid());
+  {
+    const RunFolder run(path("run"), {{"seed", 7}}, at(0));
+    EXPECT_EQ(sentence_of(another), expected);
+    EXPECT_EQ(sentence_of(look), expected);
+    EXPECT_EQ(manifest()["seed"], 7) << "written over by who was refused";
+  }
+  // What is left means nothing.
+  EXPECT_TRUE(std::filesystem::exists(path("run/launch.lock")));
+  EXPECT_EQ(sentence_of(look), "");
+  EXPECT_EQ(sentence_of(another), "");
+  EXPECT_EQ(manifest()["seed"], 8);
 }
 
 }  // namespace

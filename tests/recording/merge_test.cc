@@ -224,21 +224,51 @@ TEST(Merge, ByRunLogsOfEachRunComeTogether) {
 }
 
 TEST(Merge, TheSameLogTwiceIsRefused) {
+  const std::string kTwice =
+      "copy.mcap: holds the same records as part1.mcap: each log may be given once, and a merged one without its parts";
   const auto copied = [](const std::string& bytes) {
     std::vector<StoredLog> logs = logs_of(2, crowd());
     logs.emplace_back(bytes.empty() ? read_file(scratch("part1.mcap")) : bytes, "copy.mcap");
     return logs;
   };
-  EXPECT_EQ(refused([&] { MergedLogs{copied("")}; }),
-            "copy.mcap: holds the same records as part1.mcap: each log may be given once");
+  EXPECT_EQ(refused([&] { MergedLogs{copied("")}; }), kTwice);
   // A copy that was cut off is another log by its hash: its records tell.
   const std::string cut = read_file(scratch("part1.mcap")).substr(0, 200'000);
   const MergedLogs merged(copied(cut));
-  EXPECT_EQ(refused([&] { lines_of(merged); }),
-            "copy.mcap: holds the same records as part1.mcap: each log may be given once");
-  EXPECT_EQ(refused([&] { write_merged(merged, scratch("none.mcap")); }),
-            "copy.mcap: holds the same records as part1.mcap: each log may be given once");
+  EXPECT_EQ(refused([&] { lines_of(merged); }), kTwice);
+  EXPECT_EQ(refused([&] { write_merged(merged, scratch("none.mcap")); }), kTwice);
   EXPECT_FALSE(std::filesystem::exists(scratch("none.mcap")));
+}
+
+// What a folder holds whose logs have been merged.
+TEST(Merge, TheWholeAmongItsPartsIsPassedOver) {
+  const std::string path = scratch("whole_among_parts.mcap");
+  const MergedLogs parts(logs_of(3, crowd()));
+  write_merged(parts, path);
+  for (const std::size_t place : {0u, 2u, 3u}) {
+    std::vector<StoredLog> logs = logs_of(3, crowd());
+    logs.emplace(logs.begin() + static_cast<std::ptrdiff_t>(place), read_file(path), "whole.mcap");
+    const MergedLogs all(std::move(logs));
+    ASSERT_EQ(all.logs().size(), 3u);
+    EXPECT_EQ(all.warnings(), std::vector<std::string>{
+                                  "whole.mcap: is passed over: it holds what the other 3 logs hold together"});
+    EXPECT_EQ(lines_of(all), lines_of(parts));
+    EXPECT_EQ(all.content_hash().value(), parts.content_hash().value());
+  }
+  // Without one of its parts it is more than they are together.
+  std::vector<StoredLog> fewer = logs_of(3, crowd());
+  fewer.back() = StoredLog(read_file(path), "whole.mcap");
+  const MergedLogs overlapping(std::move(fewer));
+  EXPECT_TRUE(overlapping.warnings().empty());
+  TextSink sink;
+  try {
+    overlapping.read(sink);
+    ADD_FAILURE() << "read twice";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("and a merged one without its parts"),
+              std::string::npos)
+        << error.what();
+  }
 }
 
 TEST(Merge, NoLogIsWrittenOver) {
