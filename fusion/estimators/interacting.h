@@ -2,6 +2,7 @@
 // and turns now and then.
 #pragma once
 
+#include <optional>
 #include <tuple>
 
 #include "fusion/estimators/single.h"
@@ -21,6 +22,10 @@ class StraightAndTurning {
 
   Own from(const Gaussian<4>& known) const {
     return {.estimates = {known, turning_.from(known)}, .probability = share_};
+  }
+  std::optional<Gaussian<4>> without_course(const Own& own) const {
+    if (!turning_.without_course(std::get<1>(own.estimates))) return std::nullopt;
+    return std::get<0>(own.estimates);
   }
   void predict(Own& own, double dt) const {
     imm_.predict(own, dt);

@@ -6,7 +6,8 @@
 // until it is known that it moves, and where to: its velocity's spread (the root of its covariance's trace) is at most
 // kKnown of its speed, 0.25 rad across. Then it is converted (fusion/motion/conversion.h). The accelerations until then
 // are white noise of the density that in one second gives the velocity the spread that an unknown constant acceleration
-// gives it, initial_acceleration_sigma^2 times 1 s. Something that stands, or creeps, stays so.
+// gives it, initial_acceleration_sigma^2 times 1 s. Something that stands, or creeps, stays so; what has stood until its
+// course is forgotten (kForgotten) begins again.
 #pragma once
 
 #include "core/check.h"
@@ -61,9 +62,13 @@ class ModelEstimator final : public Estimator {
     with(estimate, [&](const auto& kernel, auto& own) {
       through_sensor(observation, [&](const auto& sensor, const auto& z) { kernel.update(sensor, z, own); });
     });
-    if constexpr (Kernel::kNeedsCourse)
-      if (const auto* young = std::get_if<Gaussian<4>>(&estimate); young && knows_course(*young))
-        estimate = kernel_.from(Gaussian<4>(*young));
+    if constexpr (Kernel::kNeedsCourse) {
+      if (const auto* young = std::get_if<Gaussian<4>>(&estimate)) {
+        if (knows_course(*young)) estimate = kernel_.from(Gaussian<4>(*young));
+      } else if (const auto lost = kernel_.without_course(std::get<typename Kernel::Own>(estimate))) {
+        estimate = *lost;
+      }
+    }
   }
 
   Gaussian<2> position(const Estimate& estimate) const override {

@@ -4,12 +4,16 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "fusion/estimate.h"
 #include "fusion/filters/filter.h"
 #include "fusion/motion/conversion.h"
 
 namespace ttf::fusion::estimators {
+
+// Standard deviation of a heading [rad] beyond which nothing derived at it holds.
+inline constexpr double kForgotten = 0.7;
 
 // A heading is never known less than not at all, uniform over the circle. Of something that stands for long, white
 // turn acceleration would say otherwise; scaling its row and column alike keeps the covariance positive.
@@ -37,6 +41,20 @@ struct Single {
   // From position and velocity, the rest being as of any object.
   Own from(const Gaussian<4>& known) const {
     return motion::converted<motion::ConstantVelocity, M>(known, prior);
+  }
+  // Position and velocity of what does not know its course any more; nothing, where it does. It may move as fast as its
+  // speed says, whereto nobody knows.
+  std::optional<Gaussian<4>> without_course(const Own& own) const {
+    if constexpr (kNeedsCourse) {
+      if (own.p(M::kHeading, M::kHeading) <= kForgotten * kForgotten) return std::nullopt;
+      Gaussian<4> known;
+      const Kinematics k = M::template kinematics<kWithVelocity>(own.x);
+      known.x << k.position, k.velocity;
+      known.p.template topLeftCorner<2, 2>() = own.p.template topLeftCorner<2, 2>();
+      known.p(2, 2) = known.p(3, 3) = own.x(M::kSpeed) * own.x(M::kSpeed) + own.p(M::kSpeed, M::kSpeed);
+      return known;
+    }
+    return std::nullopt;
   }
   void predict(Own& own, double dt) const {
     filter.predict(model, own, dt);

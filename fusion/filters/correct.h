@@ -13,44 +13,45 @@
 namespace ttf::fusion::filters {
 
 // W' and S: whole columns, as everything here.
-template <int N, int M>
-struct Projected {
-  Matrix<N, M> w;
-  Matrix<M> s;
-};
-
 template <bool Direct, int N, int M, int C>
-Projected<N, M> projected(const Matrix<N>& p, const Matrix<M, C>& h, const Matrix<M>& r) {
-  Projected<N, M> to;
+void project(const Matrix<N>& p, const Matrix<M, C>& h, const Matrix<M>& r, Matrix<N, M>& w, Matrix<M>& s) {
   if constexpr (Direct) {
-    to.w = p.template leftCols<M>();
-    to.s = to.w.template topRows<M>() + r;
+    w = p.template leftCols<M>();
+    s = w.template topRows<M>() + r;
   } else {
-    to.w.noalias() = p.template leftCols<C>() * h.transpose();
-    to.s = times<M, C, M>(h, to.w.template topRows<C>()) + r;
-    mirror<M>(to.s);
+    w.noalias() = p.template leftCols<C>() * h.transpose();
+    s = times<M, C, M>(h, w.template topRows<C>()) + r;
+    mirror<M>(s);
   }
-  return to;
 }
 
+// An innovation whose nu and S are known.
 template <int M>
-Innovation<M> innovation_of(const Vector<M>& nu, const Matrix<M>& s, const Ldl<M>& ldl) {
-  return {.nu = nu, .s = s, .nis = ldl.norm_squared(nu), .determinant = ldl.determinant(), .used = true};
+void judge(Innovation<M>& innovation, const Ldl<M>& ldl) {
+  innovation.nis = ldl.norm_squared(innovation.nu);
+  innovation.determinant = ldl.determinant();
+  innovation.used = true;
 }
 
 // What correct() finds, changing nothing.
 template <bool Direct, int N, int M, int C>
 Innovation<M> innovate(const Gaussian<N>& state, const Vector<M>& nu, const Matrix<M, C>& h, const Matrix<M>& r) {
-  const Projected<N, M> z = projected<Direct>(state.p, h, r);
-  return innovation_of<M>(nu, z.s, Ldl<M>(z.s));
+  Matrix<N, M> w;
+  Innovation<M> innovation;
+  innovation.nu = nu;
+  project<Direct>(state.p, h, r, w, innovation.s);
+  judge<M>(innovation, Ldl<M>(innovation.s));
+  return innovation;
 }
 
 template <bool Direct, int N, int M, int C>
 Innovation<M> correct(Gaussian<N>& state, const Vector<M>& nu, const Matrix<M, C>& h, const Matrix<M>& r) {
-  const Projected<N, M> z = projected<Direct>(state.p, h, r);
-  const Matrix<N, M>& w = z.w;
-  const Ldl<M> ldl(z.s);
-  const Innovation<M> innovation = innovation_of<M>(nu, z.s, ldl);
+  Matrix<N, M> w;
+  Innovation<M> innovation;
+  innovation.nu = nu;
+  project<Direct>(state.p, h, r, w, innovation.s);
+  const Ldl<M> ldl(innovation.s);
+  judge<M>(innovation, ldl);
   const Matrix<N, M> gain = ldl.template divide<N>(w);
   state.x.noalias() += gain.lazyProduct(nu);
   Matrix<N> t;

@@ -51,7 +51,8 @@ struct Unscented {
                                      const Gaussian<M::kStates>& state) const {
     Sight<M, S> sight;
     if (!look(model, sensor, z, state, Weights(*this, M::kStates), sight)) return {};
-    return innovation_of<S::kDimension>(sight.nu, sight.s, Ldl<S::kDimension>(sight.s));
+    judge<S::kDimension>(sight.innovation, Ldl<S::kDimension>(sight.innovation.s));
+    return sight.innovation;
   }
 
   template <motion::Model M, sensors::Model S>
@@ -61,8 +62,9 @@ struct Unscented {
     const Weights w(*this, kN);
     Sight<M, S> sight;
     if (!look(model, sensor, z, state, w, sight)) return {};
-    const Ldl<kM> ldl(sight.s);
-    const Innovation<kM> innovation = innovation_of<kM>(sight.nu, sight.s, ldl);
+    Innovation<kM>& innovation = sight.innovation;
+    const Ldl<kM> ldl(innovation.s);
+    judge<kM>(innovation, ldl);
 
     // The points' dx are +-a, and zero for the centre.
     const Matrix<kN>& a = sight.a;
@@ -114,8 +116,8 @@ struct Unscented {
   struct Sight {
     Matrix<M::kStates> a;
     Matrix<S::kDimension, 2 * M::kStates> d;
-    Vector<S::kDimension> shift, nu;
-    Matrix<S::kDimension> s;
+    Vector<S::kDimension> shift;
+    Innovation<S::kDimension> innovation;   // but for what judge() says
   };
 
   // False, and nothing is to be learnt, where the sensor does not see one of the points.
@@ -135,8 +137,8 @@ struct Unscented {
       sight.d.col(i) = sensor.residual(sensor.expected(at_above), centre);
       sight.d.col(kN + i) = sensor.residual(sensor.expected(at_below), centre);
     }
-    sight.s = w.template spread_of<kM>(sight.d, sight.shift) + z.r;
-    sight.nu = sensor.residual(z.z, centre + sight.shift);
+    sight.innovation.s = w.template spread_of<kM>(sight.d, sight.shift) + z.r;
+    sight.innovation.nu = sensor.residual(z.z, centre + sight.shift);
     return true;
   }
 };

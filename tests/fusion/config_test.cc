@@ -1,6 +1,9 @@
 // The tracker's configuration is read strictly.
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <sstream>
+
 #include "core/errors.h"
 #include "fusion/tracker_config.h"
 
@@ -95,6 +98,25 @@ TEST(TrackerConfig, NamesEveryMotionModelAndFilter) {
   EXPECT_NE(sentences[2].find("t.yaml:3: turn_noise = 0"), std::string::npos) << sentences[2];
   EXPECT_NE(sentences[3].find("t.yaml:4: mode_seconds"), std::string::npos) << sentences[3];
   EXPECT_NE(sentences[4].find("t.yaml:5: initial_turn_rate_sigma"), std::string::npos) << sentences[4];
+}
+
+// The example of docs/tracker.md, as it stands there.
+TEST(TrackerConfig, TheDocumentedExampleLoads) {
+  std::ostringstream page;
+  page << std::ifstream(TTF_SOURCE_DIR "/docs/tracker.md").rdbuf();
+  const std::string begin = "```yaml\n", all = page.str();
+  const std::size_t from = all.find(begin);
+  ASSERT_NE(from, std::string::npos);
+  const std::string example = all.substr(from + begin.size(), all.find("```", from + 1) - from - begin.size());
+  Findings findings;
+  YamlMap root = StrictYaml::parse(example, "tracker.md").root(findings);
+  YamlMap tracker = root.map("tracker");
+  const TrackerConfig config = load_tracker(tracker);
+  tracker.finish();
+  root.finish();
+  EXPECT_TRUE(findings.empty());
+  EXPECT_EQ(config.motion, MotionModel::kCtrv);
+  EXPECT_EQ(config.filter, FilterKind::kUnscented);
 }
 
 // A track that ends before it coasts would never be said to.

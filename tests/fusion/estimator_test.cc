@@ -266,6 +266,34 @@ TEST_P(EveryEstimator, NothingIsLearntAtTheOrigin) {
   EXPECT_TRUE(same_bits(estimate, before));
 }
 
+// A minute at a red light: the heading is known no less than not at all, and followed again as soon as there is one.
+TEST_P(EveryEstimator, WhatStoodForAMinuteDrivesOff) {
+  RandomStream stream({.seed = 8});
+  double y = 0.0, speed = 10.0;
+  Estimate estimate = estimator->initial(position(20.0, y, 0.2));
+  const std::size_t at_first = estimate.index();
+  for (int k = 1; k <= 1500; ++k) {
+    speed = k < 40 ? 10.0 : k < 1300 ? std::max(0.0, speed - 0.2) : std::min(10.0, speed + 0.1);
+    y += 0.05 * speed;
+    estimator->predict(estimate, 0.05);
+    estimator->update(estimate, position(20.0 + 0.2 * stream.normal(), y + 0.2 * stream.normal(), 0.2));
+    expect_lawful(estimate, k);
+    if (const auto* polar = std::get_if<Gaussian<5>>(&estimate)) {
+      ASSERT_LE(polar->p(2, 2), kPi * kPi / 3.0 * (1.0 + 1e-12)) << k;
+    }
+    if (k == 60 || k == 1500) {
+      EXPECT_EQ(estimate.index() != at_first, needs_course()) << "it drives";
+    }
+    if (k == 1299) {
+      EXPECT_EQ(estimate.index(), at_first) << "and has stood";
+    }
+    if (k < 100) continue;
+    const State x = estimator->cartesian(estimate).x;
+    ASSERT_LT((x.head<2>() - Vector<2>(20.0, y)).norm(), 1.0) << k;
+    ASSERT_LT((x.segment<2>(2) - Vector<2>(0.0, speed)).norm(), 3.0) << k;
+  }
+}
+
 // What drives off is polar within the second; what stands is not, ever, and is never known to move.
 TEST_P(EveryEstimator, ACourseIsKnownBeforeItIsBelieved) {
   for (const double speed : {0.0, 10.0}) {
