@@ -18,7 +18,7 @@ if(TTF_SANITIZE)
 endif()
 if(TTF_FUZZ)
   if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
-    message(FATAL_ERROR "TTF_FUZZ needs clang++ (libFuzzer); use the preset fuzz")
+    message(FATAL_ERROR "TTF_FUZZ needs clang++ (libFuzzer); use the preset asan-ubsan")
   endif()
   # Coverage of our own code guides the fuzzers; libFuzzer itself is linked into the targets alone (tests/fuzz).
   target_compile_options(ttf_options INTERFACE -fsanitize=fuzzer-no-link)
