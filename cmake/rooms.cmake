@@ -10,18 +10,21 @@ target_compile_options(ttf_options INTERFACE
   -Wcast-qual -Wformat=2 -Wimplicit-fallthrough -Werror)
 target_include_directories(ttf_options INTERFACE ${PROJECT_SOURCE_DIR})
 if(TTF_SANITIZE)
+  # A target's own code can be spared (ttf_test below).
+  set(TTF_INSTRUMENTED $<NOT:$<BOOL:$<TARGET_PROPERTY:TTF_UNINSTRUMENTED>>>)
   # g++ 12 sees uninitialised reads inside the standard library where sanitizers keep it from inlining.
   target_compile_options(ttf_options INTERFACE
-    -fsanitize=${TTF_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer
+    $<${TTF_INSTRUMENTED}:-fsanitize=${TTF_SANITIZE}>
+    $<${TTF_INSTRUMENTED}:-fno-sanitize-recover=all> -fno-omit-frame-pointer
     $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   target_link_options(ttf_options INTERFACE -fsanitize=${TTF_SANITIZE})
 endif()
 if(TTF_FUZZ)
   if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
-    message(FATAL_ERROR "TTF_FUZZ needs clang++ (libFuzzer); use the preset fuzz")
+    message(FATAL_ERROR "TTF_FUZZ needs clang++ (libFuzzer); use the preset asan-ubsan")
   endif()
   # Coverage of our own code guides the fuzzers; libFuzzer itself is linked into the targets alone (tests/fuzz).
-  target_compile_options(ttf_options INTERFACE -fsanitize=fuzzer-no-link)
+  target_compile_options(ttf_options INTERFACE $<${TTF_INSTRUMENTED}:-fsanitize=fuzzer-no-link>)
 endif()
 
 # g++ collects its garbage as if memory were scarce: a twelfth of a build's time.
@@ -71,18 +74,20 @@ function(ttf_as_test name)
   target_precompile_headers(${name} REUSE_FROM ttf_test_headers)
 endfunction()
 
-# ttf_test(<name> SOURCES <files...> [DEPS <targets...>] [UNSANITIZED | UNSANITIZED_TESTS <patterns...>] [COST <n>]):
-# one GoogleTest program, one ctest entry per test program. Sanitizers are spared what they would only make longer,
-# statistics over thousands of runs and whole drives of which others run: the program, or these tests of it.
+# ttf_test(<name> SOURCES <files...> [DEPS <targets...>] [UNSANITIZED | UNSANITIZED_TESTS <patterns...>] [UNINSTRUMENTED]
+# [COST <n>]): one GoogleTest program, one ctest entry per test program. Sanitizers are spared what they would only make
+# longer: UNSANITIZED, statistics over thousands of runs and whole drives of which others run, the program or these tests of
+# it are not run; UNINSTRUMENTED, headers full of arithmetic take the compiler minutes, its own code is as ever.
 function(ttf_test name)
-  cmake_parse_arguments(TEST "UNSANITIZED" "COST" "SOURCES;DEPS;UNSANITIZED_TESTS" ${ARGN})
-  if(TEST_UNSANITIZED AND TTF_SANITIZE)
-    return()
-  endif()
+  cmake_parse_arguments(TEST "UNSANITIZED;UNINSTRUMENTED" "COST" "SOURCES;DEPS;UNSANITIZED_TESTS" ${ARGN})
   add_executable(${name} ${TEST_SOURCES})
   target_link_libraries(${name} PRIVATE ${TEST_DEPS} ttf_options GTest::gmock GTest::gtest_main)
   target_compile_definitions(${name} PRIVATE TTF_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   ttf_as_test(${name})
+  set_target_properties(${name} PROPERTIES TTF_UNINSTRUMENTED ${TEST_UNINSTRUMENTED})
+  if(TEST_UNSANITIZED AND TTF_SANITIZE)
+    return()
+  endif()
   set(filter)
   if(TTF_SANITIZE AND TEST_UNSANITIZED_TESTS)
     list(JOIN TEST_UNSANITIZED_TESTS ":" patterns)

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds the fuzz targets (clang, libFuzzer, AddressSanitizer, UndefinedBehaviorSanitizer) and runs each for a while, two
-# at a time. Exits with 1 if one of them finds something; the input is then in build/fuzz/findings.
+# Builds the fuzz targets (clang, libFuzzer, AddressSanitizer, UndefinedBehaviorSanitizer: the preset asan-ubsan) and runs
+# each for a while, two at a time. Exits with 1 if one of them finds something; the input is then in build/fuzz/findings.
 #   tools/fuzz.sh [--keep] [SECONDS_PER_TARGET] [TARGET...]   default: 20 s of every target (tests/fuzz/*_fuzz.cc)
 # A run begins with the seeds, what earlier runs in this tree learned (build/fuzz/corpus) and the kept corpus
 # (tests/fuzz/corpus, an archive per target). --keep makes that anew from all three: the fewest inputs that reach what they
@@ -22,14 +22,15 @@ if [[ ${#targets[@]} -eq 0 ]]; then
   for file in tests/fuzz/*_fuzz.cc; do targets+=("$(basename "$file" _fuzz.cc)"); done
 fi
 tools/install_deps.sh --gates
-tools/build.sh fuzz --target fuzz
+tools/build.sh asan-ubsan --target fuzz
 
+programs=$PWD/build/asan-ubsan/tests/fuzz
 build=$PWD/build/fuzz
 findings=$build/findings
 kept=$PWD/tests/fuzz/corpus
 seeds=$build/seeds
 mkdir -p "$findings" "$build/fuzz-logs"
-"$build/tests/fuzz/fuzz_seeds" "$seeds"
+"$programs/fuzz_seeds" "$seeds"
 
 # Text gets room for a whole shipped file and more; the rest stays small, and so fast.
 max_length() {
@@ -41,7 +42,7 @@ max_length() {
 }
 
 run() {
-  local target=$1 corpus=$build/corpus/$1 log=$build/fuzz-logs/$1.log program=$build/tests/fuzz/fuzz_$1 dictionary=()
+  local target=$1 corpus=$build/corpus/$1 log=$build/fuzz-logs/$1.log program=$programs/fuzz_$1 dictionary=()
   mkdir -p "$corpus"
   [[ -f $seeds/$target.dict ]] && dictionary=("-dict=$seeds/$target.dict")
   [[ -f $kept/$target.tar.gz ]] && tar -xzf "$kept/$target.tar.gz" -C "$corpus"
@@ -64,7 +65,7 @@ run() {
 
 # Archives with the same inputs are the same bytes.
 pack() {
-  local target=$1 program=$build/tests/fuzz/fuzz_$1 small=$build/corpus-small/$1
+  local target=$1 program=$programs/fuzz_$1 small=$build/corpus-small/$1
   rm -rf "$small"
   mkdir -p "$small" "$kept"
   "$program" -merge=1 -rss_limit_mb=3000 -max_len="$(max_length "$target")" "$small" "$build/corpus/$target" \
