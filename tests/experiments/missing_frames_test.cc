@@ -301,7 +301,7 @@ TEST_F(MissingFramesTest, NumbersOfADamagedLogAreCounted) {
   constexpr std::int64_t kFar = std::numeric_limits<std::int64_t>::max();
   for (const std::int64_t far : {-kFar - 1, std::int64_t{-1}, kFar}) {
     auto miss = of(kTalker, records::kSlotMissed, 1, far, 0);
-    auto loss = of(kListener, records::kFramesLost, 1, -far - 1, 0);
+    auto loss = of(kListener, records::kFramesLost, 1, ~far, 0);   // -far - 1
     loss.count = std::numeric_limits<std::uint32_t>::max();
     for (const std::int64_t late : {-kFar - 1, kFar}) {
       miss.stamp.true_time.ns = far;

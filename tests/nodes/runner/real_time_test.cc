@@ -24,7 +24,15 @@ namespace {
 constexpr std::size_t kPlace = 1'000'000;   // nobody's: no processor is taken
 constexpr std::size_t kLater = 64 << 20;
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+// g++ says it by macros, clang by features.
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define TTF_SANITIZED
+#endif
+#elif defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define TTF_SANITIZED
+#endif
+#if defined(TTF_SANITIZED)
 constexpr bool kLocks = false;   // sanitizers let nobody lock memory
 #else
 constexpr bool kLocks = true;
