@@ -58,6 +58,7 @@ int run_track(const TrackOptions& options) {
   if (!options.strategy.empty()) config.strategy = chosen(options.strategy).front();
   Findings findings;
   const std::vector<recording::ObservationRow> rows = read_rows(options, findings);
+  if (!options.skip_damaged) findings.throw_if_any();   // before what follows from them
   experiments::list_sensors(config, rows, usual, options.observations);
   apply_sensor_options(options, config);
   const experiments::SimulatedArrivals simulated = simulated_arrivals(options, config);
@@ -111,8 +112,8 @@ void add_track(CLI::App& app, Action& action) {
   command->footer(
       "Columns, in and out, and the configuration: docs/track.md.\n"
       "Example: ttfusion track observations.csv --strategy buff --delay radar=20ms..70ms --seed 7 -o tracks.csv");
-  command->add_option("observations", options->observations, "Recorded observations")->required();
-  command->add_option("--config", options->config, "Tracker, strategy and sensors (YAML)");
+  command->add_option("observations", options->observations, "Recorded observations")->required()->check(kNamed);
+  command->add_option("--config", options->config, "Tracker, strategy and sensors (YAML)")->check(kNamed);
   command
       ->add_option("--format", options->format, "csv (docs/track.md; the default) or laser_radar (docs/recordings.md)")
       ->check(CLI::IsMember({"csv", "laser_radar"}));
@@ -124,7 +125,7 @@ void add_track(CLI::App& app, Action& action) {
   command->add_option("--seed", options->seed, "Seed of what is drawn (default: 1)");
   command->add_flag("--predict", options->predict, "Tracks predicted to the instant of each fusion");
   command->add_flag("--skip-damaged", options->skip_damaged, "Leave damaged rows out, each with a warning");
-  command->add_option("-o,--out", options->out, "File for the tracks (default: standard output)");
+  command->add_option("-o,--out", options->out, "File for the tracks (default: standard output)")->check(kNamed);
   command->add_flag("--json", options->json, "Summary as JSON on standard output; needs --out");
   command->callback([options, &action] { action = [options] { return run_track(*options); }; });
 }

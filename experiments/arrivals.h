@@ -43,13 +43,13 @@ void list_sensors(ReplayConfig& config, const std::vector<recording::Observation
                   const std::string& name);
 
 // One finding, and the row left out, for each row of a sensor that the configuration does not list, with a covariance
-// that is none, or beyond the most observations that a list may have (max_observations of the tracker). `name`: the file's.
-// Throws InputError where there are more classes than fusion::kMostClasses.
+// that is none, or beyond the most observations that a list may have (max_observations of the tracker). `name`: the
+// file's. Throws InputError where there are more classes than fusion::kMostClasses.
 Arrivals arrivals_of(const std::vector<recording::ObservationRow>& rows, const ReplayConfig& config,
                      const std::string& name, Findings& findings);
 
-// Delays that are drawn in place of the recorded ones, and arrivals in disorder. Draws depend on the seed, the sensor
-// and the number of the list, never on what else there is.
+// Delays that are drawn in place of the recorded ones, and arrivals in disorder. Draws depend on the seed, the sensor's
+// place among the sensors, the number of the list and which copy of it it is, never on what else there is.
 struct SimulatedArrivals {
   struct Delay {
     Duration least, most;   // drawn evenly, both ends included

@@ -36,12 +36,13 @@ std::optional<Duration> regular_period(const std::vector<GlobalTime>& times) {
   for (std::size_t i = 1; i < times.size(); ++i) steps.push_back(times[i] - times[i - 1]);
   std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2), steps.end());
   const Duration middle = steps[steps.size() / 2];
+  if (middle > kPeriodAllowed.high) return std::nullopt;
   // As exact as the whole recording tells it.
   std::int64_t in_all = 0;
   for (std::size_t i = 1; i < times.size(); ++i) in_all += rounds(times[i] - times[i - 1], middle);
   if (in_all == 0) return std::nullopt;
   const Duration period{(times.back() - times.front()).ns / in_all};
-  if (period.ns < kPeriodAllowed.low.ns) return std::nullopt;
+  if (period < kPeriodAllowed.low || period > kPeriodAllowed.high) return std::nullopt;
   for (const GlobalTime time : times) {
     const Duration since = time - times.front();
     const Duration off = since - period * rounds(since, period);

@@ -23,13 +23,13 @@ class Replay {
 
   ReplayAccount run() {
     for (const ListArrival& list : arrivals_.lists) {
-      while (const std::optional<GlobalTime> next = next_release()) {
+      while (const std::optional<GlobalTime> next = strategy_->next_release()) {
         if (*next >= list.arrival) break;
         fuse(*next);
       }
       receive(list);
     }
-    while (const std::optional<GlobalTime> next = next_release()) fuse(*next);
+    while (const std::optional<GlobalTime> next = strategy_->next_release()) fuse(*next);
     TTF_CHECK(waiting_.empty() && strategy_->unlisted() == 0, "{} lists still wait, {} without a fate", waiting_.size(),
               strategy_->unlisted());
     account_.tracks = tracks_.size();
@@ -56,7 +56,6 @@ class Replay {
   void fuse(GlobalTime now) {
     now_ = now;
     strategy_->fuse(now);
-    first_held_.reset();
     bool taken_in = false;
     for (const fusion::FusedScan& scan : strategy_->last_fused()) {
       if (scan.disposition == fusion::Disposition::kHeld)
@@ -68,7 +67,6 @@ class Replay {
   }
 
   void hold(const fusion::FusedScan& scan) {
-    if (!first_held_) first_held_ = scan;
     Waiting& waiting = *find(scan);
     if (waiting.held) return;
     waiting.held = true;
@@ -101,32 +99,6 @@ class Replay {
     return found;
   }
 
-  // The instant of its sensor's schedule that a list stands for, as TT reckons it (within a quarter of the period).
-  GlobalTime scheduled_instant(const fusion::FusedScan& scan) const {
-    const fusion::SensorTiming& own = setup_.timings[index_of(scan.id.sensor)];
-    if (!own.scheduled || scan.measured < own.first) return scan.measured;
-    return own.first + own.period * (((scan.measured - own.first).ns + own.period.ns / 2) / own.period.ns);
-  }
-
-  // The next instant at which the oldest list that is held may be let go, though nothing arrives: when another sensor's
-  // worst delay is over since the list's instant, or since the last one of that sensor's schedule that is not after it.
-  std::optional<GlobalTime> next_release() const {
-    if (!first_held_) return std::nullopt;
-    std::optional<GlobalTime> next;
-    const auto consider = [&](GlobalTime instant) {
-      if (instant > now_ && (!next || instant < *next)) next = instant;
-    };
-    for (const GlobalTime instant : {first_held_->measured, scheduled_instant(*first_held_)})
-      for (const fusion::SensorTiming& other : setup_.timings) {
-        const Duration worst_delay = now_ - other.settling.settled(now_);
-        consider(instant + worst_delay);
-        if (other.scheduled && instant >= other.first)
-          consider(other.first + other.period * ((instant - other.first).ns / other.period.ns) + worst_delay);
-      }
-    TTF_CHECK(next.has_value(), "a list of {} ns is held for ever", first_held_->measured.ns);
-    return next;
-  }
-
   void show() {
     std::span<const fusion::TrackView> tracks = strategy_->tracks();
     if (setup_.predict) {
@@ -144,7 +116,6 @@ class Replay {
   std::unique_ptr<fusion::Strategy> strategy_;
   GlobalTime now_{};
   std::vector<Waiting> waiting_;                  // accepted, and of no fate yet
-  std::optional<fusion::FusedScan> first_held_;   // the oldest of them, after the last fusion
   std::vector<fusion::TrackView> image_;
   std::set<TrackId> tracks_;
   ReplayAccount account_;

@@ -23,7 +23,7 @@ Assignment::Assignment(std::size_t max_rows, std::size_t max_columns) : max_rows
   sorted_.reserve(max_rows * max_columns);
   // Each row also has a column of its own that stands for "unassigned".
   const std::size_t width = max_columns + max_rows;
-  cost_ = std::make_unique_for_overwrite<double[]>(max_rows * width);   // a large one is never touched as a whole
+  cost_ = std::make_unique_for_overwrite<double[]>(max_rows * width);   // touched only as far as it is needed
   u_.resize(max_rows + 1);
   v_.resize(width + 1);
   shortest_.resize(width + 1);

@@ -9,6 +9,13 @@
 #include "core/check.h"
 
 namespace ttf::fusion {
+namespace {
+
+std::int64_t floor_of(Duration whole, Duration part) {
+  return whole.ns >= 0 ? whole.ns / part.ns : -((part.ns - 1 - whole.ns) / part.ns);
+}
+
+}  // namespace
 
 Settling::Settling(std::vector<Step> steps, Duration round) : steps_(std::move(steps)), round_(round) {
   TTF_CHECK(!steps_.empty() && round_.ns > 0, "{} steps in a round of {} ns", steps_.size(), round_.ns);
@@ -25,13 +32,20 @@ Settling Settling::after(Duration worst_delay) {
 }
 
 GlobalTime Settling::settled(GlobalTime now) const {
-  const std::int64_t since = (now - steps_.front().at).ns;
-  const std::int64_t rounds = since >= 0 ? since / round_.ns : -((round_.ns - 1 - since) / round_.ns);
+  const std::int64_t rounds = floor_of(now - steps_.front().at, round_);
   const GlobalTime in_round = now - round_ * rounds;
   // The first step is not after in_round.
   const auto next = std::upper_bound(steps_.begin(), steps_.end(), in_round,
                                      [](GlobalTime t, const Step& step) { return t < step.at; });
   return std::prev(next)->measured + round_ * rounds;
+}
+
+GlobalTime Settling::settled_from(GlobalTime measured) const {
+  const std::int64_t rounds = floor_of(measured - steps_.front().measured, round_);
+  const GlobalTime in_round = measured - round_ * rounds;
+  const auto step = std::lower_bound(steps_.begin(), steps_.end(), in_round,
+                                     [](const Step& one, GlobalTime t) { return one.measured < t; });
+  return step != steps_.end() ? step->at + round_ * rounds : steps_.front().at + round_ * (rounds + 1);
 }
 
 }  // namespace ttf::fusion

@@ -32,6 +32,8 @@ class Settling {
   static Settling after(Duration worst_delay);
 
   GlobalTime settled(GlobalTime now) const;
+  // The first instant at which settled() is `measured` or later.
+  GlobalTime settled_from(GlobalTime measured) const;
 
  private:
   std::vector<Step> steps_;

@@ -1,13 +1,18 @@
 #include "fusion/strategy.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <optional>
+#include <utility>
 
 #include "core/check.h"
 #include "fusion/timeline.h"
 
 namespace ttf::fusion {
 namespace {
+
+constexpr GlobalTime kLongAgo{std::numeric_limits<std::int64_t>::min()};
 
 // What the three share: the scans that wait, the timeline, and the account of what happened. They differ in
 // which waiting scan may be fused.
@@ -30,7 +35,6 @@ class TimelineStrategy : public Strategy {
     newest_received_.resize(sensors_.size());
     any_received_.resize(sensors_.size());
     longest_delay_.resize(sensors_.size());
-    settled_.resize(sensors_.size());
     for (const SensorTiming& s : sensors_)
       TTF_CHECK(!s.scheduled || s.period.ns > 0, "sensor {}: period of {} ns", index_of(s.sensor),
                 s.period.ns);
@@ -68,8 +72,7 @@ class TimelineStrategy : public Strategy {
     now_ = now;
     // A stamp from the future tells nothing of what else may still come from its sensor.
     for (const std::size_t slot : waiting_)
-      if (pending_[slot].measured <= now && seen_[slot]++ == 0) receive(pending_[slot]);
-    for (std::size_t s = 0; s < sensors_.size(); ++s) settled_[s] = settled_now(s);
+      if (pending_[slot].measured <= now && !std::exchange(seen_[slot], 1)) receive(pending_[slot]);
     std::size_t kept = 0;
     bool blocked = false;
     for (std::size_t i = 0; i < waiting_.size(); ++i) {
@@ -77,7 +80,7 @@ class TimelineStrategy : public Strategy {
       const StoredScan& scan = pending_[slot];
       // In chronological order: what must wait holds back all that is younger. A stamp from the future is
       // wrong, and would make everything after it late.
-      blocked = blocked || scan.measured > now || !may_fuse(scan);
+      blocked = blocked || fuses_from(scan) > now;
       if (blocked) {
         report_.push_back({scan.id, scan.measured, Disposition::kHeld});
         waiting_[kept++] = slot;
@@ -90,6 +93,10 @@ class TimelineStrategy : public Strategy {
     show(now);
   }
 
+  std::optional<GlobalTime> next_release() const final {
+    if (waiting_.empty()) return std::nullopt;
+    return fuses_from(pending_[waiting_.front()]);
+  }
   std::span<const FusedScan> last_fused() const final { return report_; }
   std::uint64_t unlisted() const final { return unlisted_; }
   std::span<const TrackView> tracks() const final { return views_; }
@@ -107,13 +114,10 @@ class TimelineStrategy : public Strategy {
   }
 
  protected:
-  // At the present fusion instant.
-  virtual bool may_fuse(const StoredScan& scan) const = 0;
-  // What sensor s measured until then has arrived, or never will.
-  virtual GlobalTime settled_now(std::size_t s) const { return sensors_[s].settling.settled(now_); }
+  // From when on a scan may be fused if nothing more arrives; over, where it may be now.
+  virtual GlobalTime may_fuse_from(const StoredScan& scan) const = 0;
 
   const TrackerConfig& config() const { return config_; }
-  GlobalTime now() const { return now_; }
   // The longest that a list of sensor s was on its way, as far as fusion instants tell.
   std::optional<Duration> longest_delay(std::size_t s) const { return longest_delay_[s]; }
 
@@ -123,8 +127,6 @@ class TimelineStrategy : public Strategy {
   bool arrived_since(std::size_t s, GlobalTime instant) const {
     return any_received_[s] && newest_received_[s] >= instant;
   }
-  // What sensor s measured until `instant` has arrived, or never will.
-  bool settled(std::size_t s, GlobalTime instant) const { return settled_[s] >= instant; }
 
  private:
   // How many scans arrive between two fusion instants is not ours to say.
@@ -134,6 +136,8 @@ class TimelineStrategy : public Strategy {
     else
       ++unlisted_;
   }
+
+  GlobalTime fuses_from(const StoredScan& scan) const { return std::max(scan.measured, may_fuse_from(scan)); }
 
   void receive(const StoredScan& scan) {
     for (std::size_t s = 0; s < sensors_.size(); ++s) {
@@ -200,26 +204,26 @@ class TimelineStrategy : public Strategy {
   std::vector<char> any_received_;
   std::vector<std::optional<Duration>> longest_delay_;
   GlobalTime now_{};
-  std::vector<GlobalTime> settled_;  // by sensor, at the present fusion instant
 };
 
 class Buff final : public TimelineStrategy {
   using TimelineStrategy::TimelineStrategy;
 
  private:
-  GlobalTime settled_now(std::size_t s) const override {
-    const auto longest = longest_delay(s);
-    if (config().buff_waits != BuffWaiting::kMeasured || !longest) return TimelineStrategy::settled_now(s);
-    return now() - *longest;
+  GlobalTime may_fuse_from(const StoredScan& scan) const override {
+    if (config().buff_waits == BuffWaiting::kFixedLag) return scan.measured + config().fixed_lag;
+    GlobalTime from = kLongAgo;
+    for (std::size_t s = 0; s < sensor_count(); ++s)
+      if (sensor(s).sensor != scan.id.sensor && !arrived_since(s, scan.measured))
+        from = std::max(from, settled_from(s, scan.measured));
+    return from;
   }
 
-  bool may_fuse(const StoredScan& scan) const override {
-    if (config().buff_waits == BuffWaiting::kFixedLag) return now() - scan.measured >= config().fixed_lag;
-    for (std::size_t s = 0; s < sensor_count(); ++s) {
-      if (sensor(s).sensor == scan.id.sensor) continue;
-      if (!arrived_since(s, scan.measured) && !settled(s, scan.measured)) return false;
-    }
-    return true;
+  // When all that sensor s measured until `instant` has arrived, or never will.
+  GlobalTime settled_from(std::size_t s, GlobalTime instant) const {
+    const auto longest = longest_delay(s);
+    const bool by_measured = config().buff_waits == BuffWaiting::kMeasured && longest;
+    return by_measured ? instant + *longest : sensor(s).settling.settled_from(instant);
   }
 };
 
@@ -227,23 +231,24 @@ class Adva final : public TimelineStrategy {
   using TimelineStrategy::TimelineStrategy;
 
  private:
-  bool may_fuse(const StoredScan&) const override { return true; }
+  GlobalTime may_fuse_from(const StoredScan&) const override { return kLongAgo; }
 };
 
 class TimeTriggered final : public TimelineStrategy {
   using TimelineStrategy::TimelineStrategy;
 
  private:
-  bool may_fuse(const StoredScan& scan) const override {
+  GlobalTime may_fuse_from(const StoredScan& scan) const override {
     const GlobalTime mine = scheduled_instant(scan);
+    GlobalTime from = kLongAgo;
     for (std::size_t s = 0; s < sensor_count(); ++s) {
       const SensorTiming& other = sensor(s);
       if (other.sensor == scan.id.sensor || !other.scheduled || mine < other.first) continue;
       // The other sensor's newest instant that is not after this measurement's.
       const GlobalTime instant = other.first + other.period * ((mine - other.first).ns / other.period.ns);
-      if (!arrived_since(s, instant - tolerance(other)) && !settled(s, instant)) return false;
+      if (!arrived_since(s, instant - tolerance(other))) from = std::max(from, other.settling.settled_from(instant));
     }
-    return true;
+    return from;
   }
 
   // Time stamps are clock readings: an instant of the schedule is recognised within a quarter of the period.

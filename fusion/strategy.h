@@ -25,6 +25,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -63,9 +64,9 @@ struct FusedScan {
 
 // Most scans that can wait: of one more, the oldest is fused at once.
 inline constexpr std::size_t kMaxPending = 32;
-// Most scans accepted between two fusion instants whose fate is certain to be listed. An accept() settles at most one, a
-// duplicate or the oldest that waits, and the fusion instant what waits then; of what accepting more settles, the first
-// kMaxListedArrivals are listed and the rest is counted.
+// Most scans accepted between two fusion instants whose fate is certain to be listed. An accept() settles at most one,
+// a duplicate or the oldest that waits, and the fusion instant what waits then; of what accepting more settles, the
+// first kMaxListedArrivals are listed and the rest is counted.
 inline constexpr std::size_t kMaxListedArrivals = 64;
 
 class Strategy {
@@ -75,6 +76,9 @@ class Strategy {
   virtual void accept(const Scan& scan) = 0;
   // The fusion instant: fuses what may be fused at `now`.
   virtual void fuse(GlobalTime now) = 0;
+  // The first instant after the last fusion instant from which a scan that is held may be fused though nothing arrives;
+  // nothing where none is held.
+  virtual std::optional<GlobalTime> next_release() const = 0;
   // What became of each scan at the last fusion instant or since the one before it, and which are held.
   virtual std::span<const FusedScan> last_fused() const = 0;
   // How many fates since construction last_fused() had no room for (kMaxListedArrivals).

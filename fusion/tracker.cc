@@ -60,7 +60,7 @@ void Tracker::step(TrackSet& set, const Scan& scan) {
     set.time = scan.measured;
   }
   predict_all(set, scan.measured);
-  std::erase_if(set.tracks, [&](const Track& track) { 
+  std::erase_if(set.tracks, [&](const Track& track) {
     return given_up(track, set.time, set.time, config_, *estimator_);
   });
   associate(set, scan);

@@ -43,6 +43,12 @@ TrackerConfig load_tracker(YamlMap& yaml) {
       yaml.integer_or("max_observations", static_cast<std::int64_t>(c.max_observations), {1, 4096}));
   c.history_scans = static_cast<std::size_t>(
       yaml.integer_or("history_scans", static_cast<std::int64_t>(c.history_scans), {2, 4096}, "scans"));
+  // What is remembered is taken beforehand: scans times the tracks that each may have, confirmed and tentative.
+  constexpr std::size_t kMostRemembered = 1'000'000;
+  const std::size_t tracks = static_cast<std::size_t>(c.max_objects) + 3 * c.max_observations;
+  if ((c.history_scans + 1) * tracks > kMostRemembered)
+    yaml.fail("history_scans", "is too much to remember: (history_scans + 1) x (max_objects + 3 max_observations) "
+                               "must be at most 1000000");
   c.heading_noise = yaml.number_or("heading_noise", c.heading_noise, {0.0, 100.0}, "rad^2/s");
   c.extent_noise = yaml.number_or("extent_noise", c.extent_noise, {0.0, 100.0}, "m^2/s");
   return c;

@@ -19,7 +19,7 @@ enum class FilterKind : unsigned char { kExtended, kUnscented };
 // What BUFF waits for (fusion/strategy.h).
 enum class BuffWaiting : unsigned char {
   kSchedule,   // until the schedule says that nothing older can come
-  kMeasured,   // until the longest delay that each sensor's lists have had so far is over; before the first, as kSchedule
+  kMeasured,   // until the longest delay that a sensor's lists have had so far is over; before the first, as kSchedule
   kFixedLag,   // fixed_lag behind the measurement, whatever has arrived
 };
 

@@ -206,6 +206,11 @@ class RowReader {
     for (const NumberIndex diagonal : {kCov11, kCov22, kCov33})
       if (!value_[diagonal] && (three || diagonal != kCov33))
         return fail(kNumberColumns[diagonal].name, "", "must be given where another part of the covariance is");
+    // Beyond that a bearing says nothing that a position could (fusion/converted_position.h).
+    constexpr double kLargestBearingVariance = 0.25;   // [rad^2]
+    if (row_.kind == ObservationRow::Kind::kRangeBearing && *value_[kCov22] > kLargestBearingVariance)
+      return fail("cov_22", fmt::format("{}", *value_[kCov22]),
+                  "must be at most 0.25 rad^2 where range and bearing alone were measured");
     row_.covariance.emplace();
     for (std::size_t i = 0; i < 6; ++i) (*row_.covariance)[i] = value_[kCov11 + i].value_or(0.0);
     return true;

@@ -17,10 +17,10 @@ namespace {
 
 std::string lock_file(const std::string& folder) { return folder + "/launch.lock"; }
 
-// Whether it is ours now.
-bool locked(int file, const std::string& path) {
+// Whether it is ours now. `how`: who only looks takes LOCK_SH, and is in nobody's way but a writer's.
+bool locked(int file, const std::string& path, int how) {
   int failed = 0;
-  do failed = flock(file, LOCK_EX | LOCK_NB);
+  do failed = flock(file, how | LOCK_NB);
   while (failed != 0 && errno == EINTR);
   if (failed == 0 || errno == ENOLCK || errno == EOPNOTSUPP) return true;
   if (errno == EWOULDBLOCK) return false;
@@ -46,7 +46,7 @@ std::string number_in(const std::string& path) {
 std::optional<FileLock> FileLock::take(const std::string& path) {
   FileLock lock(Descriptor(open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)));
   if (lock.get() < 0) throw std::runtime_error(path + ": cannot be written: " + std::strerror(errno));
-  return locked(lock.get(), path) ? std::optional(std::move(lock)) : std::nullopt;
+  return locked(lock.get(), path, LOCK_EX) ? std::optional(std::move(lock)) : std::nullopt;
 }
 
 FolderLock::FolderLock(const std::string& folder) : lock_(FileLock::take(lock_file(folder))) {
@@ -60,7 +60,7 @@ FolderLock::FolderLock(const std::string& folder) : lock_(FileLock::take(lock_fi
 void FolderLock::refuse_if_held(const std::string& folder) {
   const std::string path = lock_file(folder);
   const Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  if (file.open() && !locked(file.get(), path)) refuse(folder);
+  if (file.open() && !locked(file.get(), path, LOCK_SH)) refuse(folder);
 }
 
 }  // namespace ttf::launch

@@ -91,6 +91,43 @@ TEST(TrackReplay, AdvaEndsTheSameForEveryOrderOfArrival) {
 
 // Two vans and a car, says the camera of the one at 10 m; of the other it says as much car as van, and the first name
 // counts.
+TEST(TrackReplay, WhateverBuffWaitsForEveryListHasItsFate) {
+  for (const fusion::BuffWaiting waits :
+       {fusion::BuffWaiting::kSchedule, fusion::BuffWaiting::kMeasured, fusion::BuffWaiting::kFixedLag}) {
+    ReplayConfig config;
+    Arrivals arrivals = arrivals_of_rows(two_cars(4), config);
+    config.tracker.buff_waits = waits;
+    config.tracker.fixed_lag = Duration::milliseconds(60);
+    SimulatedArrivals simulated;
+    simulated.delays.assign(2, SimulatedArrivals::Delay{Duration{}, Duration::milliseconds(100)});
+    simulate(arrivals, simulated);
+    const Outcome outcome = outcome_of(arrivals, config, StrategyKind::kBuff);
+    expect_same_end(outcome_of(arrivals, config, StrategyKind::kAdva), outcome);
+    for (const SensorAccount& sensor : outcome.account.sensors) EXPECT_EQ(fates(sensor), sensor.lists);
+    EXPECT_EQ(outcome.account.sensors[0].late + outcome.account.sensors[1].late > 0,
+              waits != fusion::BuffWaiting::kSchedule);
+    if (waits == fusion::BuffWaiting::kFixedLag) {
+      EXPECT_LE(outcome.account.sensors[0].longest_hold, Duration::milliseconds(60));
+      EXPECT_GT(outcome.account.sensors[0].longest_hold, Duration::milliseconds(50)) << "some list came nearly at once";
+    }
+  }
+}
+// A measurement just before the first instant of its sensor's schedule is that instant's.
+TEST(TrackReplay, TtWaitsForTheScheduleFromItsFirstInstantOn) {
+  ReplayConfig config;
+  const Arrivals arrivals =
+      arrivals_of_rows({position_row("a", 999, 1000, 1, 0), position_row("b", 999, 1000, 1, 0)}, config);
+  for (auto& [name, setup] : config.sensors) {
+    setup.period = Duration::milliseconds(100);
+    setup.first = GlobalTime{1'000'000'000};
+    setup.worst_delay = Duration::milliseconds(50);
+  }
+  Arrivals alone = arrivals;
+  alone.lists.resize(1);
+  const Outcome outcome = outcome_of(alone, config, StrategyKind::kTt);
+  EXPECT_EQ(outcome.account.sensors[0].in_order, 1u);
+  EXPECT_EQ(outcome.account.sensors[0].longest_hold, Duration::milliseconds(50));
+}
 TEST(TrackReplay, ClassAndThirdAxisGoWithTheTrackForEveryOrderOfArrival) {
   ReplayConfig config;
   std::vector<recording::ObservationRow> rows = two_cars(2);

@@ -42,6 +42,41 @@ TEST(Buff, OfOneInstantTheSmallerSensorIsFirst) {
             (std::vector{fused(50, 0, 0), fused(50, 1, 0)}));
 }
 
+TEST(Buff, SaysWhenItLetsGoIfNothingArrives) {
+  const std::vector<SensorTiming> sensors{free_running(0, 60), free_running(1, 30)};
+  TrackerConfig fixed, measured;
+  fixed.buff_waits = BuffWaiting::kFixedLag;
+  measured.buff_waits = BuffWaiting::kMeasured;
+  const std::pair<TrackerConfig, std::int64_t> releases[] = {{{}, 70}, {fixed, 110}, {measured, 70}};
+  for (const auto& [config, ms] : releases) {
+    const auto strategy = make_strategy(StrategyKind::kBuff, config, sensors);
+    EXPECT_FALSE(strategy->next_release());
+    strategy->accept(scan(1, 0, at_ms(10)).view());
+    strategy->fuse(at_ms(30));
+    ASSERT_EQ(held(*strategy), 1u);
+    EXPECT_EQ(strategy->next_release(), at_ms(ms));
+    strategy->fuse(at_ms(ms) - Duration{1});
+    EXPECT_EQ(held(*strategy), 1u);
+    strategy->fuse(at_ms(ms));
+    EXPECT_EQ(held(*strategy), 0u);
+    EXPECT_FALSE(strategy->next_release());
+  }
+}
+
+// However often it is looked at, what waits was on its way for as long as it was.
+TEST(Buff, WaitingIsNoDelay) {
+  const std::vector<SensorTiming> sensors{free_running(0, 1000), free_running(1, 1000)};
+  TrackerConfig config;
+  config.buff_waits = BuffWaiting::kMeasured;
+  const auto strategy = make_strategy(StrategyKind::kBuff, config, sensors);
+  strategy->accept(scan(1, 0, at_ms(0)).view());
+  for (int ms = 1; ms <= 600; ++ms) strategy->fuse(at_ms(ms));
+  EXPECT_EQ(held(*strategy), 1u);
+  strategy->accept(scan(0, 0, at_ms(600)).view());   // on its way for 1 ms, as sensor 1's was
+  strategy->fuse(at_ms(601));
+  EXPECT_EQ(held(*strategy), 0u);
+}
+
 TEST(Buff, SaysWhatItHolds) {
   const std::vector<SensorTiming> sensors{free_running(0, 60), free_running(1, 30)};
   const auto strategy = make_strategy(StrategyKind::kBuff, {}, sensors);

@@ -30,6 +30,18 @@ TEST(Settling, AfterAConstantDelayAtAnyInstant) {
     EXPECT_EQ(settling.settled(GlobalTime{ns}).ns, ns - 60'000'000);
 }
 
+// settled_from() is where settled() gets there: there it is, and a nanosecond before it is not.
+TEST(Settling, SaysFromWhenOnSomethingIsSettled) {
+  const Settling steps({{at_ms(6), at_ms(-4)}, {at_ms(16), at_ms(1)}}, Duration::milliseconds(20));
+  const Settling delay = Settling::after(Duration::milliseconds(60));
+  for (const Settling* settling : {&steps, &delay})
+    for (std::int64_t us = -100'000; us <= 100'000; us += 500) {
+      const GlobalTime measured = at_ms(0) + Duration::microseconds(us), from = settling->settled_from(measured);
+      EXPECT_GE(settling->settled(from), measured) << us;
+      EXPECT_LT(settling->settled(from - kNanosecond), measured) << us;
+    }
+}
+
 TEST(SettlingDeath, RefusesWhatIsNoRound) {
   const Duration round = Duration::milliseconds(10);
   EXPECT_DEATH(Settling({}, round), "0 steps");
