@@ -58,10 +58,16 @@ int run_track(const TrackOptions& options) {
   if (!options.strategy.empty()) config.strategy = chosen(options.strategy).front();
   Findings findings;
   const std::vector<recording::ObservationRow> rows = read_rows(options, findings);
-  if (!options.skip_damaged) findings.throw_if_any();   // before what follows from them
   experiments::list_sensors(config, rows, usual, options.observations);
-  apply_sensor_options(options, config);
-  const experiments::SimulatedArrivals simulated = simulated_arrivals(options, config);
+  experiments::SimulatedArrivals simulated;
+  try {
+    apply_sensor_options(options, config);
+    simulated = simulated_arrivals(options, config);
+  } catch (const InputError&) {
+    // A sensor that is missed may be missing for its rows are damaged: that is told first.
+    if (!options.skip_damaged) findings.throw_if_any();
+    throw;
+  }
   experiments::Arrivals arrivals = experiments::arrivals_of(rows, config, options.observations, findings);
   tell_damage(findings, options.skip_damaged, arrivals.lists.size());
   experiments::simulate(arrivals, simulated);

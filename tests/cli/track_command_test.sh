@@ -95,12 +95,12 @@ expect 0 '^warning: .*damaged.csv:12: columns' track "$work/damaged.csv" --confi
 # What is wrong with a file, the configuration, or an option.
 : >"$work/empty.csv"
 expect 2 'empty.csv: holds no heading' track "$work/empty.csv"
-expect 2 'must' track "$work/empty.csv" --config=
+expect 2 'missing' track "$work/empty.csv" --config=
 expect 2 'must' track "$work/empty.csv" -o ''
 { echo time,arrival,sensor,range,bearing,cov_11,cov_22; echo 0,0,radar,10,0,0.04,25; } >"$work/blurred.csv"
 expect 2 'blurred.csv:2: cov_22 = 25: must be at most 0.25 rad\^2' track "$work/blurred.csv"
-{ echo time,arrival,sensor,x,y; echo 0,0,lidar,1,2; echo 0,0,radar,one,2; } >"$work/damaged.csv"
-expect 2 'damaged.csv:3: x = one' track "$work/damaged.csv" --delay radar=20ms..30ms
+{ echo time,arrival,sensor,x,y; echo 0,0,lidar,1,2; echo 0,0,radar,one,2; } >"$work/one_damaged.csv"
+expect 2 'one_damaged.csv:3: x = one' track "$work/one_damaged.csv" --delay radar=20ms..30ms
 for waits in schedule measured fixed_lag; do
   echo "tracker: {buff_waits: $waits}" >"$work/waits.yaml"
   { echo time,arrival,sensor,x,y; echo 0,0.01,a,1,2; echo 0,0.01,b,1,2; echo 0.1,0.3,a,1,2; } >"$work/late.csv"

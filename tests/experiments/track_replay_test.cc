@@ -97,9 +97,9 @@ TEST(TrackReplay, WhateverBuffWaitsForEveryListHasItsFate) {
     ReplayConfig config;
     Arrivals arrivals = arrivals_of_rows(two_cars(4), config);
     config.tracker.buff_waits = waits;
-    config.tracker.fixed_lag = Duration::milliseconds(60);
+    config.tracker.fixed_lag = Duration::milliseconds(25);
     SimulatedArrivals simulated;
-    simulated.delays.assign(2, SimulatedArrivals::Delay{Duration{}, Duration::milliseconds(100)});
+    simulated.delays.assign(2, SimulatedArrivals::Delay{Duration{}, Duration::milliseconds(45)});
     simulate(arrivals, simulated);
     const Outcome outcome = outcome_of(arrivals, config, StrategyKind::kBuff);
     expect_same_end(outcome_of(arrivals, config, StrategyKind::kAdva), outcome);
@@ -107,8 +107,8 @@ TEST(TrackReplay, WhateverBuffWaitsForEveryListHasItsFate) {
     EXPECT_EQ(outcome.account.sensors[0].late + outcome.account.sensors[1].late > 0,
               waits != fusion::BuffWaiting::kSchedule);
     if (waits == fusion::BuffWaiting::kFixedLag) {
-      EXPECT_LE(outcome.account.sensors[0].longest_hold, Duration::milliseconds(60));
-      EXPECT_GT(outcome.account.sensors[0].longest_hold, Duration::milliseconds(50)) << "some list came nearly at once";
+      EXPECT_LE(outcome.account.sensors[0].longest_hold, Duration::milliseconds(25));
+      EXPECT_GT(outcome.account.sensors[0].longest_hold, Duration::milliseconds(15)) << "some list came nearly at once";
     }
   }
 }
