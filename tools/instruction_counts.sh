@@ -36,8 +36,8 @@ if [[ $(grep ^made_with "$kept") != $(grep ^made_with "$counted") ]]; then
   echo "$kept was made with other versions of $made_with: its counts are not compared"
   exit
 fi
-LC_ALL=C join -a 1 -a 2 -e none -o 0,1.2,2.2 "$kept" "$counted" | awk '
-  $1 == "made_with" { next }
+paths() { grep -v ^made_with "$1"; }
+LC_ALL=C join -a 1 -a 2 -e none -o 0,1.2,2.2 <(paths "$kept") <(paths "$counted") | awk '
   $2 == "none" || $3 == "none" { printf "%-30s %12s -> %12s\n", $1, $2, $3; bad = 1; next }
   { change = 100 * ($3 - $2) / $2; printf "%-30s %12d -> %12d  %+6.1f %%\n", $1, $2, $3, change }
   change > 3 || change < -3 { bad = 1 }
