@@ -311,7 +311,7 @@ TEST_F(MissingFramesTest, NumbersOfADamagedLogAreCounted) {
     }
     sent(0);
     sent_.back().stamp.true_time.ns = far;
-    sent_.back().cycle = -far - 1;
+    sent_.back().cycle = ~far;
   }
   for (const std::int64_t scale : {std::int64_t{0}, std::int64_t{-5}, std::int64_t{1}, kFar}) {
     scale_ppm_ = scale;
