@@ -5,7 +5,7 @@
 namespace ttf::fusion::estimators {
 
 std::shared_ptr<const Estimator> make_interacting(const TrackerConfig& config) {
-  return under_the_filter<StraightAndTurning>(config, [&]<class F>() {
+  return under_the_filter(config, [&]<class F>() {
     return StraightAndTurning<F>({.seconds = config.mode_seconds},
                                  single<F>(config, motion::ConstantVelocity(config.process_noise)),
                                  single<F>(config, motion::Ctrv(config.turn_noise, config.process_noise)));

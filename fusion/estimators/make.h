@@ -15,13 +15,15 @@ std::shared_ptr<const Estimator> make_straight(const TrackerConfig& config);    
 std::shared_ptr<const Estimator> make_turning(const TrackerConfig& config);       // CTRV, CTRA
 std::shared_ptr<const Estimator> make_interacting(const TrackerConfig& config);   // constant velocity and CTRV
 
-template <template <class> class KernelOf, class Make>
+// make<F>() gives the kernel under filter F.
+template <class Make>
 std::shared_ptr<const Estimator> under_the_filter(const TrackerConfig& config, const Make& make) {
-  if (config.filter == FilterKind::kUnscented)
-    return std::make_shared<ModelEstimator<filters::Unscented, KernelOf<filters::Unscented>>>(
-        config, make.template operator()<filters::Unscented>());
-  return std::make_shared<ModelEstimator<filters::Extended, KernelOf<filters::Extended>>>(
-      config, make.template operator()<filters::Extended>());
+  const auto under = [&]<class F>() -> std::shared_ptr<const Estimator> {
+    auto kernel = make.template operator()<F>();
+    return std::make_shared<ModelEstimator<F, decltype(kernel)>>(config, kernel);
+  };
+  return config.filter == FilterKind::kUnscented ? under.template operator()<filters::Unscented>()
+                                                 : under.template operator()<filters::Extended>();
 }
 
 // What is believed of any road vehicle's turn rate, and of its acceleration, per axis or along its heading.
@@ -39,6 +41,11 @@ Gaussian<M::kStates> prior_of(const TrackerConfig& config) {
 template <class F, motion::Model M>
 Single<F, M> single(const TrackerConfig& config, const M& model) {
   return {.model = model, .prior = prior_of<M>(config), .filter = {}};
+}
+
+template <motion::Model M>
+std::shared_ptr<const Estimator> make_single(const TrackerConfig& config, const M& model) {
+  return under_the_filter(config, [&]<class F>() { return single<F>(config, model); });
 }
 
 }  // namespace ttf::fusion::estimators

@@ -6,8 +6,8 @@
 // until it is known that it moves, and where to: its velocity's spread (the root of its covariance's trace) is at most
 // kKnown of its speed, 0.25 rad across. Then it is converted (fusion/motion/conversion.h). The accelerations until
 // then are white noise of the density that in one second gives the velocity the spread that an unknown constant
-// acceleration gives it, initial_acceleration_sigma^2 times 1 s. Something that stands, or creeps, stays so; what has stood until its
-// course is forgotten (kForgotten) begins again.
+// acceleration gives it, initial_acceleration_sigma^2 times 1 s. Something that stands, or creeps, stays so; what has
+// stood until its course is forgotten (kForgotten) begins again.
 #pragma once
 
 #include "core/check.h"
