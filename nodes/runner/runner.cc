@@ -82,6 +82,7 @@ Runner::Runner(const RunnerConfig& config, std::vector<std::shared_ptr<nodes::St
   const bool integrated = !config.power_on.has_value();
   const TrueTime begin = integrated ? config.first_cycle : std::max(*config.power_on, now());
   last_ = ticks(begin);
+  if (!integrated) powered_on_ = config.clock.host_time(begin);
   const nodes::ExecutiveConfig executive{
       &cluster_,
       config.node,
@@ -147,6 +148,7 @@ void Runner::lost(std::int64_t cycle, int slot, schedules::Channel channel, std:
 void Runner::take_in() {
   while (const auto arrival = medium_.receive()) {
     if (arrival->left) account_.transits.add(arrival->received - *arrival->left);
+    if (arrival->at < powered_on_) continue;   // who has no power yet hears nothing
     std::optional<Microticks> late;
     if (arrival->late) late = ticks(config_.clock.in_drive(*arrival->late));
     arrivals_.arrive(*arrival, ticks(config_.clock.drive_time(arrival->at)), late,

@@ -133,6 +133,7 @@ class Runner final : private nodes::SensorLines, private nodes::TrueClock, priva
   std::unique_ptr<nodes::Executive> executive_;
   Floor floor_;
   WakeUp wake_up_;
+  bus::HostTime powered_on_{std::numeric_limits<std::int64_t>::min()};
   Microticks last_{};                  // what was done last
   bool listens_ = false;               // FlexRay lines are watched
   Microticks tries_again_{std::numeric_limits<std::int64_t>::max()};   // at a coldstart, if it still may only listen

@@ -1,5 +1,6 @@
 // Whole node sets in real time, a thread each, on a medium in memory. What an ordinary kernel is late by is not judged: what
-// is asserted holds whatever that is.
+// is asserted holds whatever that is, up to the arrival window. Beyond it a cluster may fall apart as FlexRay has it, so a
+// drive during which threads that do nothing were woken up so late is driven again.
 #include "nodes/runner/runner.h"
 
 #include <gmock/gmock.h>
@@ -7,6 +8,7 @@
 #include <time.h>
 
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -15,6 +17,7 @@
 
 #include "bus/wire/strobe.h"
 #include "nodes/catalog.h"
+#include "nodes/runner/floor.h"
 #include "nodes/scenario.h"
 #include "recording/records/records.h"
 #include "schedules/loader.h"
@@ -38,7 +41,10 @@ struct Counted final : records::Sink {
     // The first pairs are what the initial clocks are apart by.
     if (corrected.cycle > 8) largest = std::max(largest, std::abs(corrected.offset_microticks));
   }
-  void on(const records::StateChanged& changed) override { states.emplace_back(changed.to_name); }
+  void on(const records::StateChanged& changed) override {
+    states.emplace_back(changed.to_name);
+    first_state = std::min(first_state, changed.stamp.true_time);
+  }
   void on(const records::LatenessHistogram& histogram) override {
     std::uint64_t sum = 0;
     for (const std::uint64_t count : histogram.counts) sum += count;
@@ -49,6 +55,7 @@ struct Counted final : records::Sink {
   int fresh = 0, discarded = 0, measured = 0, frames = 0, largest = 0;
   std::map<int, std::uint64_t> problems, lateness;
   std::vector<std::string> states;
+  TrueTime first_state{std::numeric_limits<std::int64_t>::max()};
   std::map<std::int64_t, records::Stamp> shown;   // by cycle
 };
 
@@ -91,6 +98,8 @@ class Sluggish final : public bus::LiveMedium {
   bus::HostTime hears_from_;
 };
 
+constexpr Duration kYardstick = Duration::microseconds(500);   // its period
+
 class RunnerTest : public testing::Test {
  protected:
   RunnerTest() {
@@ -117,7 +126,20 @@ class RunnerTest : public testing::Test {
     std::size_t room = 1024;
     Duration deaf_for{};   // all nodes, in the drive's time
   };
-  void drive(const Drive& how) {
+  // Whether there was one that the machine did not hold up; else the test is skipped.
+  [[nodiscard]] bool drive(const Drive& how) {
+    constexpr int kTries = 3;
+    for (int i = 0; i < kTries; ++i) {
+      counted_.clear();
+      const Floor first(kYardstick, bus::host_now()), second(kYardstick, bus::host_now() + Duration{kYardstick.ns / 2});
+      drive_once(how);
+      const Duration held_up = std::max(first.lateness().longest(), second.lateness().longest());
+      if (HasFailure() || held_up < cluster_.arrival_window->late) return true;
+    }
+    [] { GTEST_SKIP() << "the machine held up whatever ran on it, time and again"; }();
+    return false;
+  }
+  void drive_once(const Drive& how) {
     test::MemoryLiveBusOptions options;
     for (const schedules::CanBus& can : cluster_.can_buses) options.can_buses.push_back(can.flexible_data_rate);
     options.told = how.told;
@@ -152,21 +174,12 @@ class RunnerTest : public testing::Test {
       });
     for (std::thread& thread : threads) thread.join();
   }
-  // Whether so many frames were too late that clocks had nothing to go by.
-  bool starved() const {
-    std::uint64_t sent = 0, late = 0;
-    for (std::size_t n = 0; n < counted_.size(); ++n) {
-      sent += static_cast<std::uint64_t>(counted_[n].frames);
-      late += health_[n].timing.slots_missed + health_[n].timing.late_frames;
-    }
-    return late * 50 > sent;
-  }
   Counted& of(const char* node) { return counted_[index_of(*cluster_.find_node(node))]; }
   Health& health_of(const char* node) { return health_[index_of(*cluster_.find_node(node))]; }
 };
 
 TEST_F(RunnerTest, ANodeSetDrivesInRealTime) {
-  drive({});
+  if (!drive({})) return;
   // 600 ms: a laser scan every 80, a camera frame every 40, an image every 40, the first of them with no tracks in it.
   EXPECT_GE(of("laser").measured, 6);
   EXPECT_GE(of("camera").measured, 13);
@@ -194,9 +207,7 @@ TEST_F(RunnerTest, ANodeSetDrivesInRealTime) {
 // Two of the five sync nodes, 300 us late each time, are within the window, and nobody's clock follows them.
 TEST_F(RunnerTest, LatenessIsNotTakenForTheClock) {
   for (const test::Told told : {test::Told::kWithTheFrame, test::Told::kInAFollowUp}) {
-    counted_.clear();
-    drive({.told = told, .sluggish = Duration::microseconds(200)});
-    if (starved()) GTEST_SKIP() << "the machine is too busy: more than one frame in fifty came too late";
+    if (!drive({.told = told, .sluggish = Duration::microseconds(200)})) return;
     for (const char* node : {"laser_pre", "camera_pre", "gateway", "fusion", "feature"}) {
       EXPECT_EQ(health_of(node).state, "normal active") << node;
       EXPECT_LE(of(node).largest, 40) << node << ": 1 us; what they are late by would be 2000";
@@ -207,15 +218,14 @@ TEST_F(RunnerTest, LatenessIsNotTakenForTheClock) {
 // Clocks that are off by up to 1500 ppm (the cluster's own draws) stay together: uncorrected they would be apart by
 // hundreds of microticks within ten cycles.
 TEST_F(RunnerTest, ClocksThatDriftStayTogether) {
-  drive({.lasts = Duration::milliseconds(400)});
-  if (starved()) GTEST_SKIP() << "the machine is too busy: more than one frame in fifty came too late";
+  if (!drive({.lasts = Duration::milliseconds(400)})) return;
   for (const char* node : {"laser_pre", "camera_pre", "gateway", "fusion", "feature"}) EXPECT_LE(of(node).largest, 40);
 }
 
 // True time is when the clock showed that, not when the process came to do it, a kernel's whim later: then clocks that agree
 // within microseconds are seen to.
 TEST_F(RunnerTest, WhatClocksShowIsOfOneInstant) {
-  drive({.lasts = Duration::milliseconds(400), .sluggish = Duration::microseconds(200)});
+  if (!drive({.lasts = Duration::milliseconds(400), .sluggish = Duration::microseconds(200)})) return;
   int compared = 0;
   for (const auto& [cycle, first] : of("laser_pre").shown) {
     if (cycle <= 8) continue;   // what the initial clocks are apart by
@@ -232,9 +242,10 @@ TEST_F(RunnerTest, WhatClocksShowIsOfOneInstant) {
 }
 
 TEST_F(RunnerTest, AClusterStartsUpInRealTime) {
-  drive({.lasts = Duration::milliseconds(900), .power_on = [](NodeId node) {
-           return std::optional(sim::kFirstCycle + Duration::milliseconds(3 * static_cast<int>(index_of(node))));
-         }});
+  const auto one_by_one = [](NodeId node) {
+    return std::optional(sim::kFirstCycle + Duration::milliseconds(3 * static_cast<int>(index_of(node))));
+  };
+  if (!drive({.lasts = Duration::milliseconds(900), .power_on = one_by_one})) return;
   for (const char* node : {"laser_pre", "camera_pre", "gateway", "fusion", "feature"})
     EXPECT_EQ(health_of(node).state, "normal active") << node;
 }
@@ -243,9 +254,8 @@ TEST_F(RunnerTest, AClusterStartsUpInRealTime) {
 // listen stays silent for good.
 TEST_F(RunnerTest, AClusterWhoseColdstartAttemptsAreExhaustedStartsUpAllTheSame) {
   cluster_.flexray.gColdStartAttempts = 2;
-  drive({.lasts = Duration::milliseconds(1000),
-         .power_on = [](NodeId) { return std::optional(sim::kFirstCycle); },
-         .deaf_for = Duration::milliseconds(200)});
+  const auto together = [](NodeId) { return std::optional(sim::kFirstCycle); };
+  if (!drive({.lasts = Duration::milliseconds(1000), .power_on = together, .deaf_for = Duration::milliseconds(200)})) return;
   int exhausted = 0;
   for (const char* node : {"laser_pre", "camera_pre", "gateway", "fusion", "feature"}) {
     EXPECT_EQ(health_of(node).state, "normal active") << node;
@@ -259,11 +269,12 @@ TEST_F(RunnerTest, AClusterWhoseColdstartAttemptsAreExhaustedStartsUpAllTheSame)
 
 TEST_F(RunnerTest, ANodeThatComesLaterIntegrates) {
   const NodeId late = *cluster_.find_node("feature");
-  drive({.lasts = Duration::milliseconds(900), .power_on = [late](NodeId node) {
-           return node == late ? std::optional(sim::kFirstCycle + Duration::milliseconds(200)) : std::nullopt;
-         }});
+  const TrueTime comes = sim::kFirstCycle + Duration::milliseconds(200);
+  const auto power_on = [=](NodeId node) { return node == late ? std::optional(comes) : std::nullopt; };
+  if (!drive({.lasts = Duration::milliseconds(900), .power_on = power_on})) return;
   EXPECT_EQ(health_of("feature").state, "normal active");
   EXPECT_GE(of("feature").fresh, 3);
+  EXPECT_GE(of("feature").first_state + Duration::microseconds(1), comes) << "it has heard what came before its power did";
   EXPECT_TRUE(of("fusion").states.empty()) << "the others have not noticed";
 }
 
@@ -271,8 +282,12 @@ TEST_F(RunnerTest, ANodeThatComesLaterIntegrates) {
 // clock goes astray. It halts, as FlexRay has it, and integrates anew; until then it hardly disturbs the others.
 TEST_F(RunnerTest, ANodeThatWasStoppedForLongIntegratesAnew) {
   const NodeId stopped = *cluster_.find_node("camera_pre");
-  drive({.lasts = Duration::milliseconds(900), .stopped = stopped, .stopped_at = Duration::milliseconds(200),
-         .stopped_for = Duration::milliseconds(100), .room = 64});
+  if (!drive({.lasts = Duration::milliseconds(900),
+              .stopped = stopped,
+              .stopped_at = Duration::milliseconds(200),
+              .stopped_for = Duration::milliseconds(100),
+              .room = 64}))
+    return;
   EXPECT_THAT(of("camera_pre").states, testing::IsSupersetOf({"halt", "initialise schedule", "normal active"}));
   EXPECT_EQ(health_of("camera_pre").state, "normal active");
   EXPECT_GT(health_of("camera_pre").timing.slots_missed, 10u);
@@ -286,7 +301,7 @@ TEST_F(RunnerTest, ANodeThatWasStoppedForLongIntegratesAnew) {
 // What a sender says it is late by beyond the window is not sent at all.
 TEST_F(RunnerTest, WhatIsTooLateIsNotSentAndToldSo) {
   cluster_.arrival_window->late = Duration::microseconds(1);   // no kernel is that good
-  drive({.lasts = Duration::milliseconds(100)});
+  if (!drive({.lasts = Duration::milliseconds(100)})) return;
   EXPECT_GT(of("gateway").problems[records::kSlotMissed], 0u);
   EXPECT_EQ(of("gateway").problems[records::kSlotMissed], health_of("gateway").timing.slots_missed);
   EXPECT_GT(of("gateway").problems[records::kLateWakeUp], 0u);
