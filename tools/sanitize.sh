@@ -8,4 +8,6 @@ tools/install_deps.sh --gates
 tools/build.sh asan-ubsan --target all benchmarks
 ulimit -s 262144   # KiB: std::regex, in tests, calls itself for every character
 export LSAN_OPTIONS=suppressions=$PWD/tools/lsan.supp:print_suppressions=0
-exec ctest --test-dir build/asan-ubsan --output-on-failure -j"$(($(nproc) + 1))"
+run() { ctest --test-dir build/asan-ubsan --output-on-failure -j"$(($(nproc) + 1))" "$@"; }
+run -LE realtime
+run -L realtime --repeat until-pass:3
