@@ -6,11 +6,10 @@
 #include <utility>
 
 #include "bus/poc.h"
+#include "core/counted.h"
 
 namespace ttf::cli {
 namespace {
-
-std::string joined_names(const std::vector<std::string>& names) { return fmt::format("{}", fmt::join(names, ", ")); }
 
 // Of those that were not in operation: nothing where it was.
 std::optional<std::string> why_absent(const NodeAtEnd& node) {
@@ -45,11 +44,11 @@ std::string DriveEnd::sentence() const {
     same->second.push_back(one.name);
   }
   std::string text = nobody ? "nobody was in operation at the end: "
-                            : fmt::format("{} {} not in operation at the end: ", joined_names(names),
+                            : fmt::format("{} {} not in operation at the end: ", joined(names),
                                           names.size() == 1 ? "was" : "were");
   if (by_state.size() == 1) return text + by_state.front().first;
   for (const auto& [state, who] : by_state)
-    text += fmt::format("{}{} ({})", state == by_state.front().first ? "" : "; ", state, joined_names(who));
+    text += fmt::format("{}{} ({})", state == by_state.front().first ? "" : "; ", state, joined(who));
   return text;
 }
 

@@ -9,16 +9,10 @@
 
 #include "cli/commands.h"
 #include "cli/output.h"
+#include "core/counted.h"
 #include "core/errors.h"
 
 namespace {
-
-std::string joined(const std::vector<std::string>& names) {
-  std::string text;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    text += fmt::format("{}{}", i == 0 ? "" : i + 1 == names.size() ? " or " : ", ", names[i]);
-  return text;
-}
 
 // Where the command line names a command that there is not: what to say of it; empty otherwise.
 std::string unknown_command(CLI::App& app, int argc, char** argv) {
@@ -33,7 +27,7 @@ std::string unknown_command(CLI::App& app, int argc, char** argv) {
       std::vector<std::string> names;
       for (const CLI::App* one : commands) names.push_back(one->get_name());
       return fmt::format("{} is no command{}: must be {}", name, in == &app ? "" : " of " + in->get_name(),
-                         joined(names));
+                         ttf::joined(names, " or "));
     }
     in = *command;
   }

@@ -3,14 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <optional>
 #include <set>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "cli/drive_setup.h"
+#include "core/counted.h"
 #include "core/decimal.h"
 #include "core/errors.h"
 
@@ -31,12 +32,12 @@ struct OfSensor {
 
 std::size_t sensor_named(const char* option, const std::string& text, const std::string& name,
                          const ReplayConfig& config) {
-  std::string names;
+  std::vector<std::string> names;
   for (std::size_t s = 0; s < config.sensors.size(); ++s) {
     if (config.sensors[s].first == name) return s;
-    names += (s == 0 ? "" : ", ") + config.sensors[s].first;
+    names.push_back(config.sensors[s].first);
   }
-  refuse_option(option, text, fmt::format("must begin with a sensor ({})", names));
+  refuse_option(option, text, fmt::format("must begin with a sensor ({})", joined(names)));
 }
 
 OfSensor of_sensor(const char* option, const std::string& text, const ReplayConfig& config) {
@@ -45,22 +46,8 @@ OfSensor of_sensor(const char* option, const std::string& text, const ReplayConf
   return {sensor_named(option, text, text.substr(0, equals), config), text.substr(equals + 1)};
 }
 
-// "40ms", "2.5 us", "0 s"; nothing where it is none.
-std::optional<Duration> duration_in(std::string_view text) {
-  constexpr std::array<std::pair<std::string_view, std::int64_t>, 4> kUnits{
-      {{"ns", 1}, {"us", 1'000}, {"ms", 1'000'000}, {"s", 1'000'000'000}}};
-  for (const auto& [unit, ns] : kUnits) {
-    if (!text.ends_with(unit)) continue;
-    std::string_view number = text.substr(0, text.size() - unit.size());
-    if (number.ends_with(' ')) number.remove_suffix(1);
-    if (const std::optional<std::int64_t> value = parse_scaled(number, ns)) return Duration{*value};
-    if (unit != "s") return std::nullopt;
-  }
-  return std::nullopt;
-}
-
 Duration duration_option(const char* option, const std::string& text, std::string_view value, Range<Duration> allowed) {
-  const std::optional<Duration> duration = duration_in(value);
+  const std::optional<Duration> duration = parse_duration(value);
   if (!duration || !allowed.contains(*duration))
     refuse_option(option, text, fmt::format("must be SENSOR= and {}..{} s with its unit, as in 40ms",
                                             scaled_text(allowed.low.ns, 1'000'000'000),

@@ -1,15 +1,27 @@
-// "1 worker", "2 workers": how many of what is counted, in words for people.
+// Numbers and names in words for people.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace ttf {
 
-// Of nouns whose plural has an s more.
+// "1 worker", "2 workers": of nouns whose plural has an s more.
 inline std::string counted(std::uint64_t count, std::string_view one) {
   return std::to_string(count) + " " + std::string(one) + (count == 1 ? "" : "s");
+}
+
+// "a, b, c", or with another word before the last one: "a, b or c".
+inline std::string joined(const std::vector<std::string>& names, std::string_view before_last = ", ") {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) text += i + 1 == names.size() ? before_last : ", ";
+    text += names[i];
+  }
+  return text;
 }
 
 }  // namespace ttf

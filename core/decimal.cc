@@ -1,5 +1,7 @@
 #include "core/decimal.h"
 
+#include <utility>
+
 #include "core/int128.h"
 
 namespace ttf {
@@ -39,6 +41,19 @@ std::string scaled_text(std::int64_t value, std::int64_t scale) {
     rest %= place;
   }
   return text;
+}
+
+std::optional<Duration> parse_duration(std::string_view text) {
+  constexpr std::pair<std::string_view, std::int64_t> kUnits[] = {
+      {"ns", 1}, {"us", 1'000}, {"ms", 1'000'000}, {"s", 1'000'000'000}};   // "s" last: the others end in it
+  for (const auto& [unit, ns] : kUnits) {
+    if (!text.ends_with(unit)) continue;
+    text.remove_suffix(unit.size());
+    if (text.ends_with(' ')) text.remove_suffix(1);
+    const auto value = parse_scaled(text, ns);
+    return value ? std::optional(Duration{*value}) : std::nullopt;
+  }
+  return std::nullopt;
 }
 
 }  // namespace ttf

@@ -40,19 +40,9 @@ std::optional<T> parse_number(std::string_view text) {
   return value;
 }
 
-std::optional<Duration> parse_duration(const std::string& text) {
-  const auto space = text.find(' ');
-  if (space == std::string::npos) return std::nullopt;
-  const std::string unit = text.substr(space + 1);
-  std::int64_t scale = 0;
-  if (unit == "ns") scale = 1;
-  if (unit == "us") scale = 1'000;
-  if (unit == "ms") scale = 1'000'000;
-  if (unit == "s") scale = 1'000'000'000;
-  if (scale == 0) return std::nullopt;
-  const auto ns = parse_scaled(std::string_view(text).substr(0, space), scale);
-  if (!ns) return std::nullopt;
-  return Duration{*ns};
+// In a file number and unit stand apart.
+std::optional<Duration> spaced_duration(const std::string& text) {
+  return text.find(' ') == std::string::npos ? std::nullopt : parse_duration(text);
 }
 
 // YAML allows tabs and line ends, but no other control character; the parser would take some of them for the end of the
@@ -221,7 +211,7 @@ Duration YamlMap::duration(std::string_view key, Range<Duration> allowed) {
                                            duration_text(allowed.low), duration_text(allowed.high));
   const auto text = scalar(key, expected);
   if (!text) return allowed.low;
-  const auto value = parse_duration(*text);
+  const auto value = spaced_duration(*text);
   if (value && allowed.contains(*value)) return *value;
   fail(key, expected);
   return allowed.low;

@@ -9,6 +9,7 @@
 #include <set>
 #include <tuple>
 
+#include "core/counted.h"
 #include "core/random.h"
 #include "fusion/converted_position.h"
 #include "fusion/filters/ldl.h"
@@ -84,13 +85,6 @@ bool has_covariance(const fusion::Observation& observation) {
   return fusion::positive_definite<2>(fusion::Matrix<2>(observation.r.topLeftCorner<2, 2>()));
 }
 
-std::string joined_names(const std::vector<std::string>& names) {
-  std::string text;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    text += (i == 0 ? "" : i + 1 == names.size() ? " or " : ", ") + names[i];
-  return text;
-}
-
 bool arrives_before(const ListArrival& a, const ListArrival& b) {
   return std::tuple(a.arrival, a.measured, a.id.sensor) < std::tuple(b.arrival, b.measured, b.id.sensor);
 }
@@ -141,7 +135,7 @@ Arrivals arrivals_of(const std::vector<ObservationRow>& rows, const ReplayConfig
     const auto known = std::find(arrivals.sensors.begin(), arrivals.sensors.end(), row.sensor);
     if (known == arrivals.sensors.end()) {
       findings.add({name, row.line, "sensor", row.sensor,
-                    fmt::format("must be a sensor of {}: {}", config.file, joined_names(arrivals.sensors))});
+                    fmt::format("must be a sensor of {}: {}", config.file, joined(arrivals.sensors, " or "))});
       continue;
     }
     const auto s = static_cast<std::size_t>(known - arrivals.sensors.begin());

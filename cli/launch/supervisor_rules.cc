@@ -8,13 +8,12 @@
 #include "cli/launch/control.h"
 #include "cli/launch/supervisor.h"
 #include "cli/launch/supervisor_node.h"
+#include "core/counted.h"
 
 namespace ttf::launch {
 namespace {
 
 std::string seconds_text(Duration duration) { return fmt::format("{:.4g} s", duration.seconds()); }
-
-std::string joined(const std::vector<std::string>& names) { return fmt::format("{}", fmt::join(names, ", ")); }
 
 std::string_view signal_name(int signal) {
   return signal == SIGINT ? "SIGINT" : signal == SIGTERM ? "SIGTERM" : "SIGKILL";

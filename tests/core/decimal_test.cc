@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/counted.h"
 #include "core/random.h"
 
 namespace ttf {
@@ -14,6 +15,23 @@ TEST(Decimal, ReadsExactlyOrNotAtAll) {
   EXPECT_EQ(parse_scaled("1.23", 10), std::nullopt);
   for (const char* text : {"", "-", ".", "1e3", "+1", " 1", "1.2.3", "99999999999999999999", "0x10"})
     EXPECT_EQ(parse_scaled(text, 1), std::nullopt) << text;
+}
+
+TEST(Decimal, ReadsDurationsWithOrWithoutASpace) {
+  EXPECT_EQ(parse_duration("40 ms"), Duration::milliseconds(40));
+  EXPECT_EQ(parse_duration("40ms"), Duration::milliseconds(40));
+  EXPECT_EQ(parse_duration("2.5us"), Duration{2'500});
+  EXPECT_EQ(parse_duration("0 s"), Duration{});
+  EXPECT_EQ(parse_duration("-7ns"), Duration{-7});
+  for (const char* text : {"", "s", "ms", "40", "40  ms", "40 m s", " 40ms", "40ms ", "0.5ns", "1e3 ms", "40 min"})
+    EXPECT_EQ(parse_duration(text), std::nullopt) << text;
+}
+
+TEST(Words, NamesAreJoined) {
+  EXPECT_EQ(joined({}), "");
+  EXPECT_EQ(joined({"a"}, " or "), "a");
+  EXPECT_EQ(joined({"a", "b", "c"}), "a, b, c");
+  EXPECT_EQ(joined({"a", "b", "c"}, " or "), "a, b or c");
 }
 
 TEST(Decimal, WritesWithoutTrailingZeros) {
