@@ -11,6 +11,7 @@
 namespace ttf::fusion {
 
 inline constexpr std::uint32_t kCycles = 400;
+inline constexpr std::uint32_t kWarm = 40;  // cycles: 80 scans, more than the history holds
 
 // Laser and camera see all objects every 40 ms, the camera 20 ms later.
 struct Crowd {
@@ -46,9 +47,8 @@ inline const Crowd& scene() {
 }
 
 // 1,000 objects, 6 m and 12 m apart.
-inline constexpr std::uint32_t kThousandCycles = 60;
 inline const Crowd& thousand() {
-  static const Crowd the_crowd({.objects = 1000, .across = 40}, kThousandCycles);
+  static const Crowd the_crowd({.objects = 1000, .across = 40}, kWarm + 40);
   return the_crowd;
 }
 inline TrackerConfig for_thousand() {
@@ -58,7 +58,5 @@ inline TrackerConfig for_thousand() {
   config.history_scans = 16;
   return config;
 }
-
-inline constexpr std::uint32_t kWarm = 40;  // cycles: 80 scans, more than the history holds
 
 }  // namespace ttf::fusion

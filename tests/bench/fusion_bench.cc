@@ -20,37 +20,39 @@ void report_allocations(benchmark::State& state, std::int64_t allocations) {
   if (allocations != 0) state.SkipWithError("the measured part allocates");
 }
 
-// Lists of 25 + 25 observations in, image out.
-void cycle(benchmark::State& state, StrategyKind kind, const TrackerConfig& config) {
+// Two lists of all objects in, image out.
+void cycle(benchmark::State& state, const Crowd& crowd, StrategyKind kind, const TrackerConfig& config) {
+  const auto objects = static_cast<std::size_t>(config.max_objects);
+  const std::size_t cycles = crowd.laser.size();
   std::vector<TrackView> image;
-  image.reserve(64);
+  image.reserve(objects);
   std::unique_ptr<Strategy> strategy;
-  std::uint32_t k = kCycles;
+  std::size_t k = cycles;
   std::int64_t allocations = 0;
   for (auto _ : state) {
-    if (k == kCycles) {
+    if (k == cycles) {
       state.PauseTiming();
-      strategy = scene().start(kind, kWarm, config);
+      strategy = crowd.start(kind, kWarm, config);
       k = kWarm;
       state.ResumeTiming();
     }
     const std::int64_t before_all = support::allocations();
-    strategy->accept(scene().laser[k].view());
-    strategy->accept(scene().camera[k].view());
-    strategy->fuse(scene().camera[k].measured + Duration::milliseconds(60));
-    strategy->image(scene().camera[k].measured + Duration::milliseconds(100), image);
+    strategy->accept(crowd.laser[k].view());
+    strategy->accept(crowd.camera[k].view());
+    strategy->fuse(crowd.camera[k].measured + Duration::milliseconds(60));
+    strategy->image(crowd.camera[k].measured + Duration::milliseconds(100), image);
     allocations += support::allocations() - before_all;
     ++k;
   }
-  if (image.size() != 25) state.SkipWithError("not all 25 objects are tracked");
+  if (image.size() != objects) state.SkipWithError("not all objects are tracked");
   report_allocations(state, allocations);
 }
-void Cycle(benchmark::State& state) { cycle(state, static_cast<StrategyKind>(state.range(0)), {}); }
+void Cycle(benchmark::State& state) { cycle(state, scene(), static_cast<StrategyKind>(state.range(0)), {}); }
 BENCHMARK(Cycle)->Arg(0)->Arg(1)->Arg(2)->ArgName("strategy")->Unit(benchmark::kMicrosecond);
 
 // The same, time-triggered, under every motion model (fusion/tracker_config.h) and filter.
 void CycleOf(benchmark::State& state) {
-  cycle(state, StrategyKind::kTt,
+  cycle(state, scene(), StrategyKind::kTt,
         config_of(static_cast<MotionModel>(state.range(0)), 3.0, static_cast<FilterKind>(state.range(1))));
 }
 BENCHMARK(CycleOf)
@@ -58,31 +60,8 @@ BENCHMARK(CycleOf)
     ->ArgNames({"motion", "filter"})
     ->Unit(benchmark::kMicrosecond);
 
-// Lists of 1,000 + 1,000 observations in, image out.
 void CycleOfThousand(benchmark::State& state) {
-  std::vector<TrackView> image;
-  image.reserve(1000);
-  constexpr std::uint32_t kWarmed = 20;
-  std::unique_ptr<Strategy> strategy;
-  std::uint32_t k = kThousandCycles;
-  std::int64_t allocations = 0;
-  for (auto _ : state) {
-    if (k == kThousandCycles) {
-      state.PauseTiming();
-      strategy = thousand().start(StrategyKind::kAdva, kWarmed, for_thousand());
-      k = kWarmed;
-      state.ResumeTiming();
-    }
-    const std::int64_t before_all = support::allocations();
-    strategy->accept(thousand().laser[k].view());
-    strategy->accept(thousand().camera[k].view());
-    strategy->fuse(thousand().camera[k].measured + Duration::milliseconds(60));
-    strategy->image(thousand().camera[k].measured + Duration::milliseconds(100), image);
-    allocations += support::allocations() - before_all;
-    ++k;
-  }
-  if (image.size() != 1000) state.SkipWithError("not all 1,000 objects are tracked");
-  report_allocations(state, allocations);
+  cycle(state, thousand(), StrategyKind::kAdva, for_thousand());
 }
 BENCHMARK(CycleOfThousand)->Unit(benchmark::kMicrosecond);
 

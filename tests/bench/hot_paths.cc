@@ -78,14 +78,14 @@ void late_by() {
   counted([&] { method.take(late, seen); });
 }
 
-// ---- 25 objects
+// ---- many objects
 
-void fusion_cycle() {
-  const auto strategy = fusion::scene().start(fusion::StrategyKind::kAdva, fusion::kWarm);
-  const auto& laser = fusion::scene().laser[fusion::kWarm];
-  const auto& camera = fusion::scene().camera[fusion::kWarm];
+void cycle_of(const fusion::Crowd& crowd, const fusion::TrackerConfig& config) {
+  const auto strategy = crowd.start(fusion::StrategyKind::kAdva, fusion::kWarm, config);
+  const auto& laser = crowd.laser[fusion::kWarm];
+  const auto& camera = crowd.camera[fusion::kWarm];
   std::vector<fusion::TrackView> image;
-  image.reserve(64);
+  image.reserve(static_cast<std::size_t>(config.max_objects));
   counted([&] {
     strategy->accept(laser.view());
     strategy->accept(camera.view());
@@ -93,6 +93,8 @@ void fusion_cycle() {
     strategy->image(camera.measured + Duration::milliseconds(100), image);
   });
 }
+void fusion_cycle() { cycle_of(fusion::scene(), {}); }
+void fusion_cycle_of_thousand() { cycle_of(fusion::thousand(), fusion::for_thousand()); }
 
 void fusion_late_scan() {
   const auto strategy = fusion::scene().start(fusion::StrategyKind::kAdva, fusion::kWarm);
@@ -104,17 +106,6 @@ void fusion_late_scan() {
   counted([&] {
     strategy->accept(late.view());
     strategy->fuse(now);
-  });
-}
-
-void fusion_cycle_of_thousand() {
-  const auto strategy = fusion::thousand().start(fusion::StrategyKind::kAdva, 20, fusion::for_thousand());
-  const auto& laser = fusion::thousand().laser[20];
-  const auto& camera = fusion::thousand().camera[20];
-  counted([&] {
-    strategy->accept(laser.view());
-    strategy->accept(camera.view());
-    strategy->fuse(camera.measured + Duration::milliseconds(60));
   });
 }
 

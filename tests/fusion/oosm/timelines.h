@@ -132,4 +132,13 @@ bool same_bits(const Gaussian<N>& a, const Gaussian<N>& b) {
   return a.x == b.x && a.p == b.p;   // no zeros of either sign and no NaN are at stake
 }
 
+// Positions once a second, the last late measurement from the middle of an interval.
+inline Timeline<2, 1> positions(int lag) {
+  const LinearMeasurement<2, 1> position{Vector<1>(0.0), Matrix<1, 2>(1.0, 0.0), Matrix<1>(0.5)};
+  Timeline<2, 1> arrivals;
+  for (int i = 1; i <= 12; ++i) arrivals.push_back({stamp_at(after_ms(1000 * i)), position});
+  arrivals.push_back({stamp_at(after_ms(12'500 - 1000 * lag), 1), position});
+  return arrivals;
+}
+
 }  // namespace ttf::fusion::oosm

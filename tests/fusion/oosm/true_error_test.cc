@@ -76,15 +76,6 @@ TEST(TrueError, IsWhatExactMethodsSayInAnyOrder) {
   }
 }
 
-// Positions once a second, the last late measurement from the middle of an interval.
-Timeline<2, 1> positions(int lag) {
-  const LinearMeasurement<2, 1> position{Vector<1>(0.0), Matrix<1, 2>(1.0, 0.0), Matrix<1>(0.5)};
-  Timeline<2, 1> arrivals;
-  for (int i = 1; i <= 12; ++i) arrivals.push_back({stamp_at(after_ms(1000 * i)), position});
-  arrivals.push_back({stamp_at(after_ms(12'500 - 1000 * lag), 1), position});
-  return arrivals;
-}
-
 // "A few percent" at most; and B, "practically indistinguishable" from A.
 TEST(TrueError, OfAl1AndBl1IsALittleAboveTheBest) {
   for (const double q : {0.1, 1.0, 4.0})
