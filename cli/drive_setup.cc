@@ -8,18 +8,13 @@
 #include "cli/fault_tables.h"
 #include "core/errors.h"
 #include "core/file_bytes.h"
+#include "core/hash.h"
 #include "core/strict_yaml.h"
 #include "nodes/catalog.h"
 #include "schedules/checker.h"
 #include "schedules/loader.h"
 
 namespace ttf::cli {
-
-std::string hex_hash(const std::string& text) {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-  return fmt::format("{:016x}", hash);
-}
 
 schedules::Cluster checked_cluster(const std::string& file) {
   schedules::Cluster cluster = schedules::load_cluster(file);

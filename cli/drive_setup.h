@@ -19,9 +19,6 @@
 
 namespace ttf::cli {
 
-// FNV-1a, 64 bits, in hexadecimal digits: names the exact input that a log was made from.
-std::string hex_hash(const std::string& text);
-
 // A cluster that has passed its check, ready to run. Throws InputError.
 schedules::Cluster checked_cluster(const std::string& file);
 // That of the scenario's strategy. One that cannot be read at all is told as the scenario's mistake, with its line.

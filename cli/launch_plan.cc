@@ -15,6 +15,7 @@
 #include "cli/launch/shell_text.h"
 #include "cli/live_topics.h"
 #include "core/errors.h"
+#include "core/hash.h"
 #include "nodes/catalog.h"
 
 namespace ttf::cli {

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <yaml-cpp/eventhandler.h>
-#include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <charconv>
@@ -11,6 +10,7 @@
 
 #include "core/decimal.h"
 #include "core/file_bytes.h"
+#include "core/yaml_node.h"
 
 namespace ttf {
 
@@ -24,13 +24,6 @@ struct YamlMap::Content {
 namespace {
 
 int line_of(const YAML::Node& node) { return node.IsDefined() && node.Mark().line >= 0 ? node.Mark().line + 1 : 0; }
-
-YAML::Node child(const YAML::Node& node, std::string_view key) {
-  if (node.IsDefined() && node.IsMap())
-    for (const auto& entry : node)
-      if (entry.first.IsScalar() && entry.first.Scalar() == key) return entry.second;
-  return YAML::Node(YAML::NodeType::Undefined);
-}
 
 template <class T>
 std::optional<T> parse_number(std::string_view text) {

@@ -8,13 +8,9 @@
 
 #include "experiments/campaign_file.h"
 #include "experiments/fault_trial.h"
+#include "experiments/shard.h"
 
 namespace ttf::experiments {
-
-// Indices i of the campaign with i mod count == part.
-struct Shard {
-  std::uint32_t part = 0, count = 1;
-};
 
 struct FaultResult {
   std::uint32_t index = 0;
@@ -27,9 +23,6 @@ struct CampaignClusters {
   schedules::Cluster base;                        // faults are drawn in
   std::vector<schedules::Cluster> variants;       // in the file's order
 };
-
-// As many as there are processors.
-unsigned workers_here();
 
 // `progress`: called now and then by the calling thread, with how many faults are done.
 std::vector<FaultResult> run_campaign(const CampaignFile& campaign, const CampaignClusters& clusters, Shard shard,

@@ -1,0 +1,197 @@
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/drive_setup.h"
+#include "cli/experiment_options.h"
+#include "cli/output.h"
+#include "cli/progress.h"
+#include "core/counted.h"
+#include "core/errors.h"
+#include "experiments/sweep_engine.h"
+#include "experiments/sweep_measures.h"
+#include "experiments/sweep_text.h"
+
+namespace ttf::cli {
+namespace {
+
+using experiments::SweepDrives;
+using experiments::SweepFile;
+using results::Store;
+
+constexpr std::size_t kShownFailures = 10;   // the others are in runs.csv
+
+std::string key_text(const SweepFile& sweep, const results::RunKey& key) {
+  return fmt::format("{}/{}/{}", key.point, sweep.paradigms[key.paradigm].name, key.replication);
+}
+
+results::RunKey key_of(const std::string& text, const SweepFile& sweep) {
+  const std::size_t first = text.find('/'), second = text.rfind('/');
+  results::RunKey key;
+  const auto number = [](std::string_view part, std::size_t below, std::uint32_t& value) {
+    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
+    return error == std::errc{} && end == part.data() + part.size() && value < below;
+  };
+  if (first != std::string::npos && second > first) {
+    const std::string_view all = text;
+    const std::string_view name = all.substr(first + 1, second - first - 1);
+    for (std::uint32_t p = 0; p < sweep.paradigms.size(); ++p)
+      if (key.paradigm = p; sweep.paradigms[p].name == name && number(all.substr(0, first), sweep.points(), key.point) &&
+                            number(all.substr(second + 1), sweep.replications, key.replication))
+        return key;
+  }
+  throw InputError({"command line", 0, "--replay", text,
+                    fmt::format("must be point/paradigm/replication, of points 0..{} and replications 0..{}",
+                                sweep.points() - 1, sweep.replications - 1)});
+}
+
+int replay(const ExperimentOptions& options, const SweepDrives& drives) {
+  const SweepFile& sweep = drives.sweep();
+  const results::RunKey key = key_of(*options.replay, sweep);
+  const experiments::PreparedDrive drive = drives.prepare(key);
+  std::unique_ptr<recording::LogWriter> log;
+  if (!options.out.empty()) {
+    create_folder(options.out);
+    log = begin_log(fmt::format("{}/{}.mcap", options.out, sweep.paradigms[key.paradigm].name),
+                    manifest_of(drive.scenario, drive.cluster, drive.strategy, sweep.seed, {}), drive.scenario,
+                    drive.cluster);
+  }
+  const results::Run run = drives.run(key, drive, log.get());
+  if (log) {
+    log->close();
+    fmt::print(stderr, "written to {}\n", options.out);
+  }
+  fmt::print("{}, {}, replication {}: {}\n", sweep.label_of(key.point), sweep.paradigms[key.paradigm].name,
+             key.replication, run.status);
+  const std::vector<std::string> columns = drives.columns();
+  for (std::size_t c = 0; c < columns.size(); ++c)
+    fmt::print("  {} {}\n", columns[c], std::isnan(run.values[c]) ? "-" : fmt::format("{}", run.values[c]));
+  return run.status == results::kDone ? 0 : 1;
+}
+
+Store store_of(const ExperimentOptions& options, const SweepDrives& drives, const std::string& path) {
+  const SweepFile& sweep = drives.sweep();
+  if (!std::filesystem::exists(path))
+    return Store::create(path, {sweep.name, drives.identity(), TTF_VERSION, sweep.text, drives.columns()});
+  if (!options.resume)
+    throw InputError({path, 0, "", "", "is there already: --resume goes on with it, another --out begins anew"});
+  Store store = Store::open(path);
+  if (store.head().identity != drives.identity() || store.head().measures != drives.columns())
+    throw InputError({path, 0, "", "", "must be of this experiment: the file, its scenario or a cluster was another then"});
+  return store;
+}
+
+void merge(const ExperimentOptions& options, const SweepDrives& drives, Store& store) {
+  for (const std::string& folder : options.merge) {
+    const std::string path = folder + "/results.sqlite";
+    const Store shard = Store::open(path);
+    if (shard.head().identity != drives.identity())
+      throw InputError({path, 0, "", "", "must be of this experiment: the file, its scenario or a cluster was another then"});
+    std::vector<results::Run> some;
+    shard.for_each([&](const results::Run& run) {
+      some.push_back(run);
+      if (some.size() == 10'000) store.add(std::exchange(some, {}));
+    });
+    store.add(some);
+  }
+}
+
+void drive(const ExperimentOptions& options, const SweepDrives& drives, Store& store) {
+  const SweepFile& sweep = drives.sweep();
+  if (!options.shard.empty() && sweep.stop)
+    throw InputError({"command line", 0, "--shard", options.shard, "needs an experiment without `stop`: no shard sees enough"});
+  const unsigned jobs = options.jobs > 0 ? options.jobs : experiments::workers_here();
+  fmt::print(stderr, "{}: {}, {}, {}, {} ...\n", sweep.name, counted(sweep.points(), "point"),
+             counted(sweep.paradigms.size(), "paradigm"), counted(sweep.replications, "replication"), counted(jobs, "worker"));
+  const Progress progress("runs");
+  experiments::run_sweep(drives, store, shard_of(options.shard), jobs, [&](const experiments::SweepProgress& now) {
+    progress(now.done, now.all, now.driven);
+  });
+}
+
+nlohmann::ordered_json to_json(double value) {
+  return std::isnan(value) ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(value);
+}
+nlohmann::ordered_json to_json(const results::Interval& interval) {
+  return {{"count", interval.count}, {"mean", to_json(interval.mean)}, {"half_width", to_json(interval.half_width)}};
+}
+
+nlohmann::ordered_json to_json(const SweepFile& sweep, const experiments::SweepAnswer& answer) {
+  nlohmann::ordered_json json{{"experiment", sweep.name},     {"question", sweep.question},
+                              {"seed", sweep.seed},           {"confidence", sweep.confidence},
+                              {"runs", answer.runs},          {"failed", answer.failed},
+                              {"baseline", sweep.paradigms[sweep.baseline].name},
+                              {"answer", experiments::answer_sentences(sweep, answer)}};
+  const auto axes = sweep.grid();
+  for (const experiments::PointAnswer& point : answer.points) {
+    nlohmann::ordered_json one{{"point", point.point}};
+    const auto settings = sweep.settings_of(point.point);
+    for (std::size_t a = 0; a < axes.size(); ++a) one["axes"][axes[a]->name] = settings[a]->label;
+    for (std::size_t p = 0; p < sweep.paradigms.size(); ++p)
+      for (std::size_t m = 0; m < sweep.measures.size(); ++m) {
+        nlohmann::ordered_json& cell = one["paradigms"][sweep.paradigms[p].name][sweep.measures[m]];
+        cell = to_json(point.means[p][m]);
+        if (p != sweep.baseline) cell["difference"] = to_json(point.differences[p][m]);
+      }
+    json["points"].push_back(std::move(one));
+  }
+  for (const experiments::Crossing& crossing : answer.crossings)
+    json["crossings"].push_back({{"paradigm", sweep.paradigms[crossing.paradigm].name},
+                                 {"axis", crossing.axis},
+                                 {"at", crossing.at},
+                                 {"others", crossing.others},
+                                 {"certain", crossing.certain}});
+  for (const experiments::ExpectationAnswer& expectation : answer.expectations)
+    json["expectations"].push_back(
+        {{"expected", expectation.text}, {"holds", expectation.holds}, {"where_not", expectation.where_not}});
+  return json;
+}
+
+// Failed runs, each with what drives it again.
+std::string failures_text(const ExperimentOptions& options, const SweepFile& sweep, const Store& store) {
+  std::string text;
+  std::size_t shown = 0;
+  store.for_each([&](const results::Run& run) {
+    if (run.status == results::kDone || ++shown > kShownFailures) return;
+    text += fmt::format("{}: {}\n  ttfusion experiment {} --replay {}\n", sweep.label_of(run.key.point), run.status,
+                        options.file, key_text(sweep, run.key));
+  });
+  return text;
+}
+
+}  // namespace
+
+int run_sweep_experiment(const ExperimentOptions& options) {
+  const SweepFile sweep = experiments::load_sweep(options.file);
+  const SweepDrives drives(sweep);
+  if (options.replay) return replay(options, drives);
+  const std::string folder = options.out.empty() ? "out/" + sweep.name : options.out;
+  create_folder(folder);
+  Store store = store_of(options, drives, folder + "/results.sqlite");
+  if (options.merge.empty())
+    drive(options, drives, store);
+  else
+    merge(options, drives, store);
+
+  const experiments::SweepAnswer answer = experiments::answer_of(sweep, store);
+  const std::string text = experiments::answer_text(sweep, answer) + failures_text(options, sweep, store);
+  const nlohmann::ordered_json json = to_json(sweep, answer);
+  write_file(folder + "/answer.txt", text);
+  write_file(folder + "/answer.json", json.dump(2) + '\n');
+  write_file(folder + "/summary.csv", experiments::summary_csv(sweep, answer));
+  write_file(folder + "/runs.csv", experiments::runs_csv(sweep, store));
+  if (options.json)
+    fmt::print("{}\n", json.dump(2));
+  else
+    fmt::print("{}", text);
+  std::fflush(stdout);
+  fmt::print(stderr, "written to {}\n", folder);
+  return answer.holds() && answer.failed == 0 ? 0 : 1;
+}
+
+}  // namespace ttf::cli

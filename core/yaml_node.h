@@ -1,0 +1,18 @@
+// Of a parsed YAML text, for those who read or edit one.
+#pragma once
+
+#include <yaml-cpp/yaml.h>
+
+#include <string_view>
+
+namespace ttf {
+
+// Undefined where there is none.
+inline YAML::Node child(const YAML::Node& node, std::string_view key) {
+  if (node.IsDefined() && node.IsMap())
+    for (const auto& entry : node)
+      if (entry.first.IsScalar() && entry.first.Scalar() == key) return entry.second;
+  return YAML::Node(YAML::NodeType::Undefined);
+}
+
+}  // namespace ttf

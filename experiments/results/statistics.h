@@ -1,0 +1,37 @@
+// Means, and how sure they are.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+namespace ttf::results {
+
+// Mean and variance of what is added, in one pass (Welford: "Note on a method for calculating corrected sums of squares
+// and products", Technometrics 4, 1962). What is not a number is not counted.
+class Moments {
+ public:
+  void add(double x);
+  std::uint64_t count() const { return count_; }
+  double mean() const { return count_ > 0 ? mean_ : std::numeric_limits<double>::quiet_NaN(); }
+  double variance() const;   // of the samples, unbiased; not a number of fewer than two
+
+ private:
+  std::uint64_t count_ = 0;
+  double mean_ = 0.0, squares_ = 0.0;
+};
+
+// mean +- half_width contains the expectation in a share `confidence` of all such samples, if the mean is normally
+// distributed: Student's t. Not a number where there are too few.
+struct Interval {
+  std::uint64_t count = 0;
+  double mean = std::numeric_limits<double>::quiet_NaN();
+  double half_width = std::numeric_limits<double>::quiet_NaN();
+
+  double low() const { return mean - half_width; }
+  double high() const { return mean + half_width; }
+  bool below(double x) const { return high() < x; }   // for certain
+  bool above(double x) const { return low() > x; }
+};
+Interval interval_of(const Moments& moments, double confidence);
+
+}  // namespace ttf::results

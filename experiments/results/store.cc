@@ -1,0 +1,218 @@
+#include "experiments/results/store.h"
+
+#include <fmt/format.h>
+#include <sqlite3.h>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <string_view>
+
+#include "core/errors.h"
+
+namespace ttf::results {
+namespace {
+
+// Names come from experiment files: whatever they are, they stay names.
+std::string identifier(std::string_view name) {
+  std::string out = "\"";
+  for (const char c : name) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + '"';
+}
+
+}  // namespace
+
+struct Store::Database {
+  sqlite3* handle = nullptr;
+  std::string path;
+
+  Database(const std::string& file, int flags) : path(file) {
+    if (sqlite3_open_v2(file.c_str(), &handle, flags, nullptr) == SQLITE_OK) return;
+    const std::string why = handle != nullptr ? sqlite3_errmsg(handle) : "no memory";
+    sqlite3_close(handle);
+    throw std::runtime_error(file + ": " + why);
+  }
+  ~Database() { sqlite3_close(handle); }
+  Database(const Database&) = delete;
+  Database& operator=(const Database&) = delete;
+
+  [[noreturn]] void fail() const { throw std::runtime_error(path + ": " + sqlite3_errmsg(handle)); }
+  void execute(const std::string& sql) const {
+    if (sqlite3_exec(handle, sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) fail();
+  }
+};
+
+namespace {
+
+class Statement {
+ public:
+  Statement(sqlite3* database, const std::string& path, const std::string& sql) : database_(database), path_(path) {
+    if (sqlite3_prepare_v2(database, sql.c_str(), -1, &handle_, nullptr) != SQLITE_OK) fail();
+  }
+  ~Statement() { sqlite3_finalize(handle_); }
+  Statement(const Statement&) = delete;
+  Statement& operator=(const Statement&) = delete;
+
+  void bind(int at, std::int64_t value) { check(sqlite3_bind_int64(handle_, at, value)); }
+  void bind(int at, double value) {
+    check(std::isnan(value) ? sqlite3_bind_null(handle_, at) : sqlite3_bind_double(handle_, at, value));
+  }
+  void bind(int at, std::string_view text) {
+    check(sqlite3_bind_text(handle_, at, text.data(), static_cast<int>(text.size()), SQLITE_TRANSIENT));
+  }
+  bool row() {   // false: no more
+    const int code = sqlite3_step(handle_);
+    if (code != SQLITE_ROW && code != SQLITE_DONE) fail();
+    return code == SQLITE_ROW;
+  }
+  void again() { sqlite3_reset(handle_); }
+  std::int64_t integer(int column) const { return sqlite3_column_int64(handle_, column); }
+  double number(int column) const {
+    return sqlite3_column_type(handle_, column) == SQLITE_NULL ? std::numeric_limits<double>::quiet_NaN()
+                                                               : sqlite3_column_double(handle_, column);
+  }
+  std::string text(int column) const {
+    const unsigned char* text = sqlite3_column_text(handle_, column);
+    return text == nullptr ? std::string() : std::string(reinterpret_cast<const char*>(text));
+  }
+
+ private:
+  void check(int code) const {
+    if (code != SQLITE_OK) fail();
+  }
+  [[noreturn]] void fail() const { throw std::runtime_error(path_ + ": " + sqlite3_errmsg(database_)); }
+
+  sqlite3* database_;
+  const std::string& path_;
+  sqlite3_stmt* handle_ = nullptr;
+};
+
+Run run_of(const Statement& statement, std::size_t measures) {
+  Run run;
+  run.key = {static_cast<std::uint32_t>(statement.integer(0)), static_cast<std::uint32_t>(statement.integer(1)),
+             static_cast<std::uint32_t>(statement.integer(2))};
+  run.status = statement.text(3);
+  for (std::size_t m = 0; m < measures; ++m) run.values.push_back(statement.number(4 + static_cast<int>(m)));
+  return run;
+}
+
+std::string columns(const StoreHead& head) {
+  std::string list = "point, replication, paradigm, status";
+  for (const std::string& measure : head.measures) list += ", " + identifier(measure);
+  return list;
+}
+
+}  // namespace
+
+Store::Store(std::unique_ptr<Database> database) : database_(std::move(database)) {}
+Store::~Store() = default;
+Store::Store(Store&&) noexcept = default;
+Store& Store::operator=(Store&&) noexcept = default;
+
+Store Store::create(const std::string& path, const StoreHead& head) {
+  if (std::filesystem::exists(path)) throw std::runtime_error(path + ": is there already");
+  Store store(std::make_unique<Database>(path, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE));
+  store.head_ = head;
+  const Database& database = *store.database_;
+  // In one transaction: a store without its head is none.
+  database.execute("BEGIN; CREATE TABLE meta(key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID");
+  Statement meta(database.handle, database.path, "INSERT INTO meta VALUES(?, ?)");
+  std::string measures, table;
+  for (const std::string& measure : head.measures) {
+    measures += measure + '\n';
+    table += ", " + identifier(measure) + " REAL";
+  }
+  using Pair = std::pair<std::string_view, std::string_view>;
+  for (const auto& [key, value] : {Pair{"name", head.name}, Pair{"identity", head.identity},
+                                   Pair{"version", head.version}, Pair{"text", head.text}, Pair{"measures", measures}}) {
+    meta.bind(1, key);
+    meta.bind(2, value);
+    meta.row();
+    meta.again();
+  }
+  database.execute("CREATE TABLE runs(point INTEGER, replication INTEGER, paradigm INTEGER, status TEXT NOT NULL" + table +
+                   ", PRIMARY KEY(point, replication, paradigm)) WITHOUT ROWID; COMMIT");
+  return store;
+}
+
+Store Store::open(const std::string& path) {
+  if (!std::filesystem::exists(path)) throw InputError({path, 0, "", "", "cannot be opened: no such file"});
+  try {
+    Store store(std::make_unique<Database>(path, SQLITE_OPEN_READWRITE));
+    Statement meta(store.database_->handle, store.database_->path, "SELECT key, value FROM meta");
+    std::optional<std::string> measures;
+    while (meta.row()) {
+      const std::string key = meta.text(0), value = meta.text(1);
+      if (key == "name") store.head_.name = value;
+      if (key == "identity") store.head_.identity = value;
+      if (key == "version") store.head_.version = value;
+      if (key == "text") store.head_.text = value;
+      if (key == "measures") measures = value;
+    }
+    if (!measures) throw std::runtime_error(path + ": no measures");
+    for (std::size_t begin = 0, end = 0; (end = measures->find('\n', begin)) != std::string::npos; begin = end + 1)
+      store.head_.measures.push_back(measures->substr(begin, end - begin));
+    Statement runs(store.database_->handle, store.database_->path,
+                   "SELECT " + columns(store.head_) + " FROM runs LIMIT 1");   // whether they are as said
+    (void)runs.row();
+    return store;
+  } catch (const std::runtime_error& error) {
+    throw InputError({path, 0, "", "", std::string("must be a store of runs; SQLite says: ") + error.what()});
+  }
+}
+
+void Store::add(const std::vector<Run>& runs) {
+  std::string marks = "?, ?, ?, ?";
+  for (std::size_t m = 0; m < head_.measures.size(); ++m) marks += ", ?";
+  database_->execute("BEGIN");
+  try {
+    Statement insert(database_->handle, database_->path,
+                     "INSERT OR IGNORE INTO runs(" + columns(head_) + ") VALUES(" + marks + ")");
+    for (const Run& run : runs) {
+      insert.bind(1, std::int64_t{run.key.point});
+      insert.bind(2, std::int64_t{run.key.replication});
+      insert.bind(3, std::int64_t{run.key.paradigm});
+      insert.bind(4, std::string_view(run.status));
+      for (std::size_t m = 0; m < head_.measures.size(); ++m) insert.bind(5 + static_cast<int>(m), run.values.at(m));
+      insert.row();
+      insert.again();
+    }
+    database_->execute("COMMIT");
+  } catch (const std::runtime_error&) {
+    sqlite3_exec(database_->handle, "ROLLBACK", nullptr, nullptr, nullptr);   // some errors have done so already
+    throw;
+  }
+}
+
+std::uint64_t Store::count() const {
+  Statement count(database_->handle, database_->path, "SELECT count(*) FROM runs");
+  count.row();
+  return static_cast<std::uint64_t>(count.integer(0));
+}
+
+std::vector<RunKey> Store::keys() const {
+  std::vector<RunKey> keys;
+  Statement runs(database_->handle, database_->path,
+                 "SELECT point, replication, paradigm, status FROM runs ORDER BY point, replication, paradigm");
+  while (runs.row()) keys.push_back(run_of(runs, 0).key);
+  return keys;
+}
+
+void Store::for_each(const std::function<void(const Run&)>& use) const {
+  Statement runs(database_->handle, database_->path,
+                 "SELECT " + columns(head_) + " FROM runs ORDER BY point, replication, paradigm");
+  while (runs.row()) use(run_of(runs, head_.measures.size()));
+}
+
+std::vector<Run> Store::of_point(std::uint32_t point) const {
+  std::vector<Run> found;
+  Statement runs(database_->handle, database_->path,
+                 "SELECT " + columns(head_) + " FROM runs WHERE point = ? ORDER BY replication, paradigm");
+  runs.bind(1, std::int64_t{point});
+  while (runs.row()) found.push_back(run_of(runs, head_.measures.size()));
+  return found;
+}
+
+}  // namespace ttf::results

@@ -1,0 +1,17 @@
+// A part of an experiment, for one of several machines; and how many workers this one has.
+#pragma once
+
+#include <cstdint>
+
+namespace ttf::experiments {
+
+// Indices i with i mod count == part.
+struct Shard {
+  std::uint32_t part = 0, count = 1;
+  bool has(std::uint64_t index) const { return index % count == part; }
+};
+
+// As many as there are processors.
+unsigned workers_here();
+
+}  // namespace ttf::experiments

@@ -1,0 +1,155 @@
+#include "experiments/sweep_answer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/counted.h"
+
+namespace ttf::experiments {
+namespace {
+
+using results::Interval;
+using results::Moments;
+using results::Run;
+
+// Adds up a point's runs, which come replication by replication.
+class Sums {
+ public:
+  explicit Sums(const SweepFile& sweep, std::size_t other_than_baseline)
+      : sweep_(sweep), against_(other_than_baseline), first_(sweep.drawn().size()),
+        means_(sweep.paradigms.size(), std::vector<Moments>(sweep.measures.size())), differences_(means_),
+        of_replication_(sweep.paradigms.size(), nullptr) {}
+
+  void add(const Run& run) {
+    if (run.key.replication != replication_) end_replication();
+    replication_ = run.key.replication;
+    if (run.status != results::kDone) return;
+    kept_.push_back(run);
+    for (std::size_t m = 0; m < sweep_.measures.size(); ++m) means_[run.key.paradigm][m].add(run.values[first_ + m]);
+  }
+  PointAnswer finish(std::uint32_t point) {
+    end_replication();
+    PointAnswer answer{point, {}, {}};
+    for (std::size_t p = 0; p < means_.size(); ++p) {
+      answer.means.push_back(intervals(means_[p]));
+      answer.differences.push_back(intervals(differences_[p]));
+    }
+    return answer;
+  }
+
+ private:
+  void end_replication() {
+    std::fill(of_replication_.begin(), of_replication_.end(), nullptr);
+    for (const Run& run : kept_) of_replication_[run.key.paradigm] = &run;
+    const Run* baseline = of_replication_[against_];
+    for (std::size_t p = 0; p < differences_.size() && baseline != nullptr; ++p)
+      if (const Run* run = of_replication_[p]; run != nullptr && p != against_)
+        for (std::size_t m = 0; m < sweep_.measures.size(); ++m)
+          differences_[p][m].add(run->values[first_ + m] - baseline->values[first_ + m]);
+    kept_.clear();
+  }
+  std::vector<Interval> intervals(const std::vector<Moments>& moments) const {
+    std::vector<Interval> all;
+    for (const Moments& one : moments) all.push_back(interval_of(one, sweep_.confidence));
+    return all;
+  }
+
+  const SweepFile& sweep_;
+  std::size_t against_, first_;
+  std::vector<std::vector<Moments>> means_, differences_;
+  std::vector<const Run*> of_replication_;
+  std::vector<Run> kept_;
+  std::uint32_t replication_ = 0;
+};
+
+std::size_t index_of(const SweepFile& sweep, const std::string& paradigm) {
+  const auto found = std::find_if(sweep.paradigms.begin(), sweep.paradigms.end(),
+                                  [&](const Paradigm& one) { return one.name == paradigm; });
+  return static_cast<std::size_t>(found - sweep.paradigms.begin());
+}
+
+std::vector<PointAnswer> points_of(const SweepFile& sweep, const results::Store& store, std::size_t baseline,
+                                   SweepAnswer* counts) {
+  std::vector<PointAnswer> points;
+  for (std::uint32_t point = 0; point < sweep.points(); ++point) {
+    Sums sums(sweep, baseline);
+    for (const Run& run : store.of_point(point)) {
+      sums.add(run);
+      if (counts == nullptr) continue;
+      ++counts->runs;
+      counts->failed += run.status != results::kDone;
+    }
+    points.push_back(sums.finish(point));
+  }
+  return points;
+}
+
+// Along one axis, from every point whose neighbour on it there is.
+void find_crossings(const SweepFile& sweep, std::size_t paradigm, std::size_t a, SweepAnswer& answer) {
+  const std::vector<const Axis*> grid = sweep.grid();
+  const Axis& axis = *grid[a];
+  std::uint32_t stride = 1;
+  for (std::size_t later = a + 1; later < grid.size(); ++later)
+    stride *= static_cast<std::uint32_t>(grid[later]->settings.size());
+  for (std::uint32_t point = 0; point + stride < answer.points.size(); ++point) {
+    const std::vector<const Setting*> settings = sweep.settings_of(point), next = sweep.settings_of(point + stride);
+    if (settings[a] + 1 != next[a] || !settings[a]->number || !next[a]->number) continue;
+    const Interval before = answer.points[point].differences[paradigm].front();
+    const Interval after = answer.points[point + stride].differences[paradigm].front();
+    if (!(before.mean * after.mean < 0.0)) continue;
+    const double part = before.mean / (before.mean - after.mean), x = *settings[a]->number, y = *next[a]->number;
+    std::vector<std::string> others;
+    for (std::size_t other = 0; other < grid.size(); ++other)
+      if (other != a && grid[other]->settings.size() > 1) others.push_back(grid[other]->name + " " + settings[other]->label);
+    const auto certain = [](const Interval& interval) { return interval.below(0.0) || interval.above(0.0); };
+    answer.crossings.push_back({paradigm, axis.name, joined(others), point, point + stride,
+                                axis.logarithmic ? x * std::pow(y / x, part) : x + part * (y - x),
+                                certain(before) && certain(after)});
+  }
+}
+
+ExpectationAnswer judge(const SweepFile& sweep, const Expectation& expectation, const results::Store& store) {
+  ExpectationAnswer answer{expectation.text, true, {}};
+  const std::size_t less = index_of(sweep, expectation.less), than = index_of(sweep, expectation.than);
+  const auto measure = static_cast<std::size_t>(
+      std::find(sweep.measures.begin(), sweep.measures.end(), expectation.measure) - sweep.measures.begin());
+  const std::vector<const Axis*> grid = sweep.grid();
+  for (const PointAnswer& point : points_of(sweep, store, than, nullptr)) {
+    const std::vector<const Setting*> settings = sweep.settings_of(point.point);
+    bool meant = true;
+    for (std::size_t a = 0; a < grid.size(); ++a)
+      if (const auto label = expectation.where.find(grid[a]->name); label != expectation.where.end())
+        meant = meant && label->second == settings[a]->label;
+    if (!meant || point.differences[less][measure].below(0.0)) continue;
+    answer.holds = false;
+    answer.where_not.push_back(sweep.label_of(point.point));
+  }
+  return answer;
+}
+
+}  // namespace
+
+bool SweepAnswer::holds() const {
+  return std::all_of(expectations.begin(), expectations.end(), [](const ExpectationAnswer& one) { return one.holds; });
+}
+
+SweepAnswer answer_of(const SweepFile& sweep, const results::Store& store) {
+  SweepAnswer answer;
+  answer.points = points_of(sweep, store, sweep.baseline, &answer);
+  for (std::size_t p = 0; p < sweep.paradigms.size(); ++p)
+    for (std::size_t a = 0; a < sweep.grid().size() && p != sweep.baseline; ++a) find_crossings(sweep, p, a, answer);
+  for (const Expectation& expectation : sweep.expectations) answer.expectations.push_back(judge(sweep, expectation, store));
+  return answer;
+}
+
+bool sure_enough(const SweepFile& sweep, const std::vector<Run>& runs, std::uint32_t to) {
+  Sums sums(sweep, sweep.baseline);
+  for (const Run& run : runs)
+    if (run.key.replication < to) sums.add(run);
+  const PointAnswer answer = sums.finish(0);
+  for (std::size_t p = 0; p < sweep.paradigms.size(); ++p)
+    if (p != sweep.baseline && !(answer.differences[p].front().half_width <= sweep.stop->half_width)) return false;
+  return true;
+}
+
+}  // namespace ttf::experiments

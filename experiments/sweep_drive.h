@@ -1,0 +1,54 @@
+// One run of an experiment: the base scenario and the paradigm's cluster with what the point, the paradigm and the
+// replication change in them, driven and measured.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "experiments/results/store.h"
+#include "experiments/sweep_file.h"
+#include "nodes/scenario.h"
+#include "recording/records/records.h"
+#include "schedules/cluster.h"
+
+namespace ttf::experiments {
+
+struct PreparedDrive {
+  nodes::Scenario scenario;
+  schedules::Cluster cluster;
+  fusion::StrategyKind strategy{};
+};
+
+// The files an experiment follows from, read once; const afterwards, for many workers.
+class SweepDrives {
+ public:
+  // Prepares every point of small grids, of large ones every value of every axis, so that what cannot be driven is known
+  // before anything is. Throws InputError, whose sentences name file, line and point.
+  explicit SweepDrives(const SweepFile& sweep);
+
+  // Throws InputError.
+  PreparedDrive prepare(const results::RunKey& key) const;
+  // By random axis, in the file's order: a function of seed, axis and replication alone.
+  std::vector<double> drawn(std::uint32_t replication) const;
+  // Measures and drawn axes; a run that fails says why.
+  results::Run run(const results::RunKey& key) const;
+  // The same of a drive that is prepared, with a listener more.
+  results::Run run(const results::RunKey& key, const PreparedDrive& drive, records::Sink* listener = nullptr) const;
+
+  // The store's columns: a drawn axis is called as in the file.
+  std::vector<std::string> columns() const;
+  // A hash of all files that the runs follow from.
+  const std::string& identity() const { return identity_; }
+  const SweepFile& sweep() const { return sweep_; }
+
+ private:
+  void prepare_at(const results::RunKey& key);
+
+  const SweepFile& sweep_;
+  std::string scenario_text_;
+  std::map<std::string, std::string> clusters_;   // text by path
+  std::string identity_;
+};
+
+}  // namespace ttf::experiments

@@ -1,0 +1,152 @@
+#include "experiments/sweep_engine.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "experiments/sweep_answer.h"
+
+namespace ttf::experiments {
+namespace {
+
+using results::Run;
+using results::RunKey;
+
+constexpr std::uint32_t kAtATime = 8;                    // replications of one drive, which is prepared once for them
+constexpr std::chrono::milliseconds kWritten{500};       // how long a run waits at most to be written down
+constexpr std::size_t kMostWaiting = 100'000;            // runs
+
+// Which runs there are, a bit each.
+class Ledger {
+ public:
+  Ledger(const SweepFile& sweep, const results::Store& store)
+      : replications_(sweep.replications), paradigms_(sweep.paradigms.size()),
+        there_(sweep.points() * replications_ * paradigms_, false) {
+    for (const RunKey& key : store.keys()) there_[index_of(key)] = true;
+  }
+  bool has(const RunKey& key) const { return there_[index_of(key)]; }
+  void add(const RunKey& key) { there_[index_of(key)] = true; }
+
+ private:
+  std::size_t index_of(const RunKey& key) const {
+    return (std::size_t{key.point} * replications_ + key.replication) * paradigms_ + key.paradigm;
+  }
+  std::size_t replications_, paradigms_;
+  std::vector<bool> there_;
+};
+
+// Drives `wanted` on all workers; `take` gets what is there now and then, on the calling thread.
+class Workers {
+ public:
+  Workers(const SweepDrives& drives, const std::vector<RunKey>& wanted) : drives_(drives), wanted_(wanted) {}
+
+  void work(unsigned workers, const std::function<void(std::vector<Run>)>& take) {
+    running_ = workers;
+    std::vector<std::thread> threads;
+    for (unsigned w = 0; w < workers; ++w) threads.emplace_back([this] { drive(); });
+    std::exception_ptr failure;
+    for (bool last = false; !last;) {
+      std::vector<Run> runs;
+      {
+        std::unique_lock lock(mutex_);
+        changed_.wait_for(lock, kWritten, [&] { return running_ == 0; });
+        last = running_ == 0;
+        runs.swap(waiting_);
+      }
+      changed_.notify_all();
+      try {
+        if (!failure) take(std::move(runs));
+      } catch (...) {
+        failure = std::current_exception();
+        next_ = wanted_.size();
+      }
+    }
+    for (std::thread& thread : threads) thread.join();
+    if (failure) std::rethrow_exception(failure);
+  }
+
+ private:
+  // Neighbours are of one drive as far as they go; its preparation is shared unless something is drawn for each.
+  void drive() {
+    const bool shared = drives_.sweep().drawn().empty();
+    for (std::size_t first = next_.fetch_add(kAtATime); first < wanted_.size(); first = next_.fetch_add(kAtATime)) {
+      const std::size_t end = std::min<std::size_t>(first + kAtATime, wanted_.size());
+      std::optional<PreparedDrive> prepared;
+      for (std::size_t r = first; r < end; ++r) {
+        const RunKey& key = wanted_[r];
+        const bool same = r > first && key.point == wanted_[r - 1].point && key.paradigm == wanted_[r - 1].paradigm;
+        if (!same) prepared.reset();
+        if (shared && !prepared) prepared = try_prepare(key);
+        Run run = prepared ? drives_.run(key, *prepared) : drives_.run(key);
+        std::unique_lock lock(mutex_);
+        changed_.wait(lock, [&] { return waiting_.size() < kMostWaiting; });
+        waiting_.push_back(std::move(run));
+      }
+    }
+    const std::lock_guard lock(mutex_);
+    --running_;
+    changed_.notify_all();
+  }
+
+  // Nothing where it cannot be: run() says why.
+  std::optional<PreparedDrive> try_prepare(const RunKey& key) const {
+    try {
+      return drives_.prepare(key);
+    } catch (const std::exception&) {
+      return std::nullopt;
+    }
+  }
+
+  const SweepDrives& drives_;
+  const std::vector<RunKey>& wanted_;
+  std::atomic<std::size_t> next_{0};
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<Run> waiting_;      // guarded, as the next
+  unsigned running_ = 0;
+};
+
+}  // namespace
+
+void run_sweep(const SweepDrives& drives, results::Store& store, Shard shard, unsigned workers,
+               const std::function<void(const SweepProgress&)>& progress) {
+  const SweepFile& sweep = drives.sweep();
+  const auto points = static_cast<std::uint32_t>(sweep.points());
+  const auto paradigms = static_cast<std::uint32_t>(sweep.paradigms.size());
+  Ledger ledger(sweep, store);
+  SweepProgress now;
+  now.done = store.count();
+  for (std::uint32_t r = 0; r < sweep.replications; ++r)
+    if (shard.has(r)) now.all += std::uint64_t{points} * paradigms;
+
+  std::vector<bool> enough(points, false);
+  const std::uint32_t batch = sweep.stop ? sweep.stop->batch : sweep.replications;
+  for (std::uint32_t from = 0; from < sweep.replications; from += batch) {
+    const std::uint32_t to = std::min(sweep.replications, from + batch);
+    std::vector<RunKey> wanted;
+    for (std::uint32_t point = 0; point < points; ++point)
+      for (std::uint32_t paradigm = 0; paradigm < paradigms && !enough[point]; ++paradigm)
+        for (std::uint32_t r = from; r < to; ++r)
+          if (const RunKey key{point, r, paradigm}; shard.has(r) && !ledger.has(key)) wanted.push_back(key);
+    Workers(drives, wanted).work(workers, [&](std::vector<Run> runs) {
+      store.add(runs);
+      for (const Run& run : runs) {
+        ledger.add(run.key);
+        now.failed += run.status != results::kDone;
+      }
+      now.done += runs.size();
+      now.driven += runs.size();
+      progress(now);
+    });
+    if (!sweep.stop) continue;
+    for (std::uint32_t point = 0; point < points; ++point)
+      if (!enough[point]) enough[point] = sure_enough(sweep, store.of_point(point), to);
+    if (std::find(enough.begin(), enough.end(), false) == enough.end()) return;
+  }
+}
+
+}  // namespace ttf::experiments

@@ -1,0 +1,100 @@
+// An experiment as one file says it: the same drives under several paradigms, over a grid of what is varied.
+//
+//   kind: sweep
+//   name: process_noise_crossover
+//   question: Is it better to measure often or to know when?
+//   scenario: ../scenarios/paper_scenario1.yaml    from this file's folder, as all files
+//   seed: 1
+//   replications: 1000                             of every point, each with draws of its own, the same for all paradigms
+//   paradigms:                                     who is compared, each a drive of every point and replication
+//     event_triggered: {strategy: adva}            on the scenario's cluster for it
+//     time_triggered:  {strategy: tt, cluster: ../schedules/paper_synchronised.yaml,
+//                       set: {tracker.process_noise: 2}}
+//   axes:                                          what is varied; the grid has every combination
+//     noise:  {keys: [world.acceleration_noise], values: [0.5, 1, 2]}
+//     period: {keys: [cluster.sensors.camera.period], from: 30, to: 60, count: 4, scale: logarithmic, unit: ms}
+//     road:   {settings: {dry: {world.yaw_rate_noise: 0.05}, icy: {world.yaw_rate_noise: 0.2}}}
+//     load:   {keys: [cluster.can.observation_can.other_load], uniform: [0, 0.3]}   no grid: drawn once a replication
+//   measures: [position_rmse_truth, nees]          experiments/sweep_measures.h; the first is what is asked for; absent: all
+//   compare: {baseline: event_triggered, confidence: 0.95}
+//   stop: {half_width: 0.002, batch: 50}           a point has enough when the first measure's differences are that sure
+//   expect:                                        what must come out, or the command exits with 1
+//     - {measure: position_rmse_truth, less: time_triggered, than: event_triggered, where: {noise: 2}}
+//
+// A key leads to a scalar of the scenario that is written there, "world.objects[0].speed"; of the paradigm's cluster where it
+// begins with "cluster.". The values of an axis with several keys go to all of them.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fusion/strategy.h"
+
+namespace ttf::experiments {
+
+struct Setting {
+  std::string label;                                            // how tables and expectations call it
+  std::optional<double> number;                                 // where it is one: of a range, or of values that all are
+  std::vector<std::pair<std::string, std::string>> edits;       // key, value
+};
+
+struct Axis {
+  std::string name;
+  std::vector<Setting> settings;                // of a random axis: none
+  bool logarithmic = false;
+  // Random: uniformly from `low` to `high`, to all keys.
+  std::vector<std::string> keys;
+  double low = 0.0, high = 0.0;
+  std::string unit;                             // behind numbers; may be empty
+  bool random() const { return settings.empty(); }
+};
+
+struct Paradigm {
+  std::string name;
+  fusion::StrategyKind strategy{};
+  std::optional<std::string> cluster_file;      // none: the scenario's for the strategy
+  std::vector<std::pair<std::string, std::string>> edits;
+};
+
+struct StopRule {
+  double half_width = 0.0;                      // of the intervals of differences from the baseline, in the measure's unit
+  std::uint32_t batch = 0;                      // replications after which it is looked at
+};
+
+struct Expectation {
+  std::string measure, less, than;
+  std::map<std::string, std::string> where;     // axis, label; of axes that are not named: everywhere
+  std::string text;
+};
+
+struct SweepFile {
+  std::string name, question, file, text;
+  std::string scenario_file;
+  std::uint64_t seed = 0;
+  std::uint32_t replications = 0;
+  std::vector<Paradigm> paradigms;              // the baseline is one of them
+  std::vector<Axis> axes;
+  std::vector<std::string> measures;
+  std::size_t baseline = 0;
+  double confidence = 0.95;
+  std::optional<StopRule> stop;
+  std::vector<Expectation> expectations;
+
+  std::vector<const Axis*> grid() const;        // axes that are not random, in the file's order
+  std::vector<const Axis*> drawn() const;       // random ones
+  std::size_t points() const;                   // of the grid
+  // The setting of every grid axis at a point; the last axis counts on first.
+  std::vector<const Setting*> settings_of(std::uint32_t point) const;
+  // "noise 2, road icy".
+  std::string label_of(std::uint32_t point) const;
+};
+
+// Both throw InputError with every finding.
+SweepFile load_sweep(const std::string& path);
+SweepFile parse_sweep(std::string text, std::string name);
+
+}  // namespace ttf::experiments
