@@ -1,0 +1,84 @@
+#!/usr/bin/env bash
+# `ttfusion experiment` of a sweep: killed and resumed, in shards, one run again, and what is refused.
+#   sweep_command_test.sh PROGRAM SOURCE_DIR
+set -u
+program=$1
+source=$2
+source "$(dirname "$0")/expect.sh"
+
+cat >"$work/small.yaml" <<END
+kind: sweep
+name: small
+question: Is it so?
+scenario: $source/scenarios/dynamics.yaml
+seed: 3
+replications: 40
+paradigms:
+  adva: {strategy: adva, set: {duration: 700 ms, evaluate_from: 400 ms}}
+  tt: {strategy: tt, set: {duration: 700 ms, evaluate_from: 400 ms}}
+axes:
+  noise: {keys: [world.acceleration_noise], values: [1, 40]}
+measures: [position_rmse_truth, age_fused]
+END
+file=$work/small.yaml
+
+expect 0 'position_rmse_truth of tt is (less|more) than of adva|undecided at' experiment "$file" --out "$work/whole"
+for name in answer.txt answer.json runs.csv summary.csv results.sqlite; do
+  [[ -s $work/whole/$name ]] || fail "no $name"
+done
+[[ $(wc -l <"$work/whole/runs.csv") -eq 161 ]] || fail "not 160 runs: $(wc -l <"$work/whole/runs.csv")"
+expect 2 'results.sqlite: is there already: --resume goes on with it' experiment "$file" --out "$work/whole"
+
+# ---- killed twice, wherever it is, and resumed: as if nothing had been
+for round in 1 2; do
+  "$program" experiment "$file" --out "$work/killed" --resume --jobs 2 >/dev/null 2>&1 &
+  victim=$!
+  for _ in $(seq 200); do
+    rows=$(python3 -c "import sqlite3, sys
+try: print(sqlite3.connect('file:' + sys.argv[1] + '?mode=ro', uri=True).execute('select count(*) from runs').fetchone()[0])
+except sqlite3.Error: print(0)" "$work/killed/results.sqlite")
+    [[ $rows -ge $((round * 20)) ]] && break
+    sleep 0.05
+  done
+  kill -9 "$victim" 2>/dev/null || fail "round $round: it was done before it could be killed"
+  wait "$victim" 2>/dev/null
+done
+expect 0 'written to' experiment "$file" --out "$work/killed" --resume
+for name in runs.csv summary.csv answer.txt answer.json; do
+  cmp "$work/whole/$name" "$work/killed/$name" || fail "$name of a run that was killed twice is another"
+done
+
+# ---- in two shards
+expect 0 '' experiment "$file" --shard 1/2 --out "$work/first"
+expect 0 '' experiment "$file" --shard 2/2 --out "$work/second"
+expect 0 '' experiment "$file" --merge "$work/second" "$work/first" --out "$work/both"
+cmp "$work/whole/runs.csv" "$work/both/runs.csv" || fail "two shards put together are not the whole"
+
+# ---- one run again is the row
+expect 0 'noise 40, tt, replication 7: done' experiment "$file" --replay 1/tt/7 --out "$work/one"
+value=$("$program" experiment "$file" --replay 1/tt/7 | awk '$1 == "position_rmse_truth" {print $2}')
+grep -q "^1,40,7,tt,done,$value," "$work/whole/runs.csv" || fail "the run that is driven again is another: $value"
+expect 0 '' diagram "$work/one/tt.mcap" --from 0.5 --to 0.55 -o "$work/one.svg"
+expect 2 '--replay = 1/tt: must be point/paradigm/replication, of points 0..1 and replications 0..39' \
+  experiment "$file" --replay 1/tt
+expect 2 'must be point/paradigm/replication' experiment "$file" --replay 2/tt/0
+expect 2 'must be point/paradigm/replication' experiment "$file" --replay 1/buff/0
+
+# ---- what is refused, and what does not come out as expected
+sed 's/seed: 3/seed: 4/' "$file" >"$work/other.yaml"
+expect 2 'must be of this experiment: the file, its scenario or a cluster was another then' \
+  experiment "$work/other.yaml" --out "$work/whole" --resume
+expect 2 'must be of this experiment' experiment "$work/other.yaml" --merge "$work/first" --out "$work/none"
+sed 's/replications: 40/replications: 4/' "$file" >"$work/few.yaml"
+echo "expect: [{measure: age_fused, less: adva, than: tt}, {measure: age_fused, less: tt, than: adva}]" >>"$work/few.yaml"
+expect 1 'does not hold for certain at' experiment "$work/few.yaml" --out "$work/few"
+echo "surplus: 1" >>"$work/few.yaml"
+expect 2 'few.yaml:14: surplus' experiment "$work/few.yaml" --out "$work/never"
+[[ -e $work/never ]] && fail "a broken file leaves a folder behind"
+echo "kind: other" >"$work/kind.yaml"
+expect 2 'kind = other: must be sweep or fault_campaign' experiment "$work/kind.yaml"
+touch "$work/no_folder"
+expect 1 'no_folder' experiment "$file" --out "$work/no_folder/results"
+
+[[ $failures -eq 0 ]] && echo "sweeps: as documented"
+exit $((failures > 0))

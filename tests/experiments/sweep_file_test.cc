@@ -1,0 +1,82 @@
+#include "experiments/sweep_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/errors.h"
+#include "experiments/sweep_drive.h"
+#include "tests/experiments/small_sweep.h"
+
+namespace ttf::experiments {
+namespace {
+
+using testing::HasSubstr;
+
+const std::string kHead =
+    "kind: sweep\nname: small\nquestion: q\nscenario: ../scenarios/dynamics.yaml\nseed: 1\nreplications: 2\n"
+    "paradigms: {a: {strategy: adva}, t: {strategy: tt}}\n";
+
+SweepFile file(const std::string& more) { return parse_sweep(kHead + more, TTF_SOURCE_DIR "/experiments/small.yaml"); }
+std::string refusal(const std::string& text) {
+  try {
+    const SweepFile sweep = parse_sweep(text, TTF_SOURCE_DIR "/experiments/small.yaml");
+    const SweepDrives drives(sweep);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "taken";
+}
+
+TEST(SweepFile, ListsRangesSettingsAndDraws) {
+  const SweepFile sweep = file(
+      "axes:\n"
+      "  list: {keys: [world.acceleration_noise], values: [0.5, 2]}\n"
+      "  range: {keys: [cluster.sensors.camera.period], from: 10, to: 1000, count: 3, scale: logarithmic, unit: ms}\n"
+      "  named: {settings: {dry: {world.yaw_rate_noise: 0}, wet: {world.yaw_rate_noise: 0.1, seed: 4}}}\n"
+      "  load: {keys: [tracker.process_noise], uniform: [1, 3]}\n");
+  ASSERT_EQ(sweep.grid().size(), 3u);
+  ASSERT_EQ(sweep.drawn().size(), 1u);
+  EXPECT_EQ(sweep.points(), 12u);
+  EXPECT_EQ(sweep.label_of(0), "list 0.5, range 10 ms, named dry");
+  EXPECT_EQ(sweep.label_of(1), "list 0.5, range 10 ms, named wet");
+  EXPECT_EQ(sweep.label_of(2), "list 0.5, range 100 ms, named dry");
+  EXPECT_EQ(sweep.label_of(11), "list 2, range 1000 ms, named wet");
+  EXPECT_EQ(sweep.settings_of(2)[1]->number, 100.0);
+  EXPECT_TRUE(sweep.grid()[1]->logarithmic);
+  EXPECT_EQ(sweep.settings_of(1)[2]->edits.size(), 2u);
+  EXPECT_GT(sweep.measures.size(), 10u) << "all of them where none is named";
+}
+
+TEST(SweepFile, WhatIsWrongIsToldWithItsLine) {
+  const auto axis = [](const std::string& text) { return refusal(kHead + "axes:\n  one: " + text + "\n"); };
+  EXPECT_THAT(axis("{keys: [seed], values: [1, 1]}"), HasSubstr("must not have a value twice: 1"));
+  EXPECT_THAT(axis("{keys: [seed], from: 0, to: 4, count: 1}"), HasSubstr("count"));
+  EXPECT_THAT(axis("{keys: [seed], from: 0, to: 4, count: 3, scale: logarithmic}"), HasSubstr("both ends above 0"));
+  EXPECT_THAT(axis("{keys: [seed], uniform: [4, 1]}"), HasSubstr("must be two numbers, the lower one first"));
+  EXPECT_THAT(axis("{keys: [seed], values: [1], to: 4}"), HasSubstr("small.yaml:9: axes.one.to"));
+  EXPECT_THAT(axis("{keys: [world.speed], values: [1]}"), HasSubstr("world.speed: must be in the file"));
+  EXPECT_THAT(axis("{keys: [world.acceleration_noise], values: [51]}"),
+              AllOf(HasSubstr("dynamics.yaml:13: world.acceleration_noise = 51: must be 0..50 m/s^2"),
+                    HasSubstr("(with a, one 51)")));
+  EXPECT_THAT(axis("{keys: [cluster.sensors.laser.period], values: [80 m]}"), HasSubstr("paper_unsynchronised.yaml:"));
+  EXPECT_THAT(refusal(kHead), HasSubstr("axes"));
+  const std::string axes = "axes: {one: {keys: [seed], values: [1, 2]}}\n";
+  EXPECT_EQ(refusal(kHead + axes), "taken");
+  EXPECT_THAT(refusal(kHead + axes + "measures: [speed]\n"), HasSubstr("must be some of position_rmse_truth"));
+  EXPECT_THAT(refusal(kHead + axes + "compare: {baseline: b}\n"), HasSubstr("must be one of the paradigms"));
+  EXPECT_THAT(refusal(kHead + axes + "expect: [{measure: nees, less: a, than: a}]\n"), HasSubstr("another than `less`"));
+  EXPECT_THAT(refusal(kHead + axes + "expect: [{measure: nees, less: a, than: t, where: {one: 3}}]\n"),
+              HasSubstr("not one: 3"));
+  EXPECT_THAT(refusal(kHead + axes + "colour: red\n"), HasSubstr("colour"));
+  EXPECT_THAT(refusal("kind: other\n"), HasSubstr("must be sweep"));
+}
+
+// The grid is bounded before anything is made of it.
+TEST(SweepFile, TooManyPointsAreRefused) {
+  std::string axes = "axes:\n";
+  for (int a = 0; a < 9; ++a) axes += fmt::format("  a{}: {{keys: [seed], from: 0, to: 9, count: 10}}\n", a);
+  EXPECT_THAT(refusal(kHead + axes), HasSubstr("must make 10000 points at most"));
+}
+
+}  // namespace
+}  // namespace ttf::experiments
