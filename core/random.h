@@ -29,6 +29,7 @@ enum class Purpose : std::uint16_t {
   kPowerOn = 12,
   kCampaign = 13,
   kArrival = 14,
+  kSensorBias = 15,
 };
 
 struct StreamKey {
