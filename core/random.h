@@ -29,7 +29,8 @@ enum class Purpose : std::uint16_t {
   kPowerOn = 12,
   kCampaign = 13,
   kArrival = 14,
-  kSweep = 15,
+  kSensorBias = 15,
+  kSweep = 16,
 };
 
 struct StreamKey {

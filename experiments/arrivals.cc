@@ -145,6 +145,7 @@ Arrivals arrivals_of(const std::vector<ObservationRow>& rows, const ReplayConfig
       continue;
     }
     take_unfiltered(observation, row, arrivals.classes);
+    fusion::place(observation, static_cast<SensorId>(s), config.sensors[s].second.known);
     const auto [place, is_new] = list_at.emplace(Place{s, row.time_ns, row.arrival_ns}, arrivals.lists.size());
     if (is_new)
       arrivals.lists.push_back(

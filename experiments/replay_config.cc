@@ -33,6 +33,7 @@ SensorSetup load_sensor(YamlMap& yaml, SensorSetup setup) {
   constexpr Duration kAges = Duration{4'000'000'000'000'000'000};
   if (yaml.has("first")) setup.first = GlobalTime{} + yaml.duration("first", {-kAges, kAges});
   if (setup.first && !setup.period) yaml.fail("first", "must not be given without period");
+  setup.known = fusion::load_known_sensor(yaml);
   yaml.finish();
   return setup;
 }
@@ -63,12 +64,17 @@ ReplayConfig parse_replay_config(const std::string& text, const std::string& nam
                                                           {"tt", fusion::StrategyKind::kTt}});
   if (std::optional<YamlMap> tracker = root.map_if("tracker")) {
     config.tracker = fusion::load_tracker(*tracker);
+    if (!config.tracker.sensors.empty())
+      tracker->fail("sensors", "must not be given here: mounting and biases stand with the recording's sensors");
+    config.tracker.sensors.clear();
     tracker->finish();
   }
   if (root.has("sensors")) {
     for (auto& [sensor, map] : root.named_maps("sensors")) config.sensors.emplace_back(sensor, load_sensor(map, any));
     if (config.sensors.empty() || config.sensors.size() > kMostSensors)
       root.fail("sensors", fmt::format("must name 1..{} sensors", kMostSensors));
+    for (const auto& sensor : config.sensors) config.tracker.sensors.push_back(sensor.second.known);
+    fusion::check_biases(config.tracker.sensors, root, "sensors");
   }
   root.finish();
   findings.throw_if_any();

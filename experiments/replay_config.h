@@ -6,6 +6,8 @@
 //   sensors:                                     # those of the recording; without this key, whichever it has
 //     laser: {position: 0.15, period: 100 ms, worst_delay: 10 ms}
 //     radar: {range: 0.3, bearing: 0.03, range_rate: 0.3, period: 100 ms, first: 50 ms, worst_delay: 70 ms}
+//     side:                                      # place and biases: fusion/known_sensor.h
+//       {mounting: {x: 1.0, y: -0.9, heading: -1.57}, bias: {bearing: 0.01}, bias_sigma: {range: 0.1, time: 5 ms}}
 #pragma once
 
 #include <cstddef>
@@ -17,6 +19,7 @@
 
 #include "core/strict_yaml.h"
 #include "core/time.h"
+#include "fusion/known_sensor.h"
 #include "fusion/strategy.h"
 #include "fusion/tracker_config.h"
 
@@ -37,12 +40,13 @@ struct SensorSetup {
   // Without them: what the recording shows (experiments/sensor_timing.h).
   std::optional<Duration> worst_delay, period;
   std::optional<GlobalTime> first;   // an instant of the schedule; only with a period
+  fusion::KnownSensor known;         // its place on the vehicle, and its biases
 };
 
 struct ReplayConfig {
   std::string file;   // empty: there is none
   fusion::StrategyKind strategy = fusion::StrategyKind::kAdva;
-  fusion::TrackerConfig tracker;
+  fusion::TrackerConfig tracker;   // with what is known of the sensors
   std::vector<std::pair<std::string, SensorSetup>> sensors;   // by SensorId; none: whichever a recording has
 };
 

@@ -6,8 +6,10 @@
 
 #include <variant>
 
+#include "fusion/filters/considered.h"
 #include "fusion/filters/modes.h"
 #include "fusion/gaussian.h"
+#include "fusion/known_sensor.h"
 #include "fusion/motion/constant_velocity.h"
 #include "fusion/motion/ctrv.h"
 
@@ -20,6 +22,9 @@ using Covariance = Matrix<6>;
 using Cartesian = Gaussian<6>;
 
 using StraightOrTurning = filters::Modes<motion::ConstantVelocity, motion::Ctrv>;
-using Estimate = std::variant<Gaussian<4>, Gaussian<5>, Gaussian<6>, StraightOrTurning>;
+template <int N>
+using WithBiases = filters::Considered<N, kMostBiases>;
+using Estimate =
+    std::variant<Gaussian<4>, Gaussian<5>, Gaussian<6>, StraightOrTurning, WithBiases<4>, WithBiases<6>>;
 
 }  // namespace ttf::fusion

@@ -8,7 +8,22 @@
 namespace ttf::fusion {
 namespace estimators {
 
-Gaussian<4> first_estimate(const Observation& observation, double velocity_variance) {
+namespace {
+
+// From the sensor's place and axes to the vehicle's.
+void carry_over(Gaussian<4>& estimate, const sensors::Mounting& mounting) {
+  const double c = std::cos(mounting.yaw), s = std::sin(mounting.yaw);
+  Matrix<4> j = Matrix<4>::Zero();
+  j.topLeftCorner<2, 2>() << c, -s, s, c;
+  j.bottomRightCorner<2, 2>() = j.topLeftCorner<2, 2>();
+  estimate.x = (j * estimate.x).eval();
+  estimate.x.head<2>() += mounting.position;
+  estimate.p = sandwich<4, 4>(j, estimate.p);
+}
+
+}  // namespace
+
+Gaussian<4> first_estimate(const Observation& observation, double velocity_variance, const KnownSensor* sensor) {
   Gaussian<4> estimate;
   if (observation.kind == ObservationKind::kPosition) {
     estimate.x.head<2>() = observation.z.head<2>();
@@ -26,6 +41,7 @@ Gaussian<4> first_estimate(const Observation& observation, double velocity_varia
   estimate.p.topLeftCorner<2, 2>() = rotation * position.asDiagonal() * rotation.transpose();
   estimate.p.bottomRightCorner<2, 2>() = rotation * velocity.asDiagonal() * rotation.transpose();
   symmetrise<4>(estimate.p);
+  if (sensor != nullptr && !at_the_origin(sensor->mounting)) carry_over(estimate, sensor->mounting);
   return estimate;
 }
 
@@ -38,6 +54,7 @@ bool knows_course(const Gaussian<4>& state) {
 }  // namespace estimators
 
 std::shared_ptr<const Estimator> make_estimator(const TrackerConfig& config) {
+  if (config.systematic == SystematicErrorsAre::kConsidered) return estimators::make_considering(config);
   switch (config.motion) {
     case MotionModel::kConstantVelocity:
     case MotionModel::kConstantAcceleration:

@@ -32,6 +32,7 @@ struct ThirdAxis {
 // Only the first dimension_of(kind) rows and columns of z and r are meaningful; r is symmetric positive definite there.
 struct Observation {
   ObservationKind kind = ObservationKind::kPosition;
+  SensorId sensor = kNoSensor;   // with whose place and errors it is seen (fusion/known_sensor.h): nobody's
   Eigen::Vector3d z = Eigen::Vector3d::Zero();
   Eigen::Matrix3d r = Eigen::Matrix3d::Zero();
   bool has_heading = false, has_length = false, has_width = false, has_span = false;

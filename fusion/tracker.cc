@@ -90,11 +90,11 @@ void Tracker::predict_all(TrackSet& set, GlobalTime to) const {
   set.time = to;
 }
 
-void Tracker::sort_by_x(const TrackSet& set) {
+void Tracker::sort_by_x(const TrackSet& set, SensorId seen_by) {
   by_x_.clear();
   largest_variance_x_ = 0.0;
   for (std::size_t t = 0; t < set.tracks.size(); ++t) {
-    const Gaussian<2> at = estimator_->position(set.tracks[t].estimate);
+    const Gaussian<2> at = estimator_->seen_position(set.tracks[t].estimate, seen_by);
     by_x_.push_back({at.x(0), at.x(1), at.p(0, 0), at.p(1, 1), t});
     largest_variance_x_ = std::max(largest_variance_x_, at.p(0, 0));
   }
@@ -107,7 +107,7 @@ void Tracker::sort_by_x(const TrackSet& set) {
 void Tracker::associate(const TrackSet& set, const Scan& scan) {
   candidates_.clear();
   std::fill(near_track_.begin(), near_track_.end(), 0);
-  sort_by_x(set);
+  sort_by_x(set, scan.observations.empty() ? kNoSensor : scan.observations.front().sensor);
   for (std::size_t o = 0; o < scan.observations.size(); ++o) {
     const Observation& z = scan.observations[o];
     const double gate = gate_[dimension_of(z.kind)];
@@ -166,7 +166,9 @@ void Tracker::correct_extent(Track& track, const Observation& z) const {
   if (z.has_width) correct_width(track.extent, z.width, z.sigma_width);
   if (!z.has_span) return;
   const Cartesian now = estimator_->cartesian(track.estimate);
-  const double x = now.x(0), y = now.x(1), range = std::hypot(x, y);
+  const KnownSensor* sensor = known(config_.sensors, z.sensor);
+  const Eigen::Vector2d from = sensor != nullptr ? sensor->mounting.position : Eigen::Vector2d::Zero();
+  const double x = now.x(0) - from.x(), y = now.x(1) - from.y(), range = std::hypot(x, y);
   if (range <= 0.0) return;
   const Facing facing = facing_of(now, track.heading);
   const Eigen::Vector2d sight(x / range, y / range);

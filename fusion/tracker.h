@@ -43,7 +43,7 @@ class Tracker {
 
  private:
   void predict_all(TrackSet& set, GlobalTime to) const;
-  void sort_by_x(const TrackSet& set);
+  void sort_by_x(const TrackSet& set, SensorId seen_by);
   void associate(const TrackSet& set, const Scan& scan);
   void correct(Track& track, const Observation& observation) const;
   void correct_extent(Track& track, const Observation& observation) const;

@@ -1,6 +1,31 @@
 #include "fusion/tracker_config.h"
 
+#include <utility>
+
 namespace ttf::fusion {
+namespace {
+
+void load_systematic(YamlMap& yaml, TrackerConfig& c) {
+  c.systematic = yaml.choice_or<SystematicErrorsAre>(
+      "systematic", c.systematic,
+      {{"ignore", SystematicErrorsAre::kIgnored}, {"consider", SystematicErrorsAre::kConsidered}});
+  const bool straight =
+      c.motion == MotionModel::kConstantVelocity || c.motion == MotionModel::kConstantAcceleration;
+  if (c.systematic == SystematicErrorsAre::kConsidered && !(straight && c.filter == FilterKind::kExtended))
+    yaml.fail("systematic", "must be ignore but where motion is constant_velocity or constant_acceleration and filter "
+                            "is extended");
+  if (!yaml.has("sensors")) return;
+  for (auto& [name, map] : yaml.named_maps("sensors")) {
+    KnownSensor sensor = load_known_sensor(map);
+    sensor.name = name;
+    sensor.line = map.line();
+    map.finish();
+    c.sensors.push_back(std::move(sensor));
+  }
+  check_biases(c.sensors, yaml, "sensors");
+}
+
+}  // namespace
 
 TrackerConfig load_tracker(YamlMap& yaml) {
   TrackerConfig c;
@@ -51,6 +76,7 @@ TrackerConfig load_tracker(YamlMap& yaml) {
                                "must be at most 1000000");
   c.heading_noise = yaml.number_or("heading_noise", c.heading_noise, {0.0, 100.0}, "rad^2/s");
   c.extent_noise = yaml.number_or("extent_noise", c.extent_noise, {0.0, 100.0}, "m^2/s");
+  load_systematic(yaml, c);
   return c;
 }
 

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "core/strict_yaml.h"
 #include "core/time.h"
+#include "fusion/known_sensor.h"
 
 namespace ttf::fusion {
 
@@ -22,6 +24,11 @@ enum class BuffWaiting : unsigned char {
   kMeasured,   // until the longest delay that a sensor's lists have had so far is over; before the first, as kSchedule
   kFixedLag,   // fixed_lag behind the measurement, whatever has arrived
 };
+
+// What is done about errors of the sensors that are always the same and whose sigmas alone are known
+// (fusion/known_sensor.h): nothing, or the Schmidt form (fusion/filters/consider.h), in which they are not estimated
+// but remain in every track's covariance.
+enum class SystematicErrorsAre : unsigned char { kIgnored, kConsidered };
 
 struct TrackerConfig {
   MotionModel motion = MotionModel::kConstantVelocity;
@@ -57,6 +64,12 @@ struct TrackerConfig {
   std::size_t history_scans = 64;      // how far back a late scan can be taken in
   double heading_noise = 0.05;         // spectral density of the heading's random walk [rad^2/s]
   double extent_noise = 0.01;          // of length and width [m^2/s]
+
+  // With constant velocity or acceleration and the extended filter they may be considered.
+  SystematicErrorsAre systematic = SystematicErrorsAre::kIgnored;
+  // By SensorId; of those that are not there nothing is known. As load_tracker() reads them they are in the order of
+  // the file: whoever knows the sensors' ids by their names puts them in theirs.
+  std::vector<KnownSensor> sensors;
 };
 
 TrackerConfig load_tracker(YamlMap& yaml);

@@ -40,7 +40,9 @@ std::vector<std::shared_ptr<Step>> make_steps(const NodeSetConfig& config, NodeI
   const schedules::Node& node = cluster.node(id);
   std::shared_ptr<FusionHost> host;
   const auto fusion_host = [&] {
-    if (!host) host = std::make_shared<FusionHost>(cluster, config.strategy, scenario.tracker);
+    if (!host)
+      host = std::make_shared<FusionHost>(cluster, config.strategy,
+                                          tracker_in(cluster, scenario.tracker, scenario.file));
     return host;
   };
   std::vector<std::shared_ptr<Step>> steps;

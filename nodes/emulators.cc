@@ -15,6 +15,10 @@ std::size_t most_elements(const EmulatorConfig& config) {
   return static_cast<std::size_t>(raw_layout(config).max_elements);
 }
 
+world::DriveKey drive_key(const EmulatorConfig& config) {
+  return {config.seed, config.replication, static_cast<std::uint16_t>(config.sensor)};
+}
+
 void record_measurement(const StepContext& context, SensorId sensor, std::span<const ObjectId> truth) {
   records::Measured measured;
   measured.stamp = context.stamp;
@@ -27,7 +31,7 @@ void record_measurement(const StepContext& context, SensorId sensor, std::span<c
 
 LaserEmulator::LaserEmulator(const EmulatorConfig& config, const world::LaserConfig& laser)
     : config_(config),
-      laser_(laser),
+      laser_(world::in_drive(laser, drive_key(config))),
       signals_(bind_element<3>(*config.cluster, raw_layout(config), {"layer", "azimuth", "range"})) {
   laser_.max_hits = raw_layout(config).max_elements;
   states_.reserve(config.scene->objects());
@@ -36,7 +40,8 @@ LaserEmulator::LaserEmulator(const EmulatorConfig& config, const world::LaserCon
 }
 
 void LaserEmulator::run(StepContext& context) {
-  config_.scene->states_at(context.stamp.true_time, states_);
+  config_.scene->states_at(world::measured_at(context.stamp.true_time, laser_.device), states_);
+  world::see_from(laser_.device.placement, states_);
   world::measure_laser(laser_, states_, config_.seed, config_.replication,
                        static_cast<std::uint16_t>(config_.sensor), context.measurement, hits_, truth_);
   Output& raw = context.outputs[0];
@@ -53,7 +58,7 @@ void LaserEmulator::run(StepContext& context) {
 
 CameraEmulator::CameraEmulator(const EmulatorConfig& config, const world::CameraConfig& camera)
     : config_(config),
-      camera_(camera),
+      camera_(world::in_drive(camera, drive_key(config))),
       signals_(bind_element<3>(*config.cluster, raw_layout(config), {"bearing", "disparity", "width"})) {
   camera_.max_detections = raw_layout(config).max_elements;
   states_.reserve(config.scene->objects());
@@ -62,7 +67,8 @@ CameraEmulator::CameraEmulator(const EmulatorConfig& config, const world::Camera
 }
 
 void CameraEmulator::run(StepContext& context) {
-  config_.scene->states_at(context.stamp.true_time, states_);
+  config_.scene->states_at(world::measured_at(context.stamp.true_time, camera_.device), states_);
+  world::see_from(camera_.device.placement, states_);
   world::measure_camera(camera_, states_, config_.seed, config_.replication,
                         static_cast<std::uint16_t>(config_.sensor), context.measurement, detections_, truth_);
   Output& raw = context.outputs[0];

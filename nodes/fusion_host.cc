@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/check.h"
+#include "core/counted.h"
 #include "nodes/signals.h"
 #include "schedules/ages.h"
 #include "schedules/settled.h"
@@ -58,9 +59,27 @@ std::vector<fusion::SensorTiming> sensor_timings(const schedules::Cluster& clust
   return timings;
 }
 
+fusion::TrackerConfig tracker_in(const schedules::Cluster& cluster, fusion::TrackerConfig tracker,
+                                 const std::string& scenario_file) {
+  if (tracker.sensors.empty()) return tracker;
+  std::vector<fusion::KnownSensor> by_id(cluster.sensors.size());
+  std::vector<std::string> names;
+  for (const schedules::Sensor& sensor : cluster.sensors) names.push_back(sensor.name);
+  for (fusion::KnownSensor& sensor : tracker.sensors) {
+    const auto found = std::find(names.begin(), names.end(), sensor.name);
+    if (found == names.end())
+      throw InputError({scenario_file, sensor.line, "tracker.sensors." + sensor.name, "",
+                        "must be a sensor of " + cluster.file + ": " + joined(names, " or ")});
+    by_id[static_cast<std::size_t>(found - names.begin())] = std::move(sensor);
+  }
+  tracker.sensors = std::move(by_id);
+  return tracker;
+}
+
 FusionHost::FusionHost(const schedules::Cluster& cluster, fusion::StrategyKind kind,
                        const fusion::TrackerConfig& tracker)
     : strategy(fusion::make_strategy(kind, tracker, sensor_timings(cluster))),
+      sensors(tracker.sensors),
       most_objects(static_cast<std::size_t>(tracker.max_objects)),
       most_observations(tracker.max_observations) {}
 
@@ -105,6 +124,9 @@ void FusionStep::run(StepContext& context) {
     input.discarded = !rounds_[i].believed(rounds_between(*input.layout, *input.list, about, measured, round_));
     if (input.discarded) continue;
     codecs_[i].decode(*input.list, observations_);
+    const SensorId id = input.layout->sensor;
+    if (const fusion::KnownSensor* sensor = fusion::known(host_->sensors, id))
+      for (fusion::Observation& observation : observations_) fusion::place(observation, id, *sensor);
     record(context, input, measured);
     host_->strategy->accept({{input.layout->sensor, input.list->sequence}, measured, observations_});
   }
@@ -139,11 +161,14 @@ void FusionStep::record(const StepContext& context, const Input& input, GlobalTi
       seen.sxy = observation.r(0, 1);
       seen.syy = observation.r(1, 1);
     } else {
-      // First-order transformation of range and bearing to the plane.
-      const double c = std::cos(observation.z(1)), s = std::sin(observation.z(1)), r = observation.z(0);
+      // First-order transformation of range and bearing, from where the sensor is, to the plane.
+      const fusion::KnownSensor* sensor = fusion::known(host_->sensors, observation.sensor);
+      const fusion::sensors::Mounting from = sensor != nullptr ? sensor->mounting : fusion::sensors::Mounting{};
+      const double bearing = observation.z(1) + from.yaw;
+      const double c = std::cos(bearing), s = std::sin(bearing), r = observation.z(0);
       const double along = observation.r(0, 0), across = r * r * observation.r(1, 1);
-      seen.x = r * c;
-      seen.y = r * s;
+      seen.x = from.position.x() + r * c;
+      seen.y = from.position.y() + r * s;
       seen.sxx = c * c * along + s * s * across;
       seen.sxy = c * s * (along - across);
       seen.syy = s * s * along + c * c * across;

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "fusion/strategy.h"
@@ -22,9 +23,16 @@ namespace ttf::nodes {
 // What the schedule promises the strategy about each sensor (schedules/settled.h computes until when it is waited for).
 std::vector<fusion::SensorTiming> sensor_timings(const schedules::Cluster& cluster);
 
+// The tracker of a scenario, its sensors by their ids in this cluster. Throws InputError, naming the scenario's file,
+// for a name that none of them has.
+fusion::TrackerConfig tracker_in(const schedules::Cluster& cluster, fusion::TrackerConfig tracker,
+                                 const std::string& scenario_file);
+
+// `tracker`: as tracker_in() gives it.
 struct FusionHost {
   FusionHost(const schedules::Cluster& cluster, fusion::StrategyKind kind, const fusion::TrackerConfig& tracker);
   std::unique_ptr<fusion::Strategy> strategy;
+  std::vector<fusion::KnownSensor> sensors;   // by SensorId
   std::size_t most_objects;        // confirmed tracks there can be
   std::size_t most_observations;   // in one list
   std::uint32_t step = 0;          // numbered fusion instants, from 1

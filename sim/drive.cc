@@ -4,6 +4,7 @@
 
 #include "nodes/believed_schedule.h"
 #include "nodes/catalog.h"
+#include "nodes/fusion_host.h"
 #include "recording/records/tee.h"
 #include "sim/share.h"
 #include "sim/surroundings.h"
@@ -65,6 +66,7 @@ void check_fits(const nodes::Scenario& scenario, const schedules::Cluster& clust
   const nodes::FaultPlan faults = nodes::resolve(scenario.faults, cluster);
   const nodes::BelievedSchedules believed(faults, cluster);
   if (scenario.startup.cold) (void)nodes::node_starts(scenario.startup, cluster, scenario.seed, 0);
+  (void)nodes::tracker_in(cluster, scenario.tracker, scenario.file);
 }
 
 DriveOutcome run_drive(const DriveConfig& config, records::Sink& out) {

@@ -15,6 +15,9 @@ std::shared_ptr<const Estimator> make_straight(const TrackerConfig& config);    
 std::shared_ptr<const Estimator> make_turning(const TrackerConfig& config);       // CTRV, CTRA
 std::shared_ptr<const Estimator> make_interacting(const TrackerConfig& config);   // constant velocity and CTRV
 
+// Constant velocity and acceleration under the extended filter, the sensors' biases considered.
+std::shared_ptr<const Estimator> make_considering(const TrackerConfig& config);
+
 // make<F>() gives the kernel under filter F.
 template <class Make>
 std::shared_ptr<const Estimator> under_the_filter(const TrackerConfig& config, const Make& make) {

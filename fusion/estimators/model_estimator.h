@@ -10,9 +10,13 @@
 // stood until its course is forgotten (kForgotten) begins again.
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "core/check.h"
 #include "fusion/estimator.h"
 #include "fusion/estimators/single.h"
+#include "fusion/sensors/mounted.h"
 #include "fusion/sensors/position.h"
 #include "fusion/sensors/range_bearing_rate.h"
 
@@ -20,8 +24,12 @@ namespace ttf::fusion::estimators {
 
 inline constexpr double kKnown = 0.25;
 
-// Position and velocity as one observation has them, `velocity_variance` in every direction it says nothing of.
-Gaussian<4> first_estimate(const Observation& observation, double velocity_variance);
+inline bool at_the_origin(const sensors::Mounting& mounting) {
+  return mounting.position.x() == 0.0 && mounting.position.y() == 0.0 && mounting.yaw == 0.0;
+}
+// Position and velocity as one observation has them, `velocity_variance` in every direction it says nothing of; of a
+// sensor at the origin where `sensor` is null.
+Gaussian<4> first_estimate(const Observation& observation, double velocity_variance, const KnownSensor* sensor);
 // Whether it is known that this moves, and where to.
 bool knows_course(const Gaussian<4>& state);
 
@@ -31,11 +39,12 @@ class ModelEstimator final : public Estimator {
   ModelEstimator(const TrackerConfig& config, const Kernel& kernel)
       : kernel_(kernel),
         velocity_variance_(config.initial_velocity_sigma * config.initial_velocity_sigma),
+        sensors_(config.sensors),
         young_{.model = motion::ConstantVelocity(config.initial_acceleration_sigma *
                                                  config.initial_acceleration_sigma)} {}
 
   Estimate initial(const Observation& observation) const override {
-    const Gaussian<4> first = first_estimate(observation, velocity_variance_);
+    const Gaussian<4> first = first_estimate(observation, velocity_variance_, known(sensors_, observation.sensor));
     if constexpr (Kernel::kNeedsCourse)
       return first;
     else
@@ -74,6 +83,7 @@ class ModelEstimator final : public Estimator {
   Gaussian<2> position(const Estimate& estimate) const override {
     return with(estimate, [](const auto& kernel, const auto& own) { return kernel.position(own); });
   }
+  Gaussian<2> seen_position(const Estimate& estimate, SensorId) const override { return position(estimate); }
   Cartesian cartesian(const Estimate& estimate) const override {
     return with(estimate, [](const auto& kernel, const auto& own) { return kernel.cartesian(own); });
   }
@@ -88,16 +98,21 @@ class ModelEstimator final : public Estimator {
     return body(kernel_, *own);
   }
 
+  // What is a position has been placed in the vehicle's axes before (fusion/known_sensor.h).
   template <class Body>
-  static auto through_sensor(const Observation& o, const Body& body) {
+  auto through_sensor(const Observation& o, const Body& body) const {
     if (o.kind == ObservationKind::kPosition)
       return body(sensors::Position{},
                   sensors::Measurement<2>{o.z.template head<2>(), o.r.template topLeftCorner<2, 2>()});
-    return body(sensors::RangeBearingRate{}, sensors::Measurement<3>{o.z, o.r});
+    const sensors::Measurement<3> z{o.z, o.r};
+    if (const KnownSensor* sensor = known(sensors_, o.sensor); sensor != nullptr && !at_the_origin(sensor->mounting))
+      return body(sensors::Mounted<sensors::RangeBearingRate>(sensor->mounting), z);
+    return body(sensors::RangeBearingRate{}, z);
   }
 
   Kernel kernel_;
   double velocity_variance_;
+  std::vector<KnownSensor> sensors_;
   Single<F, motion::ConstantVelocity> young_;
 };
 

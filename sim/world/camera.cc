@@ -54,7 +54,19 @@ CameraConfig load_camera(YamlMap& yaml) {
   c.max_range_m = yaml.number_or("max_range", c.max_range_m, {1.0, 500.0}, "m");
   c.miss_probability = yaml.number_or("miss_probability", c.miss_probability, {0.0, 1.0});
   c.clutter_per_frame = yaml.number_or("clutter_per_frame", c.clutter_per_frame, {0.0, 10.0});
+  c.bearing_bias.fixed = yaml.number_or("bearing_bias", 0.0, {-0.2, 0.2}, "rad");
+  c.bearing_bias.sigma = yaml.number_or("bearing_bias_sigma", 0.0, {0.0, 0.2}, "rad");
+  c.disparity_bias.fixed = yaml.number_or("disparity_bias", 0.0, {-5.0, 5.0}, "px");
+  c.disparity_bias.sigma = yaml.number_or("disparity_bias_sigma", 0.0, {0.0, 5.0}, "px");
+  c.device = load_device(yaml);
   return c;
+}
+
+CameraConfig in_drive(CameraConfig config, const DriveKey& key) {
+  config.bearing_bias = in_drive(config.bearing_bias, ErrorOf::kBearing, key);
+  config.disparity_bias = in_drive(config.disparity_bias, ErrorOf::kDisparity, key);
+  config.device.time = in_drive(config.device.time, ErrorOf::kTime, key);
+  return config;
 }
 
 void measure_camera(const CameraConfig& config, std::span<const ObjectState> objects, std::uint64_t seed,
@@ -80,8 +92,9 @@ void measure_camera(const CameraConfig& config, std::span<const ObjectState> obj
     });
     if (hidden || static_cast<int>(detections.size()) == config.max_detections) continue;
     const double width_px = config.focal_px * seen->silhouette / std::cos(seen->bearing);
-    detections.push_back({seen->bearing + config.bearing_sigma_rad * bearing_noise,
-                          config.focal_px * config.baseline_m / seen->depth + config.disparity_sigma_px * disparity_noise,
+    const double disparity = config.focal_px * config.baseline_m / seen->depth;
+    detections.push_back({seen->bearing + config.bearing_bias.fixed + config.bearing_sigma_rad * bearing_noise,
+                          disparity + config.disparity_bias.fixed + config.disparity_sigma_px * disparity_noise,
                           std::max(1.0, width_px + config.width_sigma_px * width_noise)});
     truth.push_back(object.id);
   }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/strict_yaml.h"
+#include "sim/world/placement.h"
 #include "sim/world/world.h"
 
 namespace ttf::world {
@@ -25,9 +26,14 @@ struct CameraConfig {
   double max_range_m = 90.0;
   double miss_probability = 0.05;
   double clutter_per_frame = 0.1;      // mean number of false detections
+  DriveError bearing_bias;             // systematic errors, none unless stated: [rad]
+  DriveError disparity_bias;           // [px]
+  Device device;
   int max_detections = 40;             // what one raw list carries; of more, the first are kept
 };
 CameraConfig load_camera(YamlMap& yaml);
+// With the systematic errors of one drive.
+CameraConfig in_drive(CameraConfig config, const DriveKey& key);
 
 struct CameraDetection {
   double bearing = 0;       // [rad]
@@ -35,7 +41,7 @@ struct CameraDetection {
   double width_px = 0;      // of the silhouette
 };
 
-// Replaces `detections`; `truth` has the object of each, 0xffff for a false one.
+// `objects`: in the sensor's axes. Replaces `detections`; `truth` has the object of each, 0xffff for a false one.
 void measure_camera(const CameraConfig& config, std::span<const ObjectState> objects, std::uint64_t seed,
                     std::uint32_t replication, std::uint16_t sensor, std::uint32_t sequence,
                     std::vector<CameraDetection>& detections, std::vector<ObjectId>& truth);

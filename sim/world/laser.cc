@@ -26,9 +26,19 @@ LaserConfig load_laser(YamlMap& yaml) {
   c.range_sigma_m = yaml.number_or("range_sigma", c.range_sigma_m, {0.0, 2.0}, "m");
   c.max_range_m = yaml.number_or("max_range", c.max_range_m, {1.0, 199.0}, "m");
   c.miss_at_100m = yaml.number_or("miss_at_100m", c.miss_at_100m, {0.0, 1.0});
-  c.range_bias_m = yaml.number_or("range_bias", c.range_bias_m, {-5.0, 5.0}, "m");
-  c.azimuth_bias_rad = yaml.number_or("azimuth_bias", c.azimuth_bias_rad, {-0.2, 0.2}, "rad");
+  c.range_bias.fixed = yaml.number_or("range_bias", 0.0, {-5.0, 5.0}, "m");
+  c.range_bias.sigma = yaml.number_or("range_bias_sigma", 0.0, {0.0, 5.0}, "m");
+  c.azimuth_bias.fixed = yaml.number_or("azimuth_bias", 0.0, {-0.2, 0.2}, "rad");
+  c.azimuth_bias.sigma = yaml.number_or("azimuth_bias_sigma", 0.0, {0.0, 0.2}, "rad");
+  c.device = load_device(yaml);
   return c;
+}
+
+LaserConfig in_drive(LaserConfig config, const DriveKey& key) {
+  config.range_bias = in_drive(config.range_bias, ErrorOf::kRange, key);
+  config.azimuth_bias = in_drive(config.azimuth_bias, ErrorOf::kBearing, key);
+  config.device.time = in_drive(config.device.time, ErrorOf::kTime, key);
+  return config;
 }
 
 void measure_laser(const LaserConfig& config, std::span<const ObjectState> objects, std::uint64_t seed,
@@ -58,9 +68,9 @@ void measure_laser(const LaserConfig& config, std::span<const ObjectState> objec
                        kBlocksOfABeam * static_cast<std::uint32_t>(beam + half));
     for (int layer = 0; layer < config.layers; ++layer) {
       const bool lost = noise.uniform() < loss;
-      const double range = nearest + config.range_bias_m + config.range_sigma_m * noise.normal();
+      const double range = nearest + config.range_bias.fixed + config.range_sigma_m * noise.normal();
       if (lost || range <= 0.0 || static_cast<int>(hits.size()) == config.max_hits) continue;
-      hits.push_back({layer, azimuth + config.azimuth_bias_rad, range});
+      hits.push_back({layer, azimuth + config.azimuth_bias.fixed, range});
       truth.push_back(hit->id);
     }
   }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/strict_yaml.h"
+#include "sim/world/placement.h"
 #include "sim/world/world.h"
 
 namespace ttf::world {
@@ -24,11 +25,14 @@ struct LaserConfig {
   double range_sigma_m = 0.06;
   double max_range_m = 120.0;
   double miss_at_100m = 0.3;               // probability that a ray's echo is lost at 100 m; grows with the range squared
-  double range_bias_m = 0.0;               // systematic errors, none unless stated
-  double azimuth_bias_rad = 0.0;
+  DriveError range_bias;                   // systematic errors, none unless stated: [m]
+  DriveError azimuth_bias;                 // [rad]
+  Device device;
   int max_hits = 1300;                     // what one raw list carries; of more, the first are kept
 };
 LaserConfig load_laser(YamlMap& yaml);
+// With the systematic errors of one drive.
+LaserConfig in_drive(LaserConfig config, const DriveKey& key);
 
 struct HitPoint {
   int layer = 0;
@@ -36,7 +40,8 @@ struct HitPoint {
   double range = 0;     // [m]
 };
 
-// Replaces `hits` by the scan, by azimuth then layer, and `truth` by the object each hit is of.
+// `objects`: in the sensor's axes. Replaces `hits` by the scan, by azimuth then layer, and `truth` by the object each hit
+// is of.
 void measure_laser(const LaserConfig& config, std::span<const ObjectState> objects, std::uint64_t seed,
                    std::uint32_t replication, std::uint16_t sensor, std::uint32_t sequence,
                    std::vector<HitPoint>& hits, std::vector<ObjectId>& truth);

@@ -120,6 +120,10 @@ expect 2 'absent.csv: cannot be read' track "$work/absent.csv"
 expect 2 'absent.yaml: cannot be read' track "$work/cars.csv" --config "$work/absent.yaml"
 printf 'tracker: {proces_noise: 4}\n' >"$work/typo.yaml"
 expect 2 'typo.yaml:1: tracker.proces_noise: is not a known key' track "$work/cars.csv" --config "$work/typo.yaml"
+printf 'tracker: {motion: ctrv, systematic: consider}\n' >"$work/bend.yaml"
+expect 2 'bend.yaml:1: tracker.systematic = consider: must be ignore but where motion is constant_velocity' track "$work/cars.csv" --config "$work/bend.yaml"
+printf 'sensors:\n  lidar: {}\n  radar: {bias_sigma: {bearing: 1}}\n' >"$work/wrong.yaml"
+expect 2 'wrong.yaml:3: sensors.radar.bias_sigma.bearing = 1: must be a number 0..0.5 rad' track "$work/cars.csv" --config "$work/wrong.yaml"
 expect 2 '--delay = sonar=5ms: must begin with a sensor \(lidar, radar\)' "${cars[@]}" --delay sonar=5ms
 expect 2 '--delay = radar: must be SENSOR=VALUE' "${cars[@]}" --delay radar
 expect 2 '--delay = radar=5: must be SENSOR= and 0..3600 s with its unit' "${cars[@]}" --delay radar=5

@@ -72,6 +72,26 @@ TEST(ReplayConfig, EveryMistakeIsASentence) {
               ElementsAre(testing::StartsWith("c.yaml:1: smoothing: is not a known key")));
 }
 
+TEST(ReplayConfig, PlacesAndBiasesStandWithTheSensors) {
+  const ReplayConfig config = parse_replay_config(
+      "tracker: {systematic: consider}\n"
+      "sensors:\n"
+      "  radar: {range: 0.3, mounting: {x: -1.0, heading: 3.14}, bias_sigma: {bearing: 0.02, time: 5 ms}}\n"
+      "  lidar: {bias: {x: 0.1}}\n",
+      "c.yaml", {});
+  ASSERT_EQ(config.tracker.sensors.size(), 2u) << "in the order of the sensors";
+  EXPECT_EQ(config.tracker.sensors[0].mounting.position.x(), -1.0);
+  EXPECT_EQ(config.tracker.sensors[0].errors.sigma(3), 0.005);
+  EXPECT_EQ(config.tracker.sensors[1].errors.known(0), 0.1);
+  EXPECT_EQ(config.sensors[0].second.noise.range, 0.3);
+  EXPECT_THAT(mistakes("tracker: {sensors: {a: {}}}\n"),
+              ElementsAre(testing::StartsWith("c.yaml:1: tracker.sensors: must not be given here")));
+  EXPECT_THAT(mistakes("sensors:\n  a: {bias: {colour: 1}, mounting: 3}\n").size(), 2u);
+  const std::string three = ": {bias_sigma: {range: 1, bearing: 0.1, time: 1 ms}}\n";
+  EXPECT_THAT(mistakes("sensors:\n  a" + three + "  b" + three + "  c" + three),
+              ElementsAre(testing::StartsWith("c.yaml:2: sensors: must have at most 8 biases")));
+}
+
 TEST(ReplayConfig, SigmasAreKnownByName) {
   SensorNoise noise;
   const NamedSigma range = sigma_of(noise, "range");

@@ -3,6 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
 #include "experiments/sensor_timing.h"
 #include "experiments/track_replay.h"
 #include "tests/experiments/replay_rows.h"
@@ -87,6 +92,54 @@ TEST(TrackReplay, AdvaEndsTheSameForEveryOrderOfArrival) {
       EXPECT_EQ(outcome.account.sensors[0].too_old + outcome.account.sensors[1].too_old, 0u);
       expect_same_end(expected, outcome);
     }
+}
+
+// A radar at the back that looks backwards, and is wrong by what is known: the same tracks as one at the origin that is
+// right.
+TEST(TrackReplay, FollowsBothCarsFromAnotherPlace) {
+  ReplayConfig plain;
+  const Outcome expected = outcome_of(arrivals_of_rows(two_cars(10), plain), plain, StrategyKind::kAdva);
+  std::vector<recording::ObservationRow> rows = two_cars(10);
+  for (recording::ObservationRow& row : rows) {
+    if (row.sensor == "radar") {
+      row.z[0] += 0.4;
+      row.z[1] += std::numbers::pi + 0.02;
+    } else {
+      const double x = row.z[0] - 1.5, y = row.z[1] - 0.5;
+      row.z = {y, -x, 0.0};
+    }
+  }
+  ReplayConfig placed = parse_replay_config(
+      "sensors:\n"
+      "  camera: {mounting: {x: 1.5, y: 0.5, heading: 1.5707963267948966}}\n"
+      "  radar: {mounting: {heading: 3.141592653589793}, bias: {range: 0.4, bearing: 0.02}}\n",
+      "c.yaml", {});
+  const Outcome outcome = outcome_of(arrivals_of_rows(rows, placed), placed, StrategyKind::kAdva);
+  ASSERT_EQ(outcome.last.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_NEAR(outcome.last[i].x, expected.last[i].x, 1e-6);
+    EXPECT_NEAR(outcome.last[i].y, expected.last[i].y, 1e-6);
+    EXPECT_NEAR(outcome.last[i].vx, expected.last[i].vx, 1e-6);
+    for (std::size_t k = 0; k < outcome.last[i].covariance.size(); ++k)
+      EXPECT_NEAR(outcome.last[i].covariance[k], expected.last[i].covariance[k], 1e-6);
+  }
+}
+
+// Two sensors that disagree by what each may be wrong by: considered, the tracks say how far they may be off.
+TEST(TrackReplay, ConsideredBiasesAreInTheTracks) {
+  const char* kSensors = "sensors: {camera: {bias_sigma: {x: 0.5, y: 0.5}}, radar: {bias_sigma: {bearing: 0.02}}}\n";
+  std::vector<ReplayConfig> configs{
+      parse_replay_config(kSensors, "c.yaml", {}),
+      parse_replay_config(std::string(kSensors) + "tracker: {systematic: consider}\n", "c.yaml", {})};
+  std::vector<Outcome> outcomes;
+  for (ReplayConfig& config : configs)
+    outcomes.push_back(outcome_of(arrivals_of_rows(two_cars(10), config), config, StrategyKind::kAdva));
+  ASSERT_EQ(outcomes[1].last.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    // Of y: both sensors may be wrong in it, whatever the number of observations.
+    EXPECT_GT(outcomes[1].last[i].covariance[4], 2.0 * outcomes[0].last[i].covariance[4]);
+    EXPECT_GT(outcomes[1].last[i].covariance[4], 0.1);
+  }
 }
 
 // Two vans and a car, says the camera of the one at 10 m; of the other it says as much car as van, and the first name

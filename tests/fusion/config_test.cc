@@ -100,6 +100,44 @@ TEST(TrackerConfig, NamesEveryMotionModelAndFilter) {
   EXPECT_NE(sentences[4].find("t.yaml:5: initial_turn_rate_sigma"), std::string::npos) << sentences[4];
 }
 
+TEST(TrackerConfig, SystematicErrorsAreIgnoredUnlessSaid) {
+  EXPECT_EQ(load("{}").systematic, SystematicErrorsAre::kIgnored);
+  EXPECT_TRUE(load("{}").sensors.empty());
+  const TrackerConfig c = load(
+      "systematic: consider\nsensors:\n  laser: {bias_sigma: {range: 0.1, bearing: 0.01}}\n"
+      "  camera: {mounting: {x: 1.5}}\n");
+  EXPECT_EQ(c.systematic, SystematicErrorsAre::kConsidered);
+  ASSERT_EQ(c.sensors.size(), 2u);
+  EXPECT_EQ(c.sensors[0].name, "laser");
+  EXPECT_EQ(c.sensors[0].line, 3);
+  EXPECT_EQ(c.sensors[0].errors.sigma(1), 0.01);
+  EXPECT_EQ(c.sensors[1].mounting.position.x(), 1.5);
+}
+
+TEST(TrackerConfig, WhatCannotBeConsideredIsRefused) {
+  for (const std::string rest : {"motion: ctrv\n", "motion: ctra\n", "motion: interacting\n", "filter: unscented\n"}) {
+    std::vector<std::string> sentences;
+    load(rest + "systematic: consider\n", &sentences);
+    ASSERT_EQ(sentences.size(), 1u) << rest;
+    EXPECT_EQ(sentences[0], "t.yaml:2: systematic = consider: must be ignore but where motion is constant_velocity or "
+                            "constant_acceleration and filter is extended");
+  }
+  EXPECT_EQ(load("motion: constant_acceleration\nsystematic: consider\n").systematic, SystematicErrorsAre::kConsidered);
+  std::vector<std::string> sentences;
+  load("systematic: estimate\n", &sentences);
+  ASSERT_EQ(sentences.size(), 1u);
+  EXPECT_NE(sentences[0].find("t.yaml:1: systematic = estimate: must be one of ignore, consider"), std::string::npos)
+      << sentences[0];
+  sentences.clear();
+  const std::string four = "bias_sigma: {range: 0.1, bearing: 0.1, range_rate: 0.1, time: 1 ms}";
+  load("sensors:\n  a: {" + four + "}\n  b: {" + four + "}\n  c: {bias_sigma: {x: 0.1, y: 0}}\n", &sentences);
+  ASSERT_EQ(sentences.size(), 1u);
+  EXPECT_NE(sentences[0].find("sensors: must have at most 8 biases with a sigma above 0, of all sensors together, "
+                              "not 9"),
+            std::string::npos)
+      << sentences[0];
+}
+
 // The example of docs/tracker.md, as it stands there.
 TEST(TrackerConfig, TheDocumentedExampleLoads) {
   std::ostringstream page;

@@ -41,7 +41,9 @@ Estimate estimate_of(MotionModel motion, const State& x, const Covariance& p) {
 
 Cartesian seen_as(const Estimate& estimate) {
   if (const auto* whole = std::get_if<Gaussian<6>>(&estimate)) return *whole;
-  const auto& known = std::get<Gaussian<4>>(estimate);
+  if (const auto* whole = std::get_if<WithBiases<6>>(&estimate)) return whole->state;
+  const auto* with_biases = std::get_if<WithBiases<4>>(&estimate);
+  const auto& known = with_biases != nullptr ? with_biases->state : std::get<Gaussian<4>>(estimate);
   Cartesian seen;
   seen.x.head<4>() = known.x;
   seen.p.topLeftCorner<4, 4>() = known.p;
@@ -105,6 +107,10 @@ bool same(const Gaussian<N>& a, const Gaussian<N>& b) {
 bool same(const StraightOrTurning& a, const StraightOrTurning& b) {
   return same(std::get<0>(a.estimates), std::get<0>(b.estimates)) &&
          same(std::get<1>(a.estimates), std::get<1>(b.estimates)) && same(a.probability, b.probability);
+}
+template <int N>
+bool same(const WithBiases<N>& a, const WithBiases<N>& b) {
+  return same(a.state, b.state) && same(a.cross, b.cross);
 }
 
 }  // namespace

@@ -167,8 +167,8 @@ TEST(Laser, BiasesAreConstant) {
   LaserConfig config = exact_laser();
   const std::vector<ObjectState> car = {box(0, 30.0, 0.0, 0.3, 4.0, 2.0)};
   const Scan plain = scan(config, car);
-  config.range_bias_m = 0.25;
-  config.azimuth_bias_rad = -0.01;
+  config.range_bias.fixed = 0.25;
+  config.azimuth_bias.fixed = -0.01;
   const Scan biased = scan(config, car, 5);
   ASSERT_EQ(plain.hits.size(), biased.hits.size());
   for (std::size_t i = 0; i < plain.hits.size(); ++i) {

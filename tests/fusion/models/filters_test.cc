@@ -269,16 +269,16 @@ TEST(ConsiderFilter, IsTheAugmentedFilterWithoutTheBiasesGain) {
   Considered<4, kB> considered;
   considered.state.x << 30.0, 8.0, 5.0, 2.0;
   considered.state.p = drawn_covariance<4>(stream, 1.0);
-  considered.bias = drawn_covariance<kB>(stream, 0.05);
+  const Consider<kB> filter{.bias = drawn_covariance<kB>(stream, 0.05)};
   Matrix<kA> p = Matrix<kA>::Zero();
   p.topLeftCorner<4, 4>() = considered.state.p;
-  p.bottomRightCorner<kB, kB>() = considered.bias;
+  p.bottomRightCorner<kB, kB>() = filter.bias;
   Vector<4> x = considered.state.x;
 
   const auto one = [&]<int First>(const auto& sensor) {
     using S = std::decay_t<decltype(sensor)>;
     constexpr int kM = S::kDimension;
-    Consider{}.predict(model, considered, 0.1);
+    filter.predict(model, considered, 0.1);
     Matrix<kA> f = Matrix<kA>::Identity();
     f.topLeftCorner<4, 4>() = model.step(0.1).f;
     p = sandwich<kA, kA>(f, p);
@@ -303,7 +303,10 @@ TEST(ConsiderFilter, IsTheAugmentedFilterWithoutTheBiasesGain) {
     p = sandwich<kA, kA>(a, p);
     add_scaled<kA, kA>(p, 1.0, sandwich<kA, kM>(gain, z.r));
 
-    const Innovation<kM> innovation = Consider{}.update<First>(model, sensor, z, considered);
+    const Innovation<kM> asked = filter.template innovate<First>(model, sensor, z, considered);
+    const Innovation<kM> innovation = filter.template update<First>(model, sensor, z, considered);
+    EXPECT_TRUE((same<kM, kM>(asked.s, innovation.s))) << "what a gate asks is what an update finds";
+    EXPECT_EQ(asked.nis, innovation.nis);
     EXPECT_LT((apart<kM, kM>(innovation.s, s)), 1e-12);
   };
   for (int k = 0; k < 30; ++k) {
@@ -312,7 +315,7 @@ TEST(ConsiderFilter, IsTheAugmentedFilterWithoutTheBiasesGain) {
     EXPECT_LT((apart<4, 1>(considered.state.x, x)), 1e-11);
     EXPECT_LT((apart<4, 4>(considered.state.p, Matrix<4>(p.topLeftCorner<4, 4>()))), 1e-11);
     EXPECT_LT((apart<4, kB>(considered.cross, Matrix<4, kB>(p.topRightCorner<4, kB>()))), 1e-11);
-    EXPECT_LT((apart<kB, kB>(considered.bias, Matrix<kB>(p.bottomRightCorner<kB, kB>()))), 1e-15) << "never learned";
+    EXPECT_LT((apart<kB, kB>(filter.bias, Matrix<kB>(p.bottomRightCorner<kB, kB>()))), 1e-15) << "never learned";
   }
 }
 

@@ -141,18 +141,18 @@ WithBias simulate_bias(std::uint64_t seed) {
   for (int run = 0; run < kRuns; ++run) {
     RandomStream stream({.seed = seed, .replication = static_cast<std::uint32_t>(run)});
     Considered<4, 3> considered{.state = driving_start()};
-    considered.bias = Vector<3>(0.04, 0.04, 0.0004).asDiagonal();
+    const Consider<3> filter{.bias = Matrix<3>(Vector<3>(0.04, 0.04, 0.0004).asDiagonal())};
     Gaussian<4> ignorant = considered.state;
     Vector<4> x = drawn<4>(ignorant.x, ignorant.p, stream);
-    const Vector<3> bias = drawn<3>(Vector<3>::Zero(), considered.bias, stream);
+    const Vector<3> bias = drawn<3>(Vector<3>::Zero(), filter.bias, stream);
     const Systematic<Position> as_it_is{{}, bias.head<2>(), bias(2)};
     Innovation<2> a, b;
     for (int k = 0; k < kSteps; ++k) {
       x = drawn<4>(model.move(x, kDt), model.noise(x, kDt), stream);
       const Vector<2> seen = as_it_is.expected(ConstantVelocity::kinematics<kWithVelocity>(x));
       const Measurement<2> z{drawn<2>(seen, kLaser.r, stream), kLaser.r};
-      Consider{}.predict(model, considered, kDt);
-      a = Consider{}.update(model, as_known, z, considered);
+      filter.predict(model, considered, kDt);
+      a = filter.update(model, as_known, z, considered);
       Kalman{}.predict(model, ignorant, kDt);
       b = Kalman{}.update(model, Position{}, z, ignorant);
     }

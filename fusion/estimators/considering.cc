@@ -1,0 +1,52 @@
+#include "fusion/estimators/considering.h"
+
+#include "fusion/estimators/make.h"
+#include "fusion/motion/constant_acceleration.h"
+
+namespace ttf::fusion::estimators {
+
+AllBiases::AllBiases(std::span<const KnownSensor> sensors) {
+  TTF_CHECK(count_biases(sensors) <= kMostBiases, "{} biases", count_biases(sensors));
+  int next = 0;
+  for (const KnownSensor& sensor : sensors) {
+    const SystematicErrors& errors = sensor.errors;
+    sensors::OwnBiases& own = own_.emplace_back();
+    own.axes = errors.axes;
+    own.mounting = sensor.mounting;
+    own.time_variance = errors.sigma(3) * errors.sigma(3);
+    for (int i = 0; i < 4; ++i) {
+      if (!(errors.sigma(i) > 0.0)) continue;
+      covariance_(next, next) = errors.sigma(i) * errors.sigma(i);
+      own.index[static_cast<std::size_t>(i)] = next++;
+    }
+  }
+}
+
+Matrix<4, 3> first_jacobian(const Observation& observation, const sensors::Mounting& mounting) {
+  Matrix<4, 3> j = Matrix<4, 3>::Zero();
+  if (observation.kind == ObservationKind::kPosition) {
+    j(0, 0) = j(1, 1) = 1.0;
+    return j;
+  }
+  const double range = observation.z(0), rate = observation.z(2), bearing = observation.z(1) + mounting.yaw;
+  const double c = std::cos(bearing), s = std::sin(bearing);
+  j.col(0) << c, s, 0.0, 0.0;
+  j.col(1) << -range * s, range * c, -rate * s, rate * c;
+  j.col(2) << 0.0, 0.0, c, s;
+  return j;
+}
+
+std::shared_ptr<const Estimator> make_considering(const TrackerConfig& config) {
+  TTF_CHECK(config.filter == FilterKind::kExtended, "considered under filter {}", static_cast<int>(config.filter));
+  const auto make = [&](const auto& model) -> std::shared_ptr<const Estimator> {
+    using M = std::remove_cvref_t<decltype(model)>;
+    return std::make_shared<ConsideringEstimator<M>>(config, model, prior_of<M>(config));
+  };
+  if (config.motion == MotionModel::kConstantAcceleration)
+    return make(motion::ConstantAcceleration(config.process_noise));
+  TTF_CHECK(config.motion == MotionModel::kConstantVelocity, "considered with motion {}",
+            static_cast<int>(config.motion));
+  return make(motion::ConstantVelocity(config.process_noise));
+}
+
+}  // namespace ttf::fusion::estimators

@@ -1,0 +1,154 @@
+// The estimator whose sensors' biases are considered (fusion/filters/consider.h): motion in straight lines under the
+// extended filter, with the correlation between every object and all biases.
+//
+// An object starts from an observation that errs by D b + v (fusion/sensors/among_biases.h). What is made of it, J
+// times the measurement, errs by J (D b + v): so at the start cov(x, b) = -J D B, and J D B D' J' is in the covariance
+// besides the noise. Whatever else that sensor says of the object errs by the same b, which the filter then knows.
+//
+// The stamp's error moves an object by v tau. The filter takes v for known there; that it is not, adds var(v) var(tau)
+// to the measurement's noise, to second order: much for an object just born, little ever after.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+#include "core/check.h"
+#include "fusion/estimators/model_estimator.h"
+#include "fusion/filters/consider.h"
+#include "fusion/sensors/among_biases.h"
+
+namespace ttf::fusion::estimators {
+
+// The biases of all sensors in one row: those with a sigma above zero, by SensorId, then in the components' order.
+class AllBiases {
+ public:
+  explicit AllBiases(std::span<const KnownSensor> sensors);
+
+  const sensors::OwnBiases& of(SensorId id) const { return index_of(id) < own_.size() ? own_[index_of(id)] : nobodys_; }
+  const Matrix<kMostBiases>& covariance() const { return covariance_; }
+
+ private:
+  std::vector<sensors::OwnBiases> own_;
+  sensors::OwnBiases nobodys_;
+  Matrix<kMostBiases> covariance_ = Matrix<kMostBiases>::Zero();
+};
+
+// d (x, y, vx, vy) / d measurement of first_estimate(), in the vehicle's axes.
+Matrix<4, 3> first_jacobian(const Observation& observation, const sensors::Mounting& mounting);
+
+template <motion::Model M>
+  requires(M::kCartesian)
+class ConsideringEstimator final : public Estimator {
+ public:
+  static constexpr int kN = M::kStates;
+  using Own = WithBiases<kN>;
+
+  ConsideringEstimator(const TrackerConfig& config, const M& model, const Gaussian<kN>& prior)
+      : model_(model),
+        prior_(prior),
+        sensors_(config.sensors),
+        biases_(config.sensors),
+        filter_{.bias = biases_.covariance()},
+        velocity_variance_(config.initial_velocity_sigma * config.initial_velocity_sigma) {}
+
+  Estimate initial(const Observation& o) const override {
+    const Gaussian<4> first = first_estimate(o, velocity_variance_, known(sensors_, o.sensor));
+    const sensors::OwnBiases& biases = biases_.of(o.sensor);
+    Own own{.state = prior_};
+    own.state.x.template head<4>() = first.x;
+    own.state.p.template topLeftCorner<4, 4>() = first.p;
+    own.state.p.template topLeftCorner<2, 2>() += biases.time_variance * first.p.bottomRightCorner<2, 2>();
+    const Kinematics k{.position = first.x.head<2>(), .velocity = first.x.tail<2>()};
+    through_sensor(o, [&](const auto& sensor, const auto&) {
+      constexpr int kM = std::remove_cvref_t<decltype(sensor)>::kDimension;
+      if (!sensor.sees(k)) return;
+      const Matrix<4, kM> j = first_jacobian(o, biases.mounting).template leftCols<kM>();
+      const Matrix<4, kMostBiases> jd = times<4, kM, kMostBiases>(j, sensor.bias_jacobian(k));
+      own.cross.template topRows<4>() = -times<4, kMostBiases, kMostBiases>(jd, filter_.bias);
+      own.state.p.template topLeftCorner<4, 4>() += sandwich<4, kMostBiases>(jd, filter_.bias);
+    });
+    return own;
+  }
+
+  void predict(Estimate& estimate, double dt) const override {
+    TTF_CHECK(dt >= 0.0, "prediction by {} s", dt);
+    if (dt > 0.0) filter_.predict(model_, own_of(estimate), dt);
+  }
+
+  std::optional<double> distance_squared(const Estimate& estimate, const Observation& o) const override {
+    const Own& own = own_of(estimate);
+    return through_sensor(o, [&](const auto& sensor, auto z) -> std::optional<double> {
+      blur(own, sensor, z);
+      const auto innovation = filter_.innovate(model_, sensor, z, own);
+      if (!innovation.used) return std::nullopt;
+      return innovation.nis;
+    });
+  }
+
+  void update(Estimate& estimate, const Observation& o) const override {
+    Own& own = own_of(estimate);
+    through_sensor(o, [&](const auto& sensor, auto z) {
+      blur(own, sensor, z);
+      filter_.update(model_, sensor, z, own);
+    });
+  }
+
+  Gaussian<2> position(const Estimate& estimate) const override {
+    const Gaussian<kN>& state = own_of(estimate).state;
+    return {state.x.template head<2>(), state.p.template topLeftCorner<2, 2>()};
+  }
+  Cartesian cartesian(const Estimate& estimate) const override {
+    return motion::whole<M>(own_of(estimate).state).estimate;
+  }
+
+  Gaussian<2> seen_position(const Estimate& estimate, SensorId id) const override {
+    const Own& own = own_of(estimate);
+    const sensors::AmongBiases<sensors::Position> sensor{{}, biases_.of(id)};
+    sensors::Measurement<2> z{own.state.x.template head<2>(), Matrix<2>::Zero()};
+    blur(own, sensor, z);
+    return {z.z, filter_.spread(model_, sensor, z, own)};
+  }
+
+ private:
+  template <class E>
+  static auto& own_of(E& estimate) {
+    auto* own = std::get_if<Own>(&estimate);
+    TTF_CHECK(own, "an estimate of another estimator: alternative {}", estimate.index());
+    return *own;
+  }
+
+  template <class Body>
+  auto through_sensor(const Observation& o, const Body& body) const {
+    using sensors::AmongBiases, sensors::Measurement;
+    const sensors::OwnBiases& own = biases_.of(o.sensor);
+    if (o.kind == ObservationKind::kPosition)
+      return body(AmongBiases<sensors::Position>{{}, own},
+                  Measurement<2>{o.z.template head<2>(), o.r.template topLeftCorner<2, 2>()});
+    using Radar = sensors::Mounted<sensors::RangeBearingRate>;
+    return body(AmongBiases<Radar>{Radar(own.mounting), own}, Measurement<3>{o.z, o.r});
+  }
+
+  // What the stamp's error adds to the noise for the velocity is not known.
+  template <class S>
+  static void blur(const Own& own, const S& sensor, sensors::Measurement<S::kDimension>& z) {
+    if (sensor.own.time_variance == 0.0) return;
+    const Kinematics k = M::template kinematics<kWithVelocity>(own.state.x);
+    if (!sensor.sees(k)) return;
+    const Matrix<S::kDimension, 2> by_position = sensor.sensor.jacobian(k).template leftCols<2>();
+    const Matrix<2> velocity = own.state.p.template block<2, 2>(2, 2);
+    add_scaled<S::kDimension, S::kDimension>(z.r, sensor.own.time_variance,
+                                             sandwich<S::kDimension, 2>(by_position, velocity));
+  }
+
+  M model_;
+  Gaussian<kN> prior_;
+  std::vector<KnownSensor> sensors_;
+  AllBiases biases_;
+  filters::Consider<kMostBiases> filter_;
+  double velocity_variance_;
+};
+
+}  // namespace ttf::fusion::estimators

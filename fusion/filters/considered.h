@@ -1,0 +1,15 @@
+// What is kept of an object whose sensors' systematic errors are considered (consider.h): N states and their
+// correlation with the B biases of all sensors together, each sensor's one after the other.
+#pragma once
+
+#include "fusion/gaussian.h"
+
+namespace ttf::fusion::filters {
+
+template <int N, int B>
+struct Considered {
+  Gaussian<N> state;
+  Matrix<N, B> cross = Matrix<N, B>::Zero();
+};
+
+}  // namespace ttf::fusion::filters
