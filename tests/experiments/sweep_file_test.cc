@@ -56,7 +56,7 @@ TEST(SweepFile, WhatIsWrongIsToldWithItsLine) {
   EXPECT_THAT(axis("{keys: [seed], values: [1], to: 4}"), HasSubstr("small.yaml:9: axes.one.to"));
   EXPECT_THAT(axis("{keys: [world.speed], values: [1]}"), HasSubstr("world.speed: must be in the file"));
   EXPECT_THAT(axis("{keys: [world.acceleration_noise], values: [51]}"),
-              AllOf(HasSubstr("dynamics.yaml:13: world.acceleration_noise = 51: must be 0..50 m/s^2"),
+              AllOf(HasSubstr("dynamics.yaml:13: world.acceleration_noise = 51: must be a number 0..50 m/s^2"),
                     HasSubstr("(with a, one 51)")));
   EXPECT_THAT(axis("{keys: [cluster.sensors.laser.period], values: [80 m]}"), HasSubstr("paper_unsynchronised.yaml:"));
   EXPECT_THAT(refusal(kHead), HasSubstr("axes"));

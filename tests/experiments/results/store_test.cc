@@ -24,7 +24,7 @@ class StoreTest : public testing::Test {
 
   std::string folder_;
   const StoreHead head_{"noise", "0123", "1.0", "kind: sweep\n", {"rmse", "a \"quoted\" one, with; all"}};
-  const Run first_{{0, 0, 1}, kDone, {1.5, -2.0}}, second_{{0, 1, 0}, kDone, {0.1, std::nan("")}},
+  const results::Run first_{{0, 0, 1}, kDone, {1.5, -2.0}}, second_{{0, 1, 0}, kDone, {0.1, std::nan("")}},
       third_{{2, 0, 0}, "it's broken: \"so\"", {std::nan(""), std::nan("")}};
 };
 
@@ -50,8 +50,8 @@ TEST_F(StoreTest, WhatWasAddedComesBackInOrder) {
   EXPECT_EQ(store.head().measures, head_.measures);
   EXPECT_EQ(store.count(), 3u);
   EXPECT_THAT(store.keys(), testing::ElementsAre(first_.key, second_.key, third_.key));
-  std::vector<Run> runs;
-  store.for_each([&](const Run& run) { runs.push_back(run); });
+  std::vector<results::Run> runs;
+  store.for_each([&](const results::Run& run) { runs.push_back(run); });
   ASSERT_EQ(runs.size(), 3u);
   expect_same(runs[0], first_);
   expect_same(runs[1], second_);
@@ -63,7 +63,7 @@ TEST_F(StoreTest, WhatWasAddedComesBackInOrder) {
 TEST_F(StoreTest, ARunThatIsThereStays) {
   Store store = Store::create(path(), head_);
   store.add({first_});
-  store.add({Run{first_.key, kDone, {9.0, 9.0}}, second_});
+  store.add({results::Run{first_.key, kDone, {9.0, 9.0}}, second_});
   EXPECT_EQ(store.count(), 2u);
   expect_same(store.of_point(0).front(), first_);
 }
@@ -87,7 +87,7 @@ TEST_F(StoreTest, WhereNothingCanBeWrittenItSaysSo) {
 TEST_F(StoreTest, AFullDiskTakesNothingThatWasThere) {
   Store store = Store::create(path(), head_);
   store.add({first_});
-  std::vector<Run> many;
+  std::vector<results::Run> many;
   for (std::uint32_t r = 0; r < 10'000; ++r) many.push_back({{1, r, 0}, kDone, {1.0, 2.0}});
   rlimit before{};
   ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
