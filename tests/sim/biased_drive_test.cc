@@ -103,8 +103,8 @@ struct LastPrediction final : records::Sink {
   }
 };
 
-// Of the position alone: the car stands, which is more than the tracker counts on, so that of the velocity it knows more
-// than it believes. Each drive is judged once, at its end.
+// Of the position alone: the car stands, which is more than the tracker counts on, so that of the velocity it knows
+// more than it believes. Each drive is judged once, at its end.
 TEST(BiasedDrive, ConsideredItIsConsistentIgnoredItIsNot) {
   constexpr std::uint64_t kDrives = 150;
   Drive drive = standing_car(StrategyKind::kTt);
@@ -175,8 +175,8 @@ TEST(MountedDrive, BackwardsIsForwardsTurned) {
   }
 }
 
-// A recording without noise, of a laser on the roof that looks to the left and a radar at the back that looks backwards:
-// what the log says was seen, and the images, are where the car is.
+// A recording without noise, of a laser on the roof that looks to the left and a radar at the back that looks
+// backwards: what the log says was seen, and the images, are where the car is.
 TEST(MountedDrive, RecordedSensorsSeeFromWhereTheyAre) {
   Drive drive("scenarios/laser_radar_recorded.yaml", StrategyKind::kTt);
   drive.scenario.duration = drive.scenario.world.duration = Duration::milliseconds(5'000);
