@@ -34,7 +34,7 @@ class Estimator {
   virtual Cartesian cartesian(const Estimate& estimate) const = 0;
   // Where a sensor that is all right but for its systematic errors is expected to see it: position(), unless errors are
   // considered. With the noise of an observation of a position, the distribution its distance is of.
-  virtual Gaussian<2> seen_position(const Estimate& estimate, SensorId sensor) const = 0;
+  virtual Gaussian<2> seen_position(const Estimate& estimate, SensorId) const { return position(estimate); }
 };
 
 std::shared_ptr<const Estimator> make_estimator(const TrackerConfig& config);

@@ -14,6 +14,7 @@
 #include <array>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "core/ids.h"
 #include "core/strict_yaml.h"

@@ -83,7 +83,6 @@ class ModelEstimator final : public Estimator {
   Gaussian<2> position(const Estimate& estimate) const override {
     return with(estimate, [](const auto& kernel, const auto& own) { return kernel.position(own); });
   }
-  Gaussian<2> seen_position(const Estimate& estimate, SensorId) const override { return position(estimate); }
   Cartesian cartesian(const Estimate& estimate) const override {
     return with(estimate, [](const auto& kernel, const auto& own) { return kernel.cartesian(own); });
   }

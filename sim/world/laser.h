@@ -40,8 +40,8 @@ struct HitPoint {
   double range = 0;     // [m]
 };
 
-// `objects`: in the sensor's axes. Replaces `hits` by the scan, by azimuth then layer, and `truth` by the object each hit
-// is of.
+// `objects`: in the sensor's axes. Replaces `hits` by the scan, by azimuth then layer, and `truth` by the object each
+// hit is of.
 void measure_laser(const LaserConfig& config, std::span<const ObjectState> objects, std::uint64_t seed,
                    std::uint32_t replication, std::uint16_t sensor, std::uint32_t sequence,
                    std::vector<HitPoint>& hits, std::vector<ObjectId>& truth);

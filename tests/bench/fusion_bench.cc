@@ -60,6 +60,21 @@ BENCHMARK(CycleOf)
     ->ArgNames({"motion", "filter"})
     ->Unit(benchmark::kMicrosecond);
 
+// The same, constant velocity or acceleration, where eight biases are considered (fusion/known_sensor.h).
+void CycleConsidering(benchmark::State& state) {
+  TrackerConfig config = config_of(static_cast<MotionModel>(state.range(0)));
+  config.systematic = SystematicErrorsAre::kConsidered;
+  config.sensors.resize(2);
+  config.sensors[0].errors.sigma << 0.1, 0.005, 0.1, 0.005;
+  config.sensors[1].errors.sigma << 0.2, 0.01, 0.1, 0.005;
+  Crowd crowd = scene();
+  for (std::vector<OwnedScan>* scans : {&crowd.laser, &crowd.camera})
+    for (OwnedScan& scan : *scans)
+      for (Observation& z : scan.observations) z.sensor = scan.id.sensor;
+  cycle(state, crowd, StrategyKind::kTt, config);
+}
+BENCHMARK(CycleConsidering)->Arg(0)->Arg(1)->ArgName("motion")->Unit(benchmark::kMicrosecond);
+
 void CycleOfThousand(benchmark::State& state) {
   cycle(state, thousand(), StrategyKind::kAdva, for_thousand());
 }
