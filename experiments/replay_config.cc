@@ -63,6 +63,7 @@ ReplayConfig parse_replay_config(const std::string& text, const std::string& nam
                                                           {"tt", fusion::StrategyKind::kTt}});
   if (std::optional<YamlMap> tracker = root.map_if("tracker")) {
     config.tracker = fusion::load_tracker(*tracker);
+    if (tracker->has("late")) config.late_line = tracker->line("late");
     tracker->finish();
   }
   if (root.has("sensors")) {
