@@ -192,7 +192,7 @@ NodeSet read_node_set(const NodeSetArguments& arguments) {
          "must be a cluster with sensors: a recording is played by `ttfusion run --input`, in one process"});
   set.seed = arguments.seed ? seed_of(*arguments.seed) : set.scenario.seed;
   if (arguments.duration) set_duration(set.scenario, drive, *arguments.duration);
-  sim::check_fits(set.scenario, set.cluster, false);
+  sim::check_fits(set.scenario, set.cluster, set.strategy, false);
   set.can_interfaces = can_interfaces(set.cluster, set.bus, arguments.cans);
   if (!set.virtual_time) check_fit_for_real_time(set);
   set.folder = arguments.out.empty() ? folder_of(set.scenario) + "/launch" : arguments.out;

@@ -63,7 +63,7 @@ int run_scenario(const RunOptions& options) {
   const std::string folder = options.out.empty() ? folder_of(scenario) : options.out;
   // Before anything is simulated or an earlier run's log is written over.
   for (const fusion::StrategyKind strategy : chosen(options.strategy))
-    sim::check_fits(scenario, checked_cluster(scenario, strategy),
+    sim::check_fits(scenario, checked_cluster(scenario, strategy), strategy,
                     recording.rows != nullptr);
   create_folder(folder);
 

@@ -67,6 +67,7 @@ ReplayConfig parse_replay_config(const std::string& text, const std::string& nam
     if (!config.tracker.sensors.empty())
       tracker->fail("sensors", "must not be given here: mounting and biases stand with the recording's sensors");
     config.tracker.sensors.clear();
+    if (tracker->has("late")) config.late_line = tracker->line("late");
     tracker->finish();
   }
   if (root.has("sensors")) {

@@ -47,6 +47,7 @@ struct ReplayConfig {
   std::string file;   // empty: there is none
   fusion::StrategyKind strategy = fusion::StrategyKind::kAdva;
   fusion::TrackerConfig tracker;   // with what is known of the sensors
+  int late_line = 0;   // of tracker.late; 0: it is not there
   std::vector<std::pair<std::string, SensorSetup>> sensors;   // by SensorId; none: whichever a recording has
 };
 

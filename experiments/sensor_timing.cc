@@ -1,6 +1,7 @@
 #include "experiments/sensor_timing.h"
 
 #include <algorithm>
+#include <string>
 
 #include "core/errors.h"
 
@@ -51,18 +52,28 @@ std::optional<Duration> regular_period(const std::vector<GlobalTime>& times) {
   return period;
 }
 
+bool only_positions(const Arrivals& arrivals) {
+  return std::all_of(arrivals.lists.begin(), arrivals.lists.end(), [](const ListArrival& list) {
+    return std::all_of(list.observations.begin(), list.observations.end(), [](const fusion::Observation& observation) {
+      return observation.kind == fusion::ObservationKind::kPosition;
+    });
+  });
+}
+
 std::vector<fusion::SensorTiming> sensor_timings(const Arrivals& arrivals, const ReplayConfig& config,
                                                  fusion::StrategyKind strategy) {
   const std::vector<Duration> longest = longest_delays(arrivals);
   const std::vector<std::vector<GlobalTime>> times = times_measured(arrivals);
   std::vector<fusion::SensorTiming> timings;
+  const fusion::oosm::Kind late = config.tracker.late;
+  const bool on_schedule = strategy == fusion::StrategyKind::kTt || late == fusion::oosm::Kind::kClone;
   bool any_scheduled = false;
   for (std::size_t s = 0; s < arrivals.sensors.size(); ++s) {
     const SensorSetup& setup = config.sensors[s].second;
     fusion::SensorTiming timing{static_cast<SensorId>(s),
                                 fusion::Settling::after(setup.worst_delay.value_or(longest[s])), false, {}, {}};
     const std::optional<Duration> period = setup.period ? setup.period : regular_period(times[s]);
-    if (strategy == fusion::StrategyKind::kTt && period && (setup.first || !times[s].empty())) {
+    if (on_schedule && period && (setup.first || !times[s].empty())) {
       timing.scheduled = any_scheduled = true;
       timing.period = *period;
       timing.first = setup.first ? *setup.first : times[s].front();
@@ -72,6 +83,9 @@ std::vector<fusion::SensorTiming> sensor_timings(const Arrivals& arrivals, const
   if (strategy == fusion::StrategyKind::kTt && !any_scheduled)
     throw InputError({config.file.empty() ? "command line" : config.file, 0, "strategy", "tt",
                       "needs the period of at least one sensor: none is given, and none measures at regular instants"});
+  const std::string refusal = fusion::late_refusal(strategy, late, timings, only_positions(arrivals));
+  if (!refusal.empty())
+    throw InputError({config.file, config.late_line, "tracker.late", std::string(name_of(late)), refusal});
   return timings;
 }
 

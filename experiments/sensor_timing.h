@@ -18,9 +18,13 @@ std::vector<Duration> longest_delays(const Arrivals& arrivals);
 // its instants have none; nothing for less than three, and for what is not regular.
 std::optional<Duration> regular_period(const std::vector<GlobalTime>& times);
 
-// By sensor. The worst delay is the longest seen unless the configuration has one. Instants are scheduled for TT, where
-// the configuration has a period, or else the recording is regular. Throws InputError where TT is asked for and no
-// sensor's instants are known: it would wait for none.
+// Whether nothing else was measured.
+bool only_positions(const Arrivals& arrivals);
+
+// By sensor. The worst delay is the longest seen unless the configuration has one. Instants are scheduled for TT, and
+// for clones, where the configuration has a period, or else the recording is regular. Throws InputError where TT is
+// asked for and no sensor's instants are known, for it would wait for none, and where the strategy cannot take late
+// lists in as the configuration says (fusion::late_refusal()).
 std::vector<fusion::SensorTiming> sensor_timings(const Arrivals& arrivals, const ReplayConfig& config,
                                                  fusion::StrategyKind strategy);
 

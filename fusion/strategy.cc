@@ -3,23 +3,31 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <utility>
 
 #include "core/check.h"
+#include "fusion/late/late_updates.h"
+#include "fusion/scheduled_instants.h"
 #include "fusion/timeline.h"
+#include "fusion/track_history.h"
 
 namespace ttf::fusion {
 namespace {
 
 constexpr GlobalTime kLongAgo{std::numeric_limits<std::int64_t>::min()};
 
-// What the three share: the scans that wait, the timeline, and the account of what happened. They differ in
-// which waiting scan may be fused.
-class TimelineStrategy : public Strategy {
+// What the three share: the scans that wait, the tracks with their history, and the account of what happened. They
+// differ in which waiting scan may be fused.
+class HistoryStrategy : public Strategy {
  public:
-  TimelineStrategy(const TrackerConfig& config, std::span<const SensorTiming> sensors)
-      : config_(config), sensors_(sensors.begin(), sensors.end()), timeline_(config, config.max_observations) {
+  HistoryStrategy(const TrackerConfig& config, std::span<const SensorTiming> sensors,
+                  std::unique_ptr<TrackHistory> history)
+      : config_(config),
+        sensors_(sensors.begin(), sensors.end()),
+        history_(std::move(history)),
+        estimator_(&history_->estimator()) {
     pending_.reserve(kMaxPending);
     for (std::size_t i = 0; i < kMaxPending; ++i) {
       pending_.emplace_back(config.max_observations);
@@ -45,7 +53,7 @@ class TimelineStrategy : public Strategy {
                                      [&](std::size_t w) {
       return pending_[w].id == scan.id && pending_[w].measured == scan.measured;
     });
-    if (waiting || timeline_.contains(scan.id, scan.measured)) {
+    if (waiting || history_->contains(scan.id, scan.measured)) {
       note_between({scan.id, scan.measured, Disposition::kDuplicate});
       return;
     }
@@ -101,16 +109,16 @@ class TimelineStrategy : public Strategy {
   std::uint64_t unlisted() const final { return unlisted_; }
   std::span<const TrackView> tracks() const final { return views_; }
   std::span<const MeasurementId> newest() const final { return newest_; }
-  GlobalTime newest_measured() const final { return timeline_.current().time; }
+  GlobalTime newest_measured() const final { return history_->current().time; }
   int confirmed_count() const final { return static_cast<int>(views_.size()); }
   int tentative_count() const final { return tentative_; }
 
   void image(GlobalTime at, std::vector<TrackView>& out) const final {
     out.clear();
-    const TrackSet& set = timeline_.current();
+    const TrackSet& set = history_->current();
     for (const Track& track : set.tracks)
-      if (track.confirmed && !given_up(track, set.time, at, config_, timeline_.estimator()))
-        out.push_back(view_of(track, set.time, at, config_, timeline_.estimator()));
+      if (track.confirmed && !given_up(track, set.time, at, config_, *estimator_))
+        out.push_back(view_of(track, set.time, at, config_, *estimator_));
   }
 
  protected:
@@ -150,13 +158,13 @@ class TimelineStrategy : public Strategy {
 
   FusedScan take(const StoredScan& scan) {
     Disposition disposition = Disposition::kFused;
-    switch (timeline_.insert(scan.view())) {
-      case Timeline::Insertion::kInOrder:
+    switch (history_->insert(scan.view())) {
+      case TrackHistory::Insertion::kInOrder:
         break;
-      case Timeline::Insertion::kLate:
+      case TrackHistory::Insertion::kLate:
         disposition = Disposition::kFusedLate;
         break;
-      case Timeline::Insertion::kTooOld:
+      case TrackHistory::Insertion::kTooOld:
         disposition = Disposition::kDroppedTooOld;
         break;
     }
@@ -178,11 +186,11 @@ class TimelineStrategy : public Strategy {
   void show(GlobalTime now) {
     views_.clear();
     tentative_ = 0;
-    const TrackSet& set = timeline_.current();
+    const TrackSet& set = history_->current();
     for (const Track& track : set.tracks) {
-      if (given_up(track, set.time, now, config_, timeline_.estimator())) continue;
+      if (given_up(track, set.time, now, config_, *estimator_)) continue;
       if (track.confirmed)
-        views_.push_back(view_of(track, set.time, set.time, config_, timeline_.estimator()));
+        views_.push_back(view_of(track, set.time, set.time, config_, *estimator_));
       else
         ++tentative_;
     }
@@ -190,7 +198,8 @@ class TimelineStrategy : public Strategy {
 
   TrackerConfig config_;
   std::vector<SensorTiming> sensors_;
-  Timeline timeline_;
+  std::unique_ptr<TrackHistory> history_;
+  const Estimator* estimator_;               // the history's
   std::vector<StoredScan> pending_;          // storage
   std::vector<std::size_t> free_, waiting_;  // waiting: chronological
   std::vector<char> seen_;                   // by a fusion instant, of those that wait
@@ -206,8 +215,8 @@ class TimelineStrategy : public Strategy {
   GlobalTime now_{};
 };
 
-class Buff final : public TimelineStrategy {
-  using TimelineStrategy::TimelineStrategy;
+class Buff final : public HistoryStrategy {
+  using HistoryStrategy::HistoryStrategy;
 
  private:
   GlobalTime may_fuse_from(const StoredScan& scan) const override {
@@ -227,15 +236,15 @@ class Buff final : public TimelineStrategy {
   }
 };
 
-class Adva final : public TimelineStrategy {
-  using TimelineStrategy::TimelineStrategy;
+class Adva final : public HistoryStrategy {
+  using HistoryStrategy::HistoryStrategy;
 
  private:
   GlobalTime may_fuse_from(const StoredScan&) const override { return kLongAgo; }
 };
 
-class TimeTriggered final : public TimelineStrategy {
-  using TimelineStrategy::TimelineStrategy;
+class TimeTriggered final : public HistoryStrategy {
+  using HistoryStrategy::HistoryStrategy;
 
  private:
   GlobalTime may_fuse_from(const StoredScan& scan) const override {
@@ -245,44 +254,58 @@ class TimeTriggered final : public TimelineStrategy {
       const SensorTiming& other = sensor(s);
       if (other.sensor == scan.id.sensor || !other.scheduled || mine < other.first) continue;
       // The other sensor's newest instant that is not after this measurement's.
-      const GlobalTime instant = other.first + other.period * ((mine - other.first).ns / other.period.ns);
-      if (!arrived_since(s, instant - tolerance(other))) from = std::max(from, other.settling.settled_from(instant));
+      const ScheduledInstants instants = instants_of(other);
+      const GlobalTime instant = instants.newest_at(mine);
+      if (!arrived_since(s, instant - instants.tolerance()))
+        from = std::max(from, other.settling.settled_from(instant));
     }
     return from;
   }
 
-  // Time stamps are clock readings: an instant of the schedule is recognised within a quarter of the period.
-  static Duration tolerance(const SensorTiming& timing) { return {timing.period.ns / 4}; }
+  static ScheduledInstants instants_of(const SensorTiming& timing) { return {timing.first, timing.period}; }
 
   // Instants are compared on the schedule, not by their stamps: two sensors that measure at the same instant
   // wait for each other whichever stamp happens to be smaller. A measurement that fits no instant stands for
   // itself.
   GlobalTime scheduled_instant(const StoredScan& scan) const {
-    for (std::size_t s = 0; s < sensor_count(); ++s) {
-      const SensorTiming& own = sensor(s);
-      if (own.sensor != scan.id.sensor || !own.scheduled) continue;
-      const std::int64_t since = (scan.measured - own.first).ns + own.period.ns / 2;
-      const std::int64_t cycle =
-          since >= 0 ? since / own.period.ns : -((own.period.ns - 1 - since) / own.period.ns);
-      const GlobalTime instant = own.first + own.period * cycle;
-      const Duration off = scan.measured - instant;
-      if (off <= tolerance(own) && -off <= tolerance(own)) return instant;
-    }
+    for (std::size_t s = 0; s < sensor_count(); ++s)
+      if (sensor(s).sensor == scan.id.sensor && sensor(s).scheduled)
+        if (const std::optional<GlobalTime> instant = instants_of(sensor(s)).of(scan.measured)) return *instant;
     return scan.measured;
   }
 };
 
 }  // namespace
 
+std::string late_refusal(StrategyKind kind, oosm::Kind late, std::span<const SensorTiming> sensors,
+                         bool only_positions) {
+  if (kind == StrategyKind::kBuff || late == oosm::Kind::kRewind) return {};
+  if (kind == StrategyKind::kTt && late != oosm::Kind::kClone) return "must be rewind or clone with strategy tt";
+  if (!only_positions)
+    return "must be rewind where a sensor measures range and bearing: the other methods take positions";
+  const bool scheduled =
+      std::all_of(sensors.begin(), sensors.end(), [](const SensorTiming& sensor) { return sensor.scheduled; });
+  if (late == oosm::Kind::kClone && !scheduled)
+    return "must not be clone where a sensor measures freely: the schedule must know the instants beforehand";
+  return {};
+}
+
 std::unique_ptr<Strategy> make_strategy(StrategyKind kind, const TrackerConfig& config,
                                         std::span<const SensorTiming> sensors) {
+  const std::string refusal = late_refusal(kind, config.late, sensors, true);
+  TTF_CHECK(refusal.empty(), "late {}", refusal);
+  std::unique_ptr<TrackHistory> history;
+  if (kind == StrategyKind::kBuff || config.late == oosm::Kind::kRewind)
+    history = std::make_unique<Timeline>(config, config.max_observations);
+  else
+    history = std::make_unique<LateUpdates>(config, config.max_observations, sensors);
   switch (kind) {
     case StrategyKind::kBuff:
-      return std::make_unique<Buff>(config, sensors);
+      return std::make_unique<Buff>(config, sensors, std::move(history));
     case StrategyKind::kAdva:
-      return std::make_unique<Adva>(config, sensors);
+      return std::make_unique<Adva>(config, sensors, std::move(history));
     case StrategyKind::kTt:
-      return std::make_unique<TimeTriggered>(config, sensors);
+      return std::make_unique<TimeTriggered>(config, sensors, std::move(history));
   }
   TTF_CHECK(false, "strategy {}", static_cast<int>(kind));
 }

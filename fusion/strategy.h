@@ -18,6 +18,10 @@
 //
 // Whatever a strategy fused too early (a broken promise) is repaired as in ADVA and reported as late. Scans
 // older than the history are dropped and reported; one with a stamp from the future waits until its time.
+//
+// Going back is the default; by TrackerConfig::late, ADVA takes late scans in by any method for single states, and TT
+// by clones (fusion/late/late_updates.h), where late_refusal() has nothing against it. BUFF takes nothing late by
+// design: what it must repair nevertheless it always goes back for.
 // Order among scans: (measured, sensor, sequence).
 //
 // After construction nothing allocates.
@@ -27,6 +31,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/ids.h"
@@ -96,6 +101,11 @@ class Strategy {
   virtual int confirmed_count() const = 0;
   virtual int tentative_count() const = 0;
 };
+
+// Why a strategy cannot take late scans in by that method: what TrackerConfig::late must be instead, in the words of a
+// Finding; empty where it can. only_positions: no sensor measures anything but positions.
+std::string late_refusal(StrategyKind kind, oosm::Kind late, std::span<const SensorTiming> sensors,
+                         bool only_positions);
 
 std::unique_ptr<Strategy> make_strategy(StrategyKind kind, const TrackerConfig& config,
                                         std::span<const SensorTiming> sensors);

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "fusion/identities.h"
-#include "fusion/tracker.h"
+#include "fusion/track_history.h"
 
 namespace ttf::fusion {
 
@@ -33,23 +33,14 @@ struct StoredScan {
   Scan view() const { return {id, measured, observations}; }
 };
 
-// The chronological order of scans, ties included.
-inline bool before(const MeasurementId& a, GlobalTime a_time, const MeasurementId& b, GlobalTime b_time) {
-  if (a_time != b_time) return a_time < b_time;
-  return a < b;
-}
-
-class Timeline {
+class Timeline final : public TrackHistory {
  public:
   Timeline(const TrackerConfig& config, std::size_t max_observations);
 
-  enum class Insertion { kInOrder, kLate, kTooOld };
-  Insertion insert(const Scan& scan);
-  // The newest tracks, confirmed ones with their ids.
-  const TrackSet& current() const;
-  const Estimator& estimator() const { return tracker_.estimator(); }   // of the tracks' estimates
-  // Whether this measurement is in it: a sensor that restarts gives its numbers again, to other instants.
-  bool contains(const MeasurementId& id, GlobalTime measured) const;
+  Insertion insert(const Scan& scan) override;
+  const TrackSet& current() const override;
+  const Estimator& estimator() const override { return tracker_.estimator(); }
+  bool contains(const MeasurementId& id, GlobalTime measured) const override;
 
  private:
   struct Entry {

@@ -80,6 +80,12 @@ void Tracker::step(TrackSet& set, const Scan& scan) {
   prune(set);
 }
 
+std::span<const int> Tracker::assigned(const TrackSet& set, const Scan& scan) {
+  TTF_CHECK(scan.observations.size() <= max_observations_, "{} observations", scan.observations.size());
+  associate(set, scan);
+  return std::span(observation_of_).first(set.tracks.size());
+}
+
 void Tracker::predict_all(TrackSet& set, GlobalTime to) const {
   const double dt = (to - set.time).seconds();
   for (Track& track : set.tracks) {
@@ -143,8 +149,7 @@ void Tracker::associate(const TrackSet& set, const Scan& scan) {
     if (columns[o] >= 0) observation_of_[static_cast<std::size_t>(columns[o])] = static_cast<int>(o);
 }
 
-void Tracker::correct(Track& track, const Observation& z) const {
-  estimator_->update(track.estimate, z);
+void Tracker::correct_outline(Track& track, const Observation& z) const {
   if (z.has_heading) {
     const Cartesian now = estimator_->cartesian(track.estimate);
     const double vx = now.x(2), vy = now.x(3);
@@ -156,7 +161,6 @@ void Tracker::correct(Track& track, const Observation& z) const {
     track.heading.value = to_half_turn(track.heading.value);
   }
   correct_extent(track, z);
-  carry(track.unfiltered, z);
 }
 
 // The span needs the aspect: it comes last, when position, course and axis know what this observation says of

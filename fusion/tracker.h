@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "core/ids.h"
@@ -36,6 +37,14 @@ class Tracker {
 
   // Takes the scan in; scan.measured must not be before set.time.
   void step(TrackSet& set, const Scan& scan);
+  // The parts of a step that whoever takes late scans in (fusion/late/) has use for:
+  // which observation of the scan each track takes, or -1: gated and assigned, no track changed; valid until the next
+  // call.
+  std::span<const int> assigned(const TrackSet& set, const Scan& scan);
+  // Heading and extent, of an object that is where its estimate says.
+  void correct_outline(Track& track, const Observation& observation) const;
+  // Confirms and ends tracks by their counts.
+  void prune(TrackSet& set) const;
   // Room for tentative and confirmed tracks together.
   std::size_t max_tracks() const { return max_tracks_; }
   const TrackerConfig& config() const { return config_; }
@@ -45,10 +54,13 @@ class Tracker {
   void predict_all(TrackSet& set, GlobalTime to) const;
   void sort_by_x(const TrackSet& set, SensorId seen_by);
   void associate(const TrackSet& set, const Scan& scan);
-  void correct(Track& track, const Observation& observation) const;
+  void correct(Track& track, const Observation& observation) const {
+    estimator_->update(track.estimate, observation);
+    correct_outline(track, observation);
+    carry(track.unfiltered, observation);
+  }
   void correct_extent(Track& track, const Observation& observation) const;
   void give_birth(TrackSet& set, const Scan& scan);
-  void prune(TrackSet& set) const;
 
   TrackerConfig config_;
   std::shared_ptr<const Estimator> estimator_;   // without state: copies of the tracker share it

@@ -74,9 +74,18 @@ TrackerConfig load_tracker(YamlMap& yaml) {
   if ((c.history_scans + 1) * tracks > kMostRemembered)
     yaml.fail("history_scans", "is too much to remember: (history_scans + 1) x (max_objects + 3 max_observations) "
                                "must be at most 1000000");
+  Choices<oosm::Kind> methods;
+  for (const oosm::NamedKind& named : oosm::kKinds) methods.emplace_back(named.name, named.kind);
+  c.late = yaml.choice_or<oosm::Kind>("late", c.late, methods);
+  const bool straight = c.motion == MotionModel::kConstantVelocity || c.motion == MotionModel::kConstantAcceleration;
+  if (c.late != oosm::Kind::kRewind && !(straight && c.filter == FilterKind::kExtended))
+    yaml.fail("late", "must be rewind, but with motion constant_velocity or constant_acceleration and filter extended: "
+                      "of the others' estimates the methods know nothing");
   c.heading_noise = yaml.number_or("heading_noise", c.heading_noise, {0.0, 100.0}, "rad^2/s");
   c.extent_noise = yaml.number_or("extent_noise", c.extent_noise, {0.0, 100.0}, "m^2/s");
   load_systematic(yaml, c);
+  if (c.late != oosm::Kind::kRewind && c.systematic == SystematicErrorsAre::kConsidered)
+    yaml.fail("late", "must be rewind where systematic is consider: the other methods carry no errors of sensors");
   return c;
 }
 

@@ -7,6 +7,7 @@
 #include "core/strict_yaml.h"
 #include "core/time.h"
 #include "fusion/known_sensor.h"
+#include "fusion/oosm/kind.h"
 
 namespace ttf::fusion {
 
@@ -62,6 +63,9 @@ struct TrackerConfig {
   BuffWaiting buff_waits = BuffWaiting::kSchedule;
   Duration fixed_lag = Duration::milliseconds(100);
   std::size_t history_scans = 64;      // how far back a late scan can be taken in
+  // How ADVA and TT take it in (fusion/late/late_updates.h). Other than rewind: for straight motion under the extended
+  // filter only.
+  oosm::Kind late = oosm::Kind::kRewind;
   double heading_noise = 0.05;         // spectral density of the heading's random walk [rad^2/s]
   double extent_noise = 0.01;          // of length and width [m^2/s]
 

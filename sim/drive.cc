@@ -1,7 +1,10 @@
 #include "sim/drive.h"
 
+#include <algorithm>
 #include <optional>
+#include <string>
 
+#include "core/strict_yaml.h"
 #include "nodes/believed_schedule.h"
 #include "nodes/catalog.h"
 #include "nodes/fusion_host.h"
@@ -61,8 +64,22 @@ void check_recording(const nodes::Scenario& scenario, const schedules::Cluster& 
                       "must be integrated: a recording begins with cycle 0, and nobody knows when that will be"});
 }
 
-void check_fits(const nodes::Scenario& scenario, const schedules::Cluster& cluster, bool recording_given) {
+void check_late(const nodes::Scenario& scenario, const schedules::Cluster& cluster, fusion::StrategyKind strategy) {
+  const bool only_positions =
+      std::none_of(cluster.sensors.begin(), cluster.sensors.end(),
+                   [](const schedules::Sensor& sensor) { return sensor.kind == schedules::SensorKind::kRadar; });
+  const fusion::oosm::Kind late = scenario.tracker.late;
+  const std::string refusal = fusion::late_refusal(strategy, late, nodes::sensor_timings(cluster), only_positions);
+  if (refusal.empty()) return;
+  Findings none;
+  const int line = StrictYaml::parse(scenario.text, scenario.file).root(none).map("tracker").line("late");
+  throw InputError({scenario.file, line, "tracker.late", std::string(name_of(late)), refusal});
+}
+
+void check_fits(const nodes::Scenario& scenario, const schedules::Cluster& cluster, fusion::StrategyKind strategy,
+                bool recording_given) {
   check_recording(scenario, cluster, recording_given);
+  check_late(scenario, cluster, strategy);
   const nodes::FaultPlan faults = nodes::resolve(scenario.faults, cluster);
   const nodes::BelievedSchedules believed(faults, cluster);
   if (scenario.startup.cold) (void)nodes::node_starts(scenario.startup, cluster, scenario.seed, 0);
@@ -73,6 +90,7 @@ DriveOutcome run_drive(const DriveConfig& config, records::Sink& out) {
   const schedules::Cluster& cluster = *config.cluster;
   const nodes::Scenario& scenario = *config.scenario;
   check_recording(scenario, cluster, config.recorded != nullptr);
+  check_late(scenario, cluster, config.strategy);
   std::optional<Share> share;
   if (config.others != nullptr) share.emplace(config.others->self(), out);
   records::Sink& sink = share ? static_cast<records::Sink&>(*share) : out;

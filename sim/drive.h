@@ -43,9 +43,13 @@ struct DriveOutcome {
 // Whether scenario and cluster take what they are given: a cluster with recorded sources needs a recording and nodes
 // that begin integrated, and any other has no use for a recording. Throws InputError; run_drive() asks it, too.
 void check_recording(const nodes::Scenario& scenario, const schedules::Cluster& cluster, bool given);
-// The same of all that a scenario says of its cluster's nodes, and of the recording: faults, start-up. Throws InputError, so that
-// nothing has to be begun to find it out.
-void check_fits(const nodes::Scenario& scenario, const schedules::Cluster& cluster, bool recording_given);
+// Whether that strategy can take late lists of this cluster in as the scenario says (tracker.late). Throws InputError;
+// run_drive() asks it, too.
+void check_late(const nodes::Scenario& scenario, const schedules::Cluster& cluster, fusion::StrategyKind strategy);
+// The same of all that a scenario says of its cluster's nodes, and of the recording: faults, start-up, late lists.
+// Throws InputError, so that nothing has to be begun to find it out.
+void check_fits(const nodes::Scenario& scenario, const schedules::Cluster& cluster, fusion::StrategyKind strategy,
+                bool recording_given);
 
 // Runs the drive to its end, with the scenario's faults; their times count from kFirstCycle. Throws InputError where
 // scenario, cluster and code do not fit together.

@@ -13,6 +13,8 @@
 // Costs       some seven products of n x n per lag, and some in order to store them.
 #pragma once
 
+#include <optional>
+
 #include "fusion/oosm/correction.h"
 #include "fusion/oosm/history.h"
 #include "fusion/oosm/method.h"
@@ -43,6 +45,13 @@ class Adjoint {
     fuse_retrodicted<N, M>(now, retrodicted(stamp.time(), n), measurement);
     begin(Stamp{history_.newest().stamp}, now);
     return Taken::kLate;
+  }
+
+  std::optional<Gaussian<N>> at(const Stamp& stamp) const {
+    const int n = history_.not_after(stamp);
+    if (n == 0 || history_[n - 1].stamp == stamp) return std::nullopt;
+    if (n == history_.size()) return advanced<N>(state(), motion_, stamp.time() - time());
+    return retrodicted(stamp.time(), n).then;
   }
 
   const Gaussian<N>& state() const { return history_.newest().estimate; }

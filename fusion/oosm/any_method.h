@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -42,6 +43,9 @@ class AnyMethod {
   }
   Taken take(const Stamp& stamp, const LinearMeasurement<N, M>& measurement) {
     return std::visit([&](auto& method) { return method.take(stamp, measurement); }, method_);
+  }
+  std::optional<Gaussian<N>> at(const Stamp& stamp) const {
+    return std::visit([&](const auto& method) { return method.at(stamp); }, method_);
   }
   const Gaussian<N>& state() const {
     return std::visit([](const auto& method) -> const Gaussian<N>& { return method.state(); }, method_);

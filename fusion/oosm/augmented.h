@@ -12,6 +12,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "fusion/oosm/joint.h"
 #include "fusion/oosm/method.h"
@@ -52,6 +53,14 @@ class Augmented {
     joint_.correct_slot(slot, measurement);
     forget();
     return Taken::kLate;
+  }
+
+  std::optional<Gaussian<N>> at(const Stamp& stamp) const {
+    if (stamp > last_) return advanced<N>(state(), motion_, stamp.time() - last_.time());
+    if (stamp == last_) return std::nullopt;
+    const Neighbours found = neighbours(stamp);
+    if (found.before == kNone || stamps_[place(found.before)] == stamp) return std::nullopt;
+    return joint_.interpolated(found.before, found.after, bridge_at(stamp.time(), found));
   }
 
   const Gaussian<N>& state() const { return joint_.now(); }

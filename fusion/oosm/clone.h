@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "fusion/oosm/joint.h"
 #include "fusion/oosm/method.h"
@@ -67,6 +68,13 @@ class Clone {
       return Taken::kLate;
     }
     return stamp <= gone_ ? Taken::kTooOld : Taken::kUnannounced;
+  }
+
+  std::optional<Gaussian<N>> at(const Stamp& stamp) const {
+    if (stamp > last_) return advanced<N>(state(), motion_, stamp.time() - last_.time());
+    for (int i = 0; i < joint_.size(); ++i)
+      if (stamps_[place(i)] == stamp) return joint_.kept(i);
+    return std::nullopt;
   }
 
   const Gaussian<N>& state() const { return joint_.now(); }

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "fusion/oosm/correction.h"
 #include "fusion/oosm/history.h"
@@ -61,13 +62,15 @@ class Collapsed {
     if (n == 0) return Taken::kTooOld;
     const Entry& then = history_[n - 1];
     if (then.stamp == stamp) return Taken::kDuplicate;
-    Gaussian<N> predicted = then.estimate;
-    advance<N>(predicted, motion_, last.time() - then.stamp.time());
-    const Duration lag = last.time() - stamp.time();
-    const LinearStep<N> step = lag > Duration{} ? motion_.step(lag.seconds()) : LinearStep<N>{};
-    Gaussian<N>& now = history_.newest().estimate;
-    fuse_retrodicted<N, M>(now, retrodict_collapsed<N>(now, predicted, step, kNoise), measurement);
+    fuse_retrodicted<N, M>(history_.newest().estimate, retrodicted(stamp.time(), then), measurement);
     return Taken::kLate;
+  }
+
+  std::optional<Gaussian<N>> at(const Stamp& stamp) const {
+    const int n = history_.not_after(stamp);
+    if (n == 0 || history_[n - 1].stamp == stamp) return std::nullopt;
+    if (n == history_.size()) return advanced<N>(state(), motion_, stamp.time() - time());
+    return retrodicted(stamp.time(), history_[n - 1]).then;
   }
 
   const Gaussian<N>& state() const { return history_.newest().estimate; }
@@ -78,6 +81,14 @@ class Collapsed {
     Stamp stamp;
     Gaussian<N> estimate;   // as it was when the next one came
   };
+
+  // `then` is the last not after tau.
+  Retrodicted<N> retrodicted(GlobalTime tau, const Entry& then) const {
+    const Gaussian<N> predicted = advanced<N>(then.estimate, motion_, time() - then.stamp.time());
+    const Duration lag = time() - tau;
+    const LinearStep<N> step = lag > Duration{} ? motion_.step(lag.seconds()) : LinearStep<N>{};
+    return retrodict_collapsed<N>(state(), predicted, step, kNoise);
+  }
 
   Model motion_;
   History<Entry, Capacity> history_;

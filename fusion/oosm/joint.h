@@ -96,6 +96,19 @@ class Joint {
     learn(v, nu);
   }
 
+  Gaussian<N> kept(int s) const { return {x_[at(s)], between(s, s)}; }
+  // What insert() of the same would keep.
+  [[gnu::flatten]] Gaussian<N> interpolated(int before, int after, const Bridge<N>& bridge) const {
+    const Gaussian<N> then = kept(before), later = after == kNow ? now_ : kept(after);
+    const Matrix<N> mixed = bridge.b * between(after, before) * bridge.a.transpose();
+    Gaussian<N> result;
+    result.x = bridge.a * then.x + bridge.b * later.x;
+    result.p = bridge.q + bridge.a * then.p * bridge.a.transpose() + bridge.b * later.p * bridge.b.transpose() +
+               mixed + mixed.transpose();
+    symmetrise<N>(result.p);
+    return result;
+  }
+
   // A new slot by interpolation between the slot `before` and `after`, a slot or kNow.
   [[gnu::flatten]] int insert(int before, int after, const Bridge<N>& bridge) {
     const int s = room();

@@ -22,11 +22,15 @@
 //  L7 Start       start() forgets everything but the motion.
 //  L8 Exact       a method gives, up to rounding, the estimate of processing in order whatever it took, within what
 //                 kExactness says.
+//  L9 Sight       at(stamp) is what a measurement of this stamp is an innovation to: there exactly where take() would
+//                 take one, changing nothing; of a later stamp the prediction, of a late one the state of then as the
+//                 method believes it, given all that was taken (rewinding: given all before it).
 #pragma once
 
 #include <compare>
 #include <concepts>
 #include <cstdint>
+#include <optional>
 
 #include "core/ids.h"
 #include "core/time.h"
@@ -84,6 +88,7 @@ concept Method = std::copyable<X> && requires(X x, const X& told, GlobalTime tim
   x.start(time, prior);
   { x.announce(stamp) } -> std::same_as<bool>;
   { x.take(stamp, measurement) } -> std::same_as<Taken>;
+  { told.at(stamp) } -> std::same_as<std::optional<Gaussian<X::kStates>>>;
   { told.state() } -> std::same_as<const Gaussian<X::kStates>&>;
   { told.time() } -> std::same_as<GlobalTime>;
 };
@@ -92,6 +97,11 @@ concept Method = std::copyable<X> && requires(X x, const X& told, GlobalTime tim
 template <int N, Motion<N> M>
 [[gnu::flatten]] void advance(Gaussian<N>& state, const M& motion, Duration elapsed) {
   if (elapsed > Duration{}) predict<N>(state, motion.step(elapsed.seconds()));
+}
+template <int N, Motion<N> M>
+Gaussian<N> advanced(Gaussian<N> state, const M& motion, Duration elapsed) {
+  advance<N>(state, motion, elapsed);
+  return state;
 }
 
 }  // namespace ttf::fusion::oosm

@@ -8,6 +8,8 @@
 //   booked(before, now)                   a late measurement led from `before` to `now`, both of t(k)
 #pragma once
 
+#include <optional>
+
 #include "fusion/oosm/correction.h"
 #include "fusion/oosm/method.h"
 #include "fusion/oosm/retrodiction.h"
@@ -40,18 +42,28 @@ class OneLag {
     }
     if (stamp == last_ || stamp == before_last_) return Taken::kDuplicate;
     if (stamp < before_last_) return Taken::kTooOld;
-    const Duration lag = last_.time() - stamp.time();
-    const LinearStep<N> step = lag > Duration{} ? motion_.step(lag.seconds()) : LinearStep<N>{};
     const Gaussian<N> before = state_;
-    fuse_retrodicted<N, M>(state_, memory_.retrodict(state_, step), measurement);
+    fuse_retrodicted<N, M>(state_, retrodicted(stamp.time()), measurement);
     memory_.booked(before, state_);
     return Taken::kLate;
+  }
+
+  std::optional<Gaussian<N>> at(const Stamp& stamp) const {
+    if (stamp > last_) return advanced<N>(state_, motion_, stamp.time() - last_.time());
+    if (stamp <= before_last_ || stamp == last_) return std::nullopt;
+    return retrodicted(stamp.time()).then;
   }
 
   const Gaussian<N>& state() const { return state_; }
   GlobalTime time() const { return last_.time(); }
 
  private:
+  Retrodicted<N> retrodicted(GlobalTime tau) const {
+    const Duration lag = last_.time() - tau;
+    const LinearStep<N> step = lag > Duration{} ? motion_.step(lag.seconds()) : LinearStep<N>{};
+    return memory_.retrodict(state_, step);
+  }
+
   Model motion_;
   Stamp before_last_, last_;
   Gaussian<N> state_;

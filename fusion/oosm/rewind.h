@@ -8,6 +8,8 @@
 // Costs       l + 1 steps of predict and update at lag l.
 #pragma once
 
+#include <optional>
+
 #include "fusion/oosm/correction.h"
 #include "fusion/oosm/history.h"
 #include "fusion/oosm/method.h"
@@ -55,6 +57,13 @@ class Rewind {
       time = entry.stamp.time();
     }
     return late ? Taken::kLate : Taken::kInOrder;
+  }
+
+  std::optional<Gaussian<N>> at(const Stamp& stamp) const {
+    const int n = history_.not_after(stamp);
+    if (n == 0 || history_[n - 1].stamp == stamp) return std::nullopt;
+    const Entry& before = history_[n - 1];
+    return advanced<N>(before.estimate, motion_, stamp.time() - before.stamp.time());
   }
 
   const Gaussian<N>& state() const { return history_.newest().estimate; }

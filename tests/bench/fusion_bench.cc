@@ -6,6 +6,7 @@
 #include <benchmark/benchmark.h>
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "tests/bench/crowd.h"
@@ -20,8 +21,9 @@ void report_allocations(benchmark::State& state, std::int64_t allocations) {
   if (allocations != 0) state.SkipWithError("the measured part allocates");
 }
 
-// Two lists of all objects in, image out.
-void cycle(benchmark::State& state, const Crowd& crowd, StrategyKind kind, const TrackerConfig& config) {
+// Two lists of all objects in, image out; where the laser's is late, it comes after the camera's, which is younger.
+void cycle(benchmark::State& state, const Crowd& crowd, StrategyKind kind, const TrackerConfig& config,
+           bool laser_is_late = false) {
   const auto objects = static_cast<std::size_t>(config.max_objects);
   const std::size_t cycles = crowd.laser.size();
   std::vector<TrackView> image;
@@ -37,8 +39,14 @@ void cycle(benchmark::State& state, const Crowd& crowd, StrategyKind kind, const
       state.ResumeTiming();
     }
     const std::int64_t before_all = support::allocations();
-    strategy->accept(crowd.laser[k].view());
-    strategy->accept(crowd.camera[k].view());
+    if (laser_is_late) {
+      strategy->accept(crowd.camera[k].view());
+      strategy->fuse(crowd.camera[k].measured + Duration::milliseconds(40));
+      strategy->accept(crowd.laser[k].view());
+    } else {
+      strategy->accept(crowd.laser[k].view());
+      strategy->accept(crowd.camera[k].view());
+    }
     strategy->fuse(crowd.camera[k].measured + Duration::milliseconds(60));
     strategy->image(crowd.camera[k].measured + Duration::milliseconds(100), image);
     allocations += support::allocations() - before_all;
@@ -75,13 +83,22 @@ void CycleConsidering(benchmark::State& state) {
 }
 BENCHMARK(CycleConsidering)->Arg(0)->Arg(1)->ArgName("motion")->Unit(benchmark::kMicrosecond);
 
+// ADVA with one late list in every cycle, by every method for late lists (fusion/oosm/kind.h).
+void CycleWithALateList(benchmark::State& state) {
+  TrackerConfig config;
+  config.late = oosm::kKinds[static_cast<std::size_t>(state.range(0))].kind;
+  state.SetLabel(std::string(oosm::name_of(config.late)));
+  cycle(state, scene(), StrategyKind::kAdva, config, true);
+}
+BENCHMARK(CycleWithALateList)->DenseRange(0, oosm::kKinds.size() - 1)->ArgName("late")->Unit(benchmark::kMicrosecond);
+
 void CycleOfThousand(benchmark::State& state) {
   cycle(state, thousand(), StrategyKind::kAdva, for_thousand());
 }
 BENCHMARK(CycleOfThousand)->Unit(benchmark::kMicrosecond);
 
 // One laser list of 25 observations that comes `scans` scans late.
-void LateScan(benchmark::State& state) {
+void late_scan(benchmark::State& state, const TrackerConfig& config) {
   const auto scans = static_cast<std::uint32_t>(state.range(0));
   std::unique_ptr<Strategy> strategy;
   std::uint32_t k = kCycles;
@@ -89,7 +106,7 @@ void LateScan(benchmark::State& state) {
   for (auto _ : state) {
     state.PauseTiming();
     if (k + 1 >= kCycles) {
-      strategy = scene().start(StrategyKind::kAdva, kWarm);
+      strategy = scene().start(StrategyKind::kAdva, kWarm, config);
       k = kWarm;
     }
     // Laser and camera in turn: everything younger than the laser's list goes in before it.
@@ -115,7 +132,20 @@ void LateScan(benchmark::State& state) {
   }
   report_allocations(state, allocations);
 }
+void LateScan(benchmark::State& state) { late_scan(state, {}); }
 BENCHMARK(LateScan)->Arg(1)->Arg(2)->Arg(8)->ArgName("scans_late")->Unit(benchmark::kMicrosecond);
+
+// The same, by the methods that reach so far.
+void LateScanBy(benchmark::State& state) {
+  TrackerConfig config;
+  config.late = oosm::kKinds[static_cast<std::size_t>(state.range(1))].kind;
+  state.SetLabel(std::string(oosm::name_of(config.late)));
+  late_scan(state, config);
+}
+BENCHMARK(LateScanBy)
+    ->ArgsProduct({{1, 2, 8}, benchmark::CreateDenseRange(1, 5, 1)})
+    ->ArgNames({"scans_late", "late"})
+    ->Unit(benchmark::kMicrosecond);
 
 void Image(benchmark::State& state) {
   const auto strategy = scene().start(StrategyKind::kAdva, kWarm);

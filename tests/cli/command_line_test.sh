@@ -44,6 +44,20 @@ expect 2 'broken.yaml' run "$drive"
 mutate scenarios/paper_scenario1.yaml 's/paper_synchronised.yaml/absent.yaml/' "$drive"
 expect 2 'absent.yaml: must be a cluster file, but it cannot be read' run "$drive" --strategy tt --out "$work/none"
 
+late() { mutate scenarios/paper_scenario1.yaml "s/^seed: 1/seed: 1\ntracker:\n  late: $1/" "$drive"; }
+late never
+expect 2 'broken.yaml:5: tracker.late = never: must be one of rewind, augmented, clone, adjoint, al1' run "$drive"
+late al1
+expect 2 'broken.yaml:5: tracker.late = al1: must be rewind or clone with strategy tt' run "$drive" --out "$work/none"
+late clone
+expect 2 'broken.yaml:5: tracker.late = clone: must not be clone where a sensor measures freely' \
+  run "$drive" --strategy adva --out "$work/none"
+expect 2 'broken.yaml:5: tracker.late = clone: must not be clone where a sensor measures freely' \
+  launch "$drive" --strategy adva --dry-run --out "$work/none"
+late 'augmented\n  motion: ctrv'
+expect 2 'broken.yaml:5: tracker.late = augmented: must be rewind, but with motion constant_velocity' run "$drive"
+[[ ! -e $work/none ]] || fail "what is refused leaves a folder behind"
+
 cluster=$work/schedules/broken.yaml
 mutate schedules/paper_synchronised.yaml 's/gdNIT: [0-9]*/gdNIT: 100/' "$cluster"
 "$program" schedule check "$cluster" --json 2>"$work/words" >"$work/check.json"

@@ -106,6 +106,31 @@ for waits in schedule measured fixed_lag; do
   { echo time,arrival,sensor,x,y; echo 0,0.01,a,1,2; echo 0,0.01,b,1,2; echo 0.1,0.3,a,1,2; } >"$work/late.csv"
   expect 0 '' track "$work/late.csv" --config "$work/waits.yaml" --strategy buff
 done
+for late in rewind augmented clone adjoint al1 bl1 a b c; do
+  echo "tracker: {late: $late}" >"$work/late.yaml"
+  { echo time,arrival,sensor,x,y; echo 0,0.01,a,1,2; echo 0.1,0.11,a,1,2; echo 0.2,0.3,b,1,2
+    echo 0.3,0.31,a,1,2; echo 0.3,0.41,b,1,2; echo 0.4,0.41,a,1,2; echo 0.35,0.42,b,1,2; } >"$work/late.csv"
+  strategy=adva
+  if [[ $late == clone ]]; then
+    sed -i 's/^0.35/0.4/' "$work/late.csv"
+    strategy=tt
+  fi
+  expect 0 '' track "$work/late.csv" --config "$work/late.yaml" --strategy $strategy
+done
+for late in augmented c; do
+  printf 'tracker:\n  late: %s\n' $late >"$work/late.yaml"
+  expect 2 "late.yaml:2: tracker.late = $late: must be rewind or clone with strategy tt" \
+    track "$work/late.csv" --config "$work/late.yaml" --strategy tt
+  expect 0 '' track "$work/late.csv" --config "$work/late.yaml" --strategy buff
+done
+printf 'tracker: {late: clone}\n' >"$work/late.yaml"
+{ echo time,arrival,sensor,x,y; echo 0,0,a,1,2; echo 0.1,0.2,a,1,2; } >"$work/irregular.csv"
+expect 2 'late.yaml:1: tracker.late = clone: must not be clone where a sensor measures freely' \
+  track "$work/irregular.csv" --config "$work/late.yaml"
+printf 'tracker: {late: al1}\n' >"$work/late.yaml"
+{ echo time,arrival,sensor,range,bearing,range_rate; echo 0,0,radar,10,0,1; } >"$work/radar.csv"
+expect 2 'late.yaml:1: tracker.late = al1: must be rewind where a sensor measures range and bearing' \
+  track "$work/radar.csv" --config "$work/late.yaml"
 expect 2 'empty.csv: holds no heading' track "$work/empty.csv" --skip-damaged
 printf 'time,sensor,x,y\n' >"$work/bare.csv"
 expect 2 'bare.csv: holds no row' track "$work/bare.csv"

@@ -138,6 +138,30 @@ TEST(TrackerConfig, WhatCannotBeConsideredIsRefused) {
       << sentences[0];
 }
 
+TEST(TrackerConfig, NamesEveryMethodForLateLists) {
+  EXPECT_EQ(load("{}").late, oosm::Kind::kRewind);
+  for (const oosm::NamedKind& named : oosm::kKinds)
+    for (const char* motion : {"constant_velocity", "constant_acceleration"})
+      EXPECT_EQ(load("late: " + std::string(named.name) + "\nmotion: " + motion).late, named.kind);
+  std::vector<std::string> sentences;
+  load("late: never\n", &sentences);
+  ASSERT_EQ(sentences.size(), 1u);
+  EXPECT_EQ(sentences[0],
+            "t.yaml:1: late = never: must be one of rewind, augmented, clone, adjoint, al1, bl1, a, b, c");
+}
+
+TEST(TrackerConfig, OnlyStraightMotionIsTakenInOtherThanByRewinding) {
+  for (const std::string other : {"motion: ctrv", "motion: ctra", "motion: interacting", "filter: unscented"}) {
+    EXPECT_EQ(load(other + "\nlate: rewind\n").late, oosm::Kind::kRewind);
+    std::vector<std::string> sentences;
+    load(other + "\nlate: al1\n", &sentences);
+    ASSERT_EQ(sentences.size(), 1u) << other;
+    EXPECT_EQ(sentences[0], "t.yaml:2: late = al1: must be rewind, but with motion constant_velocity or "
+                            "constant_acceleration and filter extended: of the others' estimates the methods know "
+                            "nothing");
+  }
+}
+
 // The example of docs/tracker.md, as it stands there.
 TEST(TrackerConfig, TheDocumentedExampleLoads) {
   std::ostringstream page;

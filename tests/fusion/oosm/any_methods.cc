@@ -17,6 +17,10 @@ Taken Compiled<N, M, Model, Capacity>::take(const Stamp& stamp, const LinearMeas
   return method_.take(stamp, measurement);
 }
 template <int N, int M, Motion<N> Model, int Capacity>
+std::optional<Gaussian<N>> Compiled<N, M, Model, Capacity>::at(const Stamp& stamp) const {
+  return method_.at(stamp);
+}
+template <int N, int M, Motion<N> Model, int Capacity>
 const Gaussian<N>& Compiled<N, M, Model, Capacity>::state() const {
   return method_.state();
 }

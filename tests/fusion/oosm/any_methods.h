@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <string>
 
 #include "fusion/oosm/any_method.h"
@@ -21,6 +22,7 @@ class Compiled {
   void start(GlobalTime time, const Gaussian<N>& prior);
   bool announce(const Stamp& stamp);
   Taken take(const Stamp& stamp, const LinearMeasurement<N, M>& measurement);
+  std::optional<Gaussian<N>> at(const Stamp& stamp) const;
   const Gaussian<N>& state() const;
   GlobalTime time() const;
   Exactness exactness() const;

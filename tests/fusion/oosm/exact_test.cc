@@ -1,5 +1,8 @@
-// Law L8: what is exact equals the textbook's filter, in order, to a relative 1e-12.
+// Laws L8 and L9: what is exact equals the textbook's filter, in order, to a relative 1e-12, and what it sees of an
+// earlier instant the textbook's smoother.
 #include <gtest/gtest.h>
+
+#include <tuple>
 
 #include "tests/fusion/oosm/any_methods.h"
 
@@ -82,6 +85,70 @@ class ExactAtOneLag : public testing::TestWithParam<Kind> {};
 INSTANTIATE_TEST_SUITE_P(Method, ExactAtOneLag, testing::Values(Kind::kA, Kind::kAl1, Kind::kAdjoint), kind_of);
 TEST_P(ExactAtOneLag, EveryOtherLateOnALine) { expect_exact_with_every_other_late<OnLine, Line>(GetParam()); }
 TEST_P(ExactAtOneLag, EveryOtherLateOnAPlane) { expect_exact_with_every_other_late<OnPlane, Plane>(GetParam()); }
+
+// x(tau) given all of `events` (Rauch, Tung, Striebel 1965), which are in order; tau is of no instant of theirs.
+template <int N, int M, Motion<N> Model>
+Gaussian<N> smoothed(const Model& motion, const Gaussian<N>& prior, const Timeline<N, M>& events, GlobalTime tau) {
+  struct Node {
+    Gaussian<N> predicted, filtered;
+    Matrix<N> f = Matrix<N>::Identity();
+  };
+  std::vector<Node> nodes;
+  std::size_t of_tau = 0;
+  Gaussian<N> state = prior;
+  GlobalTime time{};
+  const auto reach = [&](GlobalTime to) {
+    Node node;
+    if (to > time) node.f = motion.step((to - time).seconds()).f;
+    advance<N>(state, motion, to - time);
+    time = to;
+    node.predicted = node.filtered = state;
+    nodes.push_back(node);
+  };
+  for (const auto& event : events) {
+    if (time < tau && tau < event.stamp.time()) {
+      of_tau = nodes.size();
+      reach(tau);
+    }
+    reach(event.stamp.time());
+    update<N, M>(state, event.measurement);
+    nodes.back().filtered = state;
+  }
+  for (std::size_t i = nodes.size() - 1; i-- > of_tau;) {
+    Node &here = nodes[i], &next = nodes[i + 1];
+    const Matrix<N> gain = next.predicted.p.ldlt().solve(next.f * here.filtered.p).transpose();
+    here.filtered.x += gain * (next.filtered.x - next.predicted.x);
+    here.filtered.p += gain * (next.filtered.p - next.predicted.p) * gain.transpose();
+  }
+  return nodes[of_tau].filtered;
+}
+
+class SeesWhatASmootherSees : public testing::TestWithParam<std::tuple<Kind, int>> {};
+INSTANTIATE_TEST_SUITE_P(AtAnyLag, SeesWhatASmootherSees,
+                         testing::Combine(testing::Values(Kind::kAugmented, Kind::kClone, Kind::kAdjoint),
+                                          testing::Values(1, 2, 5, 15)));
+INSTANTIATE_TEST_SUITE_P(AtOneLag, SeesWhatASmootherSees,
+                         testing::Combine(testing::Values(Kind::kA, Kind::kAl1), testing::Values(1)));
+TEST_P(SeesWhatASmootherSees, OfALateInstant) {
+  const auto [kind, lag] = GetParam();
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    RandomStream stream({.seed = seed, .index = 5});
+    Timeline<4, 2> events = drawn_timeline<4, 2>(stream, 20);
+    for (std::size_t i = 0; i < events.size(); ++i)   // at instants of their own
+      events[i].stamp = stamp_at(events[i].stamp.time() + Duration::milliseconds(static_cast<std::int64_t>(i) + 1));
+    const auto last = events.end() - lag;
+    const Stamp late = stamp_at(GlobalTime{((last - 1)->stamp.time().ns + last->stamp.time().ns) / 2}, 1);
+    const Gaussian<4> prior = drawn_prior<4>(stream);
+    OnPlane method(kind, Plane{2.0});
+    method.start(GlobalTime{}, prior);
+    method.announce(late);
+    for (const auto& event : events) method.take(event.stamp, event.measurement);
+    const std::optional<Gaussian<4>> then = method.at(late);
+    ASSERT_TRUE(then.has_value());
+    EXPECT_LT((relative_difference<4>(*then, smoothed<4, 2>(Plane{2.0}, prior, events, late.time()))), 1e-8)
+        << "the smoother divides by what is nearly singular over a millisecond";
+  }
+}
 
 // Without process noise there is nothing to ignore.
 class ExactWithoutNoise : public testing::TestWithParam<Kind> {};

@@ -1,4 +1,4 @@
-// Laws L1 to L7 of fusion/oosm/method.h, of every method. L8 has tests of its own.
+// Laws L1 to L7 and L9 of fusion/oosm/method.h, of every method. L8 has tests of its own.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -167,6 +167,33 @@ TEST_P(OosmLaws, L7Start) {
   EXPECT_TRUE(same_bits<2>(used.state(), prior()));
   EXPECT_EQ(take_all(used, out_of_sequence(8)), take_all(fresh, out_of_sequence(8)));
   EXPECT_TRUE(same_bits<2>(used.state(), fresh.state()));
+}
+
+// Of what comes next, of one of every six that is half-way to what was taken before, and of what was taken.
+TEST_P(OosmLaws, L9Sight) {
+  OnLine method = started();
+  Stamp newest = Stamp::start(GlobalTime{});
+  int seen = 0, unseen = 0;
+  for (const auto& event : out_of_sequence(9)) {
+    const Stamp between = stamp_at(GlobalTime{(event.stamp.time().ns + newest.time().ns) / 2}, 3);
+    for (const Stamp& stamp : {event.stamp, between, newest}) {
+      const OnLine before = method;
+      const std::optional<Gaussian<2>> then = method.at(stamp);
+      ASSERT_TRUE(same_bits<2>(method.state(), before.state()));
+      OnLine would = method;
+      const Taken taken = would.take(stamp, event.measurement);
+      ASSERT_EQ(then.has_value(), taken == Taken::kInOrder || taken == Taken::kLate);
+      seen += then ? 1 : 0;
+      unseen += then ? 0 : 1;
+      if (taken == Taken::kInOrder) {
+        ASSERT_TRUE(same_bits<2>(*then, advanced<2>(method.state(), Line{}, stamp.time() - method.time())));
+      }
+    }
+    method.take(event.stamp, event.measurement);
+    newest = std::max(newest, event.stamp);
+  }
+  EXPECT_GT(seen, 40);
+  EXPECT_GE(unseen, 40);
 }
 
 }  // namespace
