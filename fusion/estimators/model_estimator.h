@@ -10,6 +10,11 @@
 // stood until its course is forgotten (kForgotten) begins again.
 #pragma once
 
+#include <cmath>
+#include <optional>
+#include <span>
+#include <variant>
+
 #include "core/check.h"
 #include "fusion/estimator.h"
 #include "fusion/estimators/single.h"
@@ -58,17 +63,45 @@ class ModelEstimator final : public Estimator {
     });
   }
 
+  std::optional<Fit> fit(const Estimate& estimate, const Observation& observation) const override {
+    return with(estimate, [&](const auto& kernel, const auto& own) {
+      return through_sensor(observation, [&](const auto& sensor, const auto& z) -> std::optional<Fit> {
+        const auto innovation = kernel.innovate(sensor, z, own);
+        if (!innovation.used) return std::nullopt;
+        return Fit{innovation.nis, std::exp(innovation.log_likelihood())};
+      });
+    });
+  }
+
   void update(Estimate& estimate, const Observation& observation) const override {
     with(estimate, [&](const auto& kernel, auto& own) {
       through_sensor(observation, [&](const auto& sensor, const auto& z) { kernel.update(sensor, z, own); });
     });
-    if constexpr (Kernel::kNeedsCourse) {
-      if (const auto* young = std::get_if<Gaussian<4>>(&estimate)) {
-        if (knows_course(*young)) estimate = kernel_.from(Gaussian<4>(*young));
-      } else if (const auto lost = kernel_.without_course(std::get<typename Kernel::Own>(estimate))) {
-        estimate = *lost;
+    follow_course(estimate);
+  }
+
+  // What each explanation makes of the estimate is of one layout: whether the course is known is asked at the end.
+  void update(Estimate& estimate, std::span<const Explanation> explanations) const override {
+    bool observed = false;
+    with(estimate, [&](const auto& kernel, auto& own) {
+      const auto before = own;
+      double weight = 0.0;
+      for (const Explanation& explanation : explanations) {
+        if (explanation.weight <= 0.0) continue;
+        auto after = before;
+        if (explanation.observation) {
+          through_sensor(*explanation.observation,
+                         [&](const auto& sensor, const auto& z) { kernel.update(sensor, z, after); });
+          observed = true;
+        }
+        if (weight > 0.0)
+          kernel.merge(own, weight, after, explanation.weight);
+        else
+          own = after;
+        weight += explanation.weight;
       }
-    }
+    });
+    if (observed) follow_course(estimate);
   }
 
   Gaussian<2> position(const Estimate& estimate) const override {
@@ -79,6 +112,17 @@ class ModelEstimator final : public Estimator {
   }
 
  private:
+  // Over to the kernel once the course is known, and back where it is lost.
+  void follow_course(Estimate& estimate) const {
+    if constexpr (Kernel::kNeedsCourse) {
+      if (const auto* young = std::get_if<Gaussian<4>>(&estimate)) {
+        if (knows_course(*young)) estimate = kernel_.from(Gaussian<4>(*young));
+      } else if (const auto lost = kernel_.without_course(std::get<typename Kernel::Own>(estimate))) {
+        estimate = *lost;
+      }
+    }
+  }
+
   template <class E, class Body>
   auto with(E& estimate, const Body& body) const {
     if constexpr (Kernel::kNeedsCourse)
