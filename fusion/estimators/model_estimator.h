@@ -74,9 +74,7 @@ class ModelEstimator final : public Estimator {
   }
 
   void update(Estimate& estimate, const Observation& observation) const override {
-    with(estimate, [&](const auto& kernel, auto& own) {
-      through_sensor(observation, [&](const auto& sensor, const auto& z) { kernel.update(sensor, z, own); });
-    });
+    with(estimate, [&](const auto& kernel, auto& own) { take_in(kernel, own, observation); });
     follow_course(estimate);
   }
 
@@ -90,8 +88,7 @@ class ModelEstimator final : public Estimator {
         if (explanation.weight <= 0.0) continue;
         auto after = before;
         if (explanation.observation) {
-          through_sensor(*explanation.observation,
-                         [&](const auto& sensor, const auto& z) { kernel.update(sensor, z, after); });
+          take_in(kernel, after, *explanation.observation);
           observed = true;
         }
         if (weight > 0.0)
@@ -130,6 +127,12 @@ class ModelEstimator final : public Estimator {
     auto* own = std::get_if<typename Kernel::Own>(&estimate);
     TTF_CHECK(own, "an estimate of another estimator: alternative {}", estimate.index());
     return body(kernel_, *own);
+  }
+
+  // In one place, for the sake of the hot path: of two the compiler would inline neither filter.
+  template <class K, class Own>
+  [[gnu::noinline]] static void take_in(const K& kernel, Own& own, const Observation& observation) {
+    through_sensor(observation, [&](const auto& sensor, const auto& z) { kernel.update(sensor, z, own); });
   }
 
   template <class Body>

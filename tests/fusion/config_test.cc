@@ -119,7 +119,7 @@ TEST(TrackerConfig, NamesEveryMotionModelAndFilter) {
 TEST(TrackerConfig, RefusesWhatAssociationAndBirthCannotBe) {
   std::vector<std::string> sentences;
   load("association: global\nbirth: twice\ndetection_probability: 1\nclutter_density: 0\nsurvival_seconds: -1\n"
-       "initial_existence: 0\nconfirm_existence: 1\nmerge_probability: 1\nmerge_scans: 0\n",
+       "initial_existence: 0\nconfirm_existence: 1\nmerge_probability: 1\nmerge_scans: 0\ndelete_existence: 1e-9\n",
        &sentences);
   const char* const expected[] = {"t.yaml:1: association = global", "t.yaml:2: birth = twice",
                                   "t.yaml:3: detection_probability = 1", "t.yaml:4: clutter_density = 0",
