@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 
 #include "core/check.h"
 
@@ -14,9 +13,9 @@ constexpr double kForbidden = 1e12;
 
 }  // namespace
 
-Assignment::Assignment(std::size_t max_rows, std::size_t max_columns) : max_rows_(max_rows) {
+Assignment::Assignment(std::size_t max_rows, std::size_t max_columns)
+    : max_rows_(max_rows), components_(max_rows + max_columns) {
   column_of_.resize(max_rows);
-  parent_.resize(max_rows + max_columns);
   component_rows_.reserve(max_rows);
   component_columns_.reserve(max_rows * max_columns);   // of every candidate, before they are made unique
   local_column_.resize(max_columns);
@@ -32,35 +31,23 @@ Assignment::Assignment(std::size_t max_rows, std::size_t max_columns) : max_rows
   used_.resize(width + 1);
 }
 
-int Assignment::root(int node) {
-  while (parent_[static_cast<std::size_t>(node)] != node) {
-    int& parent = parent_[static_cast<std::size_t>(node)];
-    parent = parent_[static_cast<std::size_t>(parent)];
-    node = parent;
-  }
-  return node;
-}
-
 void Assignment::solve(std::span<const Candidate> candidates, std::size_t rows, std::size_t columns) {
-  TTF_CHECK(rows <= max_rows_ && rows + columns <= parent_.size(), "{} rows, {} columns", rows, columns);
+  TTF_CHECK(rows <= max_rows_ && rows + columns <= components_.capacity(), "{} rows, {} columns", rows, columns);
   rows_ = rows;
   columns_ = columns;
   std::fill(column_of_.begin(), column_of_.begin() + static_cast<std::ptrdiff_t>(rows), -1);
-  std::iota(parent_.begin(), parent_.begin() + static_cast<std::ptrdiff_t>(rows + columns), 0);
+  components_.reset(rows + columns);
   sorted_.assign(candidates.begin(), candidates.end());
-  for (const Candidate& candidate : sorted_) {
-    const int a = root(candidate.row), b = root(static_cast<int>(rows) + candidate.column);
-    parent_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
-  }
+  for (const Candidate& candidate : sorted_) components_.join(candidate.row, static_cast<int>(rows) + candidate.column);
   std::sort(sorted_.begin(), sorted_.end(), [&](const Candidate& a, const Candidate& b) {
-    const int ra = root(a.row), rb = root(b.row);
+    const int ra = components_.root(a.row), rb = components_.root(b.row);
     if (ra != rb) return ra < rb;
     return a.row != b.row ? a.row < b.row : a.column < b.column;
   });
   for (first_ = 0; first_ < sorted_.size(); first_ = last_) {
-    const int component = root(sorted_[first_].row);
+    const int component = components_.root(sorted_[first_].row);
     last_ = first_;
-    while (last_ < sorted_.size() && root(sorted_[last_].row) == component) ++last_;
+    while (last_ < sorted_.size() && components_.root(sorted_[last_].row) == component) ++last_;
     if (last_ - first_ == 1)
       column_of_[static_cast<std::size_t>(sorted_[first_].row)] = sorted_[first_].column;
     else

@@ -11,6 +11,8 @@
 #include <span>
 #include <vector>
 
+#include "fusion/components.h"
+
 namespace ttf::fusion {
 
 // Assigning observation `row` to track `column` gains `gain` > 0 over leaving both alone.
@@ -29,12 +31,11 @@ class Assignment {
   std::span<const int> column_of() const { return {column_of_.data(), rows_}; }
 
  private:
-  int root(int node);
   void solve_component();
 
   std::size_t rows_ = 0, columns_ = 0, max_rows_;
   std::vector<int> column_of_;
-  std::vector<int> parent_;  // union-find over rows, then columns
+  Components components_;   // of rows, then columns
   std::vector<int> component_rows_, component_columns_, local_column_;
   std::vector<Candidate> sorted_;
   std::size_t first_ = 0, last_ = 0;  // candidates of the component being solved

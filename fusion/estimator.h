@@ -7,16 +7,32 @@
 //   2. position() is the leading part of cartesian().
 //   3. An observation is its own best explanation: of the initial estimate it made, its distance is zero.
 //   4. The same calls give the same bits, whatever was called in between.
+//   5. An update by one explanation of weight 1 is the update by its observation, or nothing at all, to the bit; the
+//      order of explanations does not matter but for rounding.
 #pragma once
 
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "fusion/estimate.h"
 #include "fusion/observation.h"
 #include "fusion/tracker_config.h"
 
 namespace ttf::fusion {
+
+// How well an estimate explains an observation: nu' S^-1 nu, and the density of N(0, S) at nu, per unit of the
+// observation: [1/m^2] of a position, [1/(m rad m/s)] of range, bearing and range rate.
+struct Fit {
+  double distance_squared = 0.0;
+  double density = 0.0;
+};
+
+// One of several things that may have happened: `observation` is of the object, or, where it is null, none is.
+struct Explanation {
+  const Observation* observation = nullptr;
+  double weight = 0.0;   // its probability
+};
 
 class Estimator {
  public:
@@ -28,8 +44,17 @@ class Estimator {
   // nu' S^-1 nu of an observation's innovation, for gating. Nothing where the sensor model has no derivative, an object
   // at the sensor's origin: such an observation cannot be used.
   virtual std::optional<double> distance_squared(const Estimate& estimate, const Observation& observation) const = 0;
+  // The same distance, and the density. Of several motion models, the mixture's mean and covariance.
+  virtual std::optional<Fit> fit(const Estimate& estimate, const Observation& observation) const = 0;
   // Takes the observation in; changes nothing where it has no distance.
   virtual void update(Estimate& estimate, const Observation& observation) const = 0;
+  // Takes in one of several explanations nobody knows which, weights not negative and of sum 1: mean and covariance of
+  // the mixture of what each of them makes of the estimate,
+  //   x = sum w_i x_i,   P = sum w_i (P_i + (x_i - x)(x_i - x)'),
+  // which for a linear filter is the update of probabilistic data association with its spread-of-innovations term
+  // (Bar-Shalom, Fortmann 1988, 6.4), and holds as well where every observation has a gain of its own. Of several
+  // motion models at a time: mode by mode, each weighed with its probability after the explanation.
+  virtual void update(Estimate& estimate, std::span<const Explanation> explanations) const = 0;
   virtual Gaussian<2> position(const Estimate& estimate) const = 0;   // (x, y) [m]
   virtual Cartesian cartesian(const Estimate& estimate) const = 0;
   // Where a sensor that is all right but for its systematic errors is expected to see it: position(), unless errors are

@@ -40,6 +40,9 @@ struct Track {
   int scans = 0;           // since birth, the first included
   int misses = 0;          // scans in a row without an observation
   bool confirmed = false;
+  std::uint8_t twin_scans = 0;   // lists in a row that had it for its twin (fusion/twins.h)
+  ObservationId twin;            // the other's birth, where there are any
+  double existence = 1.0;        // probability that the object exists (fusion/existence.h); 1 for births m_of_n
 };
 
 // The direction an object faces [rad]: the direction of motion weighed with the measured axis, and with its

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/check.h"
+#include "fusion/existence.h"
 #include "fusion/metrics.h"
 #include "fusion/motion/angles.h"
 
@@ -45,10 +46,17 @@ Tracker::Tracker(const TrackerConfig& config, std::size_t max_observations)
       max_observations_(max_observations),
       max_tracks_(static_cast<std::size_t>(config.max_objects) + 3 * max_observations),
       assignment_(max_observations, max_tracks_),
+      joint_(config.association == Association::kJpda ? max_observations : 0,
+             config.association == Association::kJpda ? max_tracks_ : 0),
+      twins_(config, max_tracks_),
       near_track_(max_observations),
       observation_of_(max_tracks_) {
   candidates_.reserve(max_observations * max_tracks_);
   by_x_.reserve(max_tracks_);
+  if (config.association == Association::kJpda) {
+    pairs_.reserve(max_observations * max_tracks_);
+    explanations_.reserve(max_observations + 1);
+  }
   for (int dimension = 1; dimension <= 3; ++dimension)
     gate_[dimension] = chi_square_quantile(config.gate_probability, dimension);
 }
@@ -70,14 +78,22 @@ void Tracker::step(TrackSet& set, const Scan& scan) {
     ++track.scans;
     track.hits = (track.hits << 1) | (observation >= 0 ? 1u : 0u);
     track.misses = observation >= 0 ? 0 : track.misses + 1;
-    if (observation >= 0) {
-      const Observation& z = scan.observations[static_cast<std::size_t>(observation)];
-      track.newest = {scan.id, static_cast<std::uint16_t>(observation), scan.measured};
-      correct(track, z);
+    const Observation* z = observation >= 0 ? &scan.observations[static_cast<std::size_t>(observation)] : nullptr;
+    if (z) track.newest = {scan.id, static_cast<std::uint16_t>(observation), scan.measured};
+    if (config_.association == Association::kJpda) {
+      take_in_all(track, t, scan);
+      if (z) correct_beside(track, *z);
+      continue;
+    }
+    if (config_.birth == Birth::kExistence) judge_existence(track, z);
+    if (z) {
+      estimator_->update(track.estimate, *z);
+      correct_beside(track, *z);
     }
   }
   give_birth(set, scan);
   prune(set);
+  if (config_.merge_probability > 0.0) twins_.unite(set.tracks, *estimator_);
 }
 
 std::span<const int> Tracker::assigned(const TrackSet& set, const Scan& scan) {
@@ -92,6 +108,7 @@ void Tracker::predict_all(TrackSet& set, GlobalTime to) const {
     estimator_->predict(track.estimate, dt);
     track.heading = predicted(track.heading, config_.heading_noise, dt);
     predict(track.extent, config_.extent_noise, dt);
+    if (config_.birth == Birth::kExistence) track.existence = survived(track.existence, dt, config_);
   }
   set.time = to;
 }
@@ -112,6 +129,7 @@ void Tracker::sort_by_x(const TrackSet& set, SensorId seen_by) {
 // In the order of the tracks along x; what is assigned does not depend on the order of candidates.
 void Tracker::associate(const TrackSet& set, const Scan& scan) {
   candidates_.clear();
+  pairs_.clear();
   std::fill(near_track_.begin(), near_track_.end(), 0);
   sort_by_x(set, scan.observations.empty() ? kNoSensor : scan.observations.front().sensor);
   for (std::size_t o = 0; o < scan.observations.size(); ++o) {
@@ -134,6 +152,10 @@ void Tracker::associate(const TrackSet& set, const Scan& scan) {
         const double dx = z.z(0) - at->x, dy = z.z(1) - at->y;
         if (dx * dx > gate * (at->variance_x + z.r(0, 0)) || dy * dy > gate * (at->variance_y + z.r(1, 1))) continue;
       }
+      if (config_.association == Association::kJpda) {
+        offer(track, z, static_cast<int>(o), static_cast<int>(t));
+        continue;
+      }
       const std::optional<double> distance_squared = estimator_->distance_squared(track.estimate, z);
       if (!distance_squared || *distance_squared > gate) continue;
       if (track.confirmed) near_track_[o] = 1;
@@ -143,10 +165,43 @@ void Tracker::associate(const TrackSet& set, const Scan& scan) {
     }
   }
   assignment_.solve(candidates_, scan.observations.size(), set.tracks.size());
+  if (config_.association == Association::kJpda)
+    joint_.solve(pairs_, scan.observations.size(), set.tracks.size());
   std::fill(observation_of_.begin(), observation_of_.end(), -1);
   const auto columns = assignment_.column_of();
   for (std::size_t o = 0; o < columns.size(); ++o)
     if (columns[o] >= 0) observation_of_[static_cast<std::size_t>(columns[o])] = static_cast<int>(o);
+}
+
+// The most probable joint event has the largest product of weights; a pair that is less probable than both alone is in
+// none such.
+void Tracker::offer(const Track& track, const Observation& z, int row, int column) {
+  const std::optional<Fit> fit = estimator_->fit(track.estimate, z);
+  if (!fit || fit->distance_squared > gate_[dimension_of(z.kind)]) return;
+  if (track.confirmed) near_track_[static_cast<std::size_t>(row)] = 1;
+  const double weight = joint_weight(track.existence, likelihood_ratio(z, fit->density, config_), config_);
+  pairs_.push_back({row, column, weight});
+  if (weight > 1.0) candidates_.push_back({row, column, std::log(weight)});
+}
+
+// Before the update: by what the observation says of the prediction.
+void Tracker::judge_existence(Track& track, const Observation* z) const {
+  const std::optional<Fit> fit = z ? estimator_->fit(track.estimate, *z) : std::nullopt;
+  track.existence = after_list(track.existence, fit ? likelihood_ratio(*z, fit->density, config_) : 0.0, config_);
+}
+
+// All in the track's gate, with their probabilities given that its object exists.
+void Tracker::take_in_all(Track& track, std::size_t column, const Scan& scan) {
+  const double unseen = joint_.none_of_column(column) * exists_unseen(track.existence, config_);
+  double exists = unseen;
+  for (const JointAssociation::Shared& shared : joint_.of_column(column)) exists += shared.probability;
+  explanations_.clear();
+  explanations_.push_back({nullptr, unseen / exists});
+  for (const JointAssociation::Shared& shared : joint_.of_column(column))
+    explanations_.push_back(
+        {&scan.observations[static_cast<std::size_t>(shared.row)], shared.probability / exists});
+  if (explanations_.size() > 1) estimator_->update(track.estimate, explanations_);
+  if (config_.birth == Birth::kExistence) track.existence = std::min(1.0, exists);
 }
 
 void Tracker::correct_outline(Track& track, const Observation& z) const {
@@ -198,23 +253,27 @@ void Tracker::give_birth(TrackSet& set, const Scan& scan) {
     carry(track.unfiltered, z);
     track.hits = 1;
     track.scans = 1;
+    if (config_.birth == Birth::kExistence) track.existence = config_.initial_existence;
     set.tracks.push_back(track);
   }
 }
 
 void Tracker::prune(TrackSet& set) const {
   const std::uint32_t window = config_.confirm_window >= 32 ? ~0u : (1u << config_.confirm_window) - 1u;
+  const bool by_existence = config_.birth == Birth::kExistence;
   auto confirmed =
       std::count_if(set.tracks.begin(), set.tracks.end(), [](const Track& t) { return t.confirmed; });
   for (Track& track : set.tracks)
     if (!track.confirmed && confirmed < config_.max_objects &&
-        std::popcount(track.hits & window) >= config_.confirm_hits) {
+        (by_existence ? track.existence >= config_.confirm_existence
+                      : std::popcount(track.hits & window) >= config_.confirm_hits)) {
       track.confirmed = true;
       ++confirmed;
     }
   const double largest = config_.delete_position_sigma * config_.delete_position_sigma;
   std::erase_if(set.tracks, [&](const Track& track) {
     if (estimator_->position(track.estimate).p.diagonal().maxCoeff() > largest) return track.misses > 0;
+    if (by_existence) return track.existence < config_.delete_existence;
     if (track.confirmed) return track.misses >= config_.delete_misses;
     // A tentative track goes when M hits cannot be reached within its window any more.
     const int hits = std::popcount(track.hits & window);

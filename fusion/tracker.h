@@ -1,5 +1,12 @@
-// The multi-object tracker all strategies share: prediction, gating, global nearest neighbour, M-of-N
-// confirmation, deletion by scans that did not see a track, and by silence (given_up() in fusion/track.h).
+// The multi-object tracker all strategies share: prediction, gating, association, confirmation, deletion by scans that
+// did not see a track, and by silence (given_up() in fusion/track.h).
+//
+// Association. nearest: global nearest neighbour (fusion/assignment.h), confirmed tracks first. jpda: the estimate
+// takes in every observation in its gate with the probability that it is the track's (fusion/joint_association.h). Who
+// had what, for hits and misses, what is newest, axis, extent, class and births, is then the one most probable joint
+// event. Birth. m_of_n: confirmed by M observations in N scans, ended by scans without. existence: both by the
+// probability that the object exists (fusion/existence.h); delete_misses, confirm_hits and confirm_window are not
+// asked. Twins: two tracks of one object become one, if told (fusion/twins.h).
 //
 // A step is a pure function of the tracks, the scan and the configuration; tracks are values, so that a
 // strategy can keep snapshots and go back. Heading and extent are random-walk filters beside the estimate of
@@ -15,9 +22,11 @@
 #include "core/time.h"
 #include "fusion/assignment.h"
 #include "fusion/estimator.h"
+#include "fusion/joint_association.h"
 #include "fusion/observation.h"
 #include "fusion/track.h"
 #include "fusion/tracker_config.h"
+#include "fusion/twins.h"
 
 namespace ttf::fusion {
 
@@ -49,13 +58,18 @@ class Tracker {
   std::size_t max_tracks() const { return max_tracks_; }
   const TrackerConfig& config() const { return config_; }
   const Estimator& estimator() const { return *estimator_; }
+  // Clusters of a jpda tracker, in all steps, that were too large for exact probabilities (fusion/joint_association.h).
+  std::uint64_t approximated_clusters() const { return joint_.approximated(); }
 
  private:
   void predict_all(TrackSet& set, GlobalTime to) const;
   void sort_by_x(const TrackSet& set, SensorId seen_by);
   void associate(const TrackSet& set, const Scan& scan);
-  void correct(Track& track, const Observation& observation) const {
-    estimator_->update(track.estimate, observation);
+  void offer(const Track& track, const Observation& observation, int row, int column);
+  void judge_existence(Track& track, const Observation* observation) const;
+  void take_in_all(Track& track, std::size_t column, const Scan& scan);
+  // What is estimated, and carried, beside the motion.
+  void correct_beside(Track& track, const Observation& observation) const {
     correct_outline(track, observation);
     carry(track.unfiltered, observation);
   }
@@ -74,6 +88,10 @@ class Tracker {
   };
   std::vector<Placed> by_x_;   // the tracks, sorted: who is far away is not looked at
   double largest_variance_x_ = 0.0;
+  JointAssociation joint_;             // without storage unless jpda
+  std::vector<Pair> pairs_;
+  std::vector<Explanation> explanations_;
+  Twins twins_;
   std::vector<char> near_track_;  // per observation: inside the gate of a confirmed track
   std::vector<int> observation_of_;
 };

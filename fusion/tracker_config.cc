@@ -27,6 +27,27 @@ void load_systematic(YamlMap& yaml, TrackerConfig& c) {
 
 }  // namespace
 
+namespace {
+
+void load_association(YamlMap& yaml, TrackerConfig& c) {
+  c.association = yaml.choice_or<Association>("association", c.association,
+                                              {{"nearest", Association::kNearest}, {"jpda", Association::kJpda}});
+  c.birth = yaml.choice_or<Birth>("birth", c.birth, {{"m_of_n", Birth::kMOfN}, {"existence", Birth::kExistence}});
+  c.detection_probability = yaml.number_or("detection_probability", c.detection_probability, {0.01, 0.999999});
+  c.clutter_density = yaml.number_or("clutter_density", c.clutter_density, {1e-9, 100.0}, "1/m^2");
+  c.survival_seconds = yaml.number_or("survival_seconds", c.survival_seconds, {0.01, 1e6}, "s");
+  c.initial_existence = yaml.number_or("initial_existence", c.initial_existence, {1e-6, 0.999});
+  c.confirm_existence = yaml.number_or("confirm_existence", c.confirm_existence, {1e-5, 0.999999});
+  c.delete_existence = yaml.number_or("delete_existence", c.delete_existence, {1e-9, 0.99});
+  if (c.delete_existence >= c.initial_existence)
+    yaml.fail("delete_existence", "must be below initial_existence: a track would end as it begins");
+  if (c.delete_existence >= c.confirm_existence) yaml.fail("delete_existence", "must be below confirm_existence");
+  c.merge_probability = yaml.number_or("merge_probability", c.merge_probability, {0.0, 0.999999});
+  c.merge_scans = static_cast<int>(yaml.integer_or("merge_scans", c.merge_scans, {1, 255}, "scans"));
+}
+
+}  // namespace
+
 TrackerConfig load_tracker(YamlMap& yaml) {
   TrackerConfig c;
   c.motion = yaml.choice_or<MotionModel>("motion", c.motion,
@@ -84,8 +105,14 @@ TrackerConfig load_tracker(YamlMap& yaml) {
   c.heading_noise = yaml.number_or("heading_noise", c.heading_noise, {0.0, 100.0}, "rad^2/s");
   c.extent_noise = yaml.number_or("extent_noise", c.extent_noise, {0.0, 100.0}, "m^2/s");
   load_systematic(yaml, c);
+  load_association(yaml, c);
   if (c.late != oosm::Kind::kRewind && c.systematic == SystematicErrorsAre::kConsidered)
     yaml.fail("late", "must be rewind where systematic is consider: the other methods carry no errors of sensors");
+  const bool simple =
+      c.association == Association::kNearest && c.birth == Birth::kMOfN && c.merge_probability == 0.0;
+  if (c.late != oosm::Kind::kRewind && !simple)
+    yaml.fail("late", "must be rewind, but with association nearest, birth m_of_n and merge_probability 0: the other "
+                      "methods do not go back to what was decided since");
   return c;
 }
 

@@ -30,6 +30,12 @@ enum class BuffWaiting : unsigned char {
 // (fusion/known_sensor.h): nothing, or the Schmidt form (fusion/filters/consider.h), in which they are not estimated
 // but remain in every track's covariance.
 enum class SystematicErrorsAre : unsigned char { kIgnored, kConsidered };
+// Which observation is of which track (docs/tracker.md): the one most probable way (fusion/assignment.h), or all of
+// them weighed with their probabilities (fusion/joint_association.h).
+enum class Association : unsigned char { kNearest, kJpda };
+// When a track is believed: after M observations in N scans, or from the probability that its object exists
+// (fusion/existence.h).
+enum class Birth : unsigned char { kMOfN, kExistence };
 
 struct TrackerConfig {
   MotionModel motion = MotionModel::kConstantVelocity;
@@ -74,6 +80,23 @@ struct TrackerConfig {
   // By SensorId; of those that are not there nothing is known. As load_tracker() reads them they are in the order of
   // the file: whoever knows the sensors' ids by their names puts them in theirs.
   std::vector<KnownSensor> sensors;
+
+  Association association = Association::kNearest;
+  Birth birth = Birth::kMOfN;
+  // For jpda and existence: how probable it is that a list has an object that is tracked, of all the sensors whose
+  // lists come; and how many observations of nothing there are to the square metre of one list (fusion/existence.h).
+  double detection_probability = 0.9;
+  double clutter_density = 1e-3;       // [1/m^2]
+  // For existence: of a new track; for how long an object is there, on the average; a track is confirmed from, and ends
+  // below.
+  double initial_existence = 0.1;
+  double survival_seconds = 60.0;
+  double confirm_existence = 0.99;
+  double delete_existence = 0.01;
+  // Two confirmed tracks that are apart by no more than this quantile, merge_scans lists in a row, are united
+  // (fusion/twins.h); 0: never.
+  double merge_probability = 0.0;
+  int merge_scans = 5;
 };
 
 TrackerConfig load_tracker(YamlMap& yaml);

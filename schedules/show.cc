@@ -8,6 +8,7 @@
 #include "schedules/can_load.h"
 #include "schedules/dynamic_load.h"
 #include "schedules/minislots.h"
+#include "schedules/object_ceiling.h"
 #include "schedules/real_time.h"
 #include "schedules/slot_groups.h"
 
@@ -116,6 +117,17 @@ void show_real_time(const Cluster& cluster, std::string& text) {
                         finding.value, finding.expected);
 }
 
+void show_objects(const Cluster& cluster, std::string& text) {
+  const ObjectCeiling ceiling = object_ceiling(cluster);
+  if (ceiling.lists.empty()) return;
+  text += "\nobjects\n";
+  for (const ListRoom& room : ceiling.lists)
+    text += fmt::format("  {:<16}{:>4} in {} slots, {} to a slot; its header counts to {}\n", cluster.pdu(room.pdu).name,
+                        room.objects, room.slots, cluster.pdu(room.pdu).elements_per_fragment, room.countable);
+  text += fmt::format("  {} objects in every list; {} if all {} static slots without status frames were shared out\n",
+                      ceiling.carried, ceiling.with_all_static_slots, ceiling.free_for_lists);
+}
+
 }  // namespace
 
 std::string show_text(const Cluster& cluster) {
@@ -129,6 +141,7 @@ std::string show_text(const Cluster& cluster) {
       g.gdSymbolWindow, g.gdNIT, bar(cluster), sent ? "D dynamic frames at most, " : "");
   show_slots(cluster, text);
   if (sent) text += "\n" + dynamic_text(cluster);
+  show_objects(cluster, text);
   show_real_time(cluster, text);
   text += "\nsensors\n";
   for (const Sensor& sensor : cluster.sensors) {

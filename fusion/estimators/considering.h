@@ -9,6 +9,7 @@
 // to the measurement's noise, to second order: much for an object just born, little ever after.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <span>
 #include <type_traits>
@@ -18,6 +19,7 @@
 #include "core/check.h"
 #include "fusion/estimators/model_estimator.h"
 #include "fusion/filters/consider.h"
+#include "fusion/filters/merge.h"
 #include "fusion/sensors/among_biases.h"
 
 namespace ttf::fusion::estimators {
@@ -88,12 +90,37 @@ class ConsideringEstimator final : public Estimator {
     });
   }
 
-  void update(Estimate& estimate, const Observation& o) const override {
-    Own& own = own_of(estimate);
-    through_sensor(o, [&](const auto& sensor, auto z) {
+  std::optional<Fit> fit(const Estimate& estimate, const Observation& o) const override {
+    const Own& own = own_of(estimate);
+    return through_sensor(o, [&](const auto& sensor, auto z) -> std::optional<Fit> {
       blur(own, sensor, z);
-      filter_.update(model_, sensor, z, own);
+      const auto innovation = filter_.innovate(model_, sensor, z, own);
+      if (!innovation.used) return std::nullopt;
+      return Fit{innovation.nis, std::exp(innovation.log_likelihood())};
     });
+  }
+
+  void update(Estimate& estimate, const Observation& o) const override { take_in(own_of(estimate), o); }
+
+  // No explanation says anything of the biases, whose mean is zero: the mixture's covariance with them is the mean of
+  // the explanations'.
+  void update(Estimate& estimate, std::span<const Explanation> explanations) const override {
+    Own& own = own_of(estimate);
+    const Own before = own;
+    double weight = 0.0;
+    for (const Explanation& explanation : explanations) {
+      if (explanation.weight <= 0.0) continue;
+      Own after = before;
+      if (explanation.observation) take_in(after, *explanation.observation);
+      const double share = explanation.weight / (weight + explanation.weight);
+      if (weight > 0.0) {
+        filters::merge<M>(own.state, weight, after.state, explanation.weight);
+        own.cross += share * (after.cross - own.cross);
+      } else {
+        own = after;
+      }
+      weight += explanation.weight;
+    }
   }
 
   Gaussian<2> position(const Estimate& estimate) const override {
@@ -118,6 +145,13 @@ class ConsideringEstimator final : public Estimator {
     auto* own = std::get_if<Own>(&estimate);
     TTF_CHECK(own, "an estimate of another estimator: alternative {}", estimate.index());
     return *own;
+  }
+
+  void take_in(Own& own, const Observation& o) const {
+    through_sensor(o, [&](const auto& sensor, auto z) {
+      blur(own, sensor, z);
+      filter_.update(model_, sensor, z, own);
+    });
   }
 
   template <class Body>

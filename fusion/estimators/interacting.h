@@ -40,6 +40,7 @@ class StraightAndTurning {
   void update(const S& sensor, const sensors::Measurement<S::kDimension>& z, Own& own) const {
     imm_.update(sensor, z, own);
   }
+  void merge(Own& first, double a, const Own& second, double b) const { imm_.merge(first, a, second, b); }
   Gaussian<2> position(const Own& own) const {
     const Cartesian all = cartesian(own);
     return {all.x.head<2>(), all.p.topLeftCorner<2, 2>()};

@@ -10,7 +10,10 @@
 // stood until its course is forgotten (kForgotten) begins again.
 #pragma once
 
+#include <cmath>
 #include <optional>
+#include <span>
+#include <variant>
 #include <vector>
 
 #include "core/check.h"
@@ -67,17 +70,42 @@ class ModelEstimator final : public Estimator {
     });
   }
 
-  void update(Estimate& estimate, const Observation& observation) const override {
-    with(estimate, [&](const auto& kernel, auto& own) {
-      through_sensor(observation, [&](const auto& sensor, const auto& z) { kernel.update(sensor, z, own); });
+  std::optional<Fit> fit(const Estimate& estimate, const Observation& observation) const override {
+    return with(estimate, [&](const auto& kernel, const auto& own) {
+      return through_sensor(observation, [&](const auto& sensor, const auto& z) -> std::optional<Fit> {
+        const auto innovation = kernel.innovate(sensor, z, own);
+        if (!innovation.used) return std::nullopt;
+        return Fit{innovation.nis, std::exp(innovation.log_likelihood())};
+      });
     });
-    if constexpr (Kernel::kNeedsCourse) {
-      if (const auto* young = std::get_if<Gaussian<4>>(&estimate)) {
-        if (knows_course(*young)) estimate = kernel_.from(Gaussian<4>(*young));
-      } else if (const auto lost = kernel_.without_course(std::get<typename Kernel::Own>(estimate))) {
-        estimate = *lost;
+  }
+
+  void update(Estimate& estimate, const Observation& observation) const override {
+    with(estimate, [&](const auto& kernel, auto& own) { take_in(kernel, own, observation); });
+    follow_course(estimate);
+  }
+
+  // What each explanation makes of the estimate is of one layout: whether the course is known is asked at the end.
+  void update(Estimate& estimate, std::span<const Explanation> explanations) const override {
+    bool observed = false;
+    with(estimate, [&](const auto& kernel, auto& own) {
+      const auto before = own;
+      double weight = 0.0;
+      for (const Explanation& explanation : explanations) {
+        if (explanation.weight <= 0.0) continue;
+        auto after = before;
+        if (explanation.observation) {
+          take_in(kernel, after, *explanation.observation);
+          observed = true;
+        }
+        if (weight > 0.0)
+          kernel.merge(own, weight, after, explanation.weight);
+        else
+          own = after;
+        weight += explanation.weight;
       }
-    }
+    });
+    if (observed) follow_course(estimate);
   }
 
   Gaussian<2> position(const Estimate& estimate) const override {
@@ -88,6 +116,17 @@ class ModelEstimator final : public Estimator {
   }
 
  private:
+  // Over to the kernel once the course is known, and back where it is lost.
+  void follow_course(Estimate& estimate) const {
+    if constexpr (Kernel::kNeedsCourse) {
+      if (const auto* young = std::get_if<Gaussian<4>>(&estimate)) {
+        if (knows_course(*young)) estimate = kernel_.from(Gaussian<4>(*young));
+      } else if (const auto lost = kernel_.without_course(std::get<typename Kernel::Own>(estimate))) {
+        estimate = *lost;
+      }
+    }
+  }
+
   template <class E, class Body>
   auto with(E& estimate, const Body& body) const {
     if constexpr (Kernel::kNeedsCourse)
@@ -95,6 +134,12 @@ class ModelEstimator final : public Estimator {
     auto* own = std::get_if<typename Kernel::Own>(&estimate);
     TTF_CHECK(own, "an estimate of another estimator: alternative {}", estimate.index());
     return body(kernel_, *own);
+  }
+
+  // In one place, for the sake of the hot path: of two the compiler would inline neither filter.
+  template <class K, class Own>
+  [[gnu::noinline]] void take_in(const K& kernel, Own& own, const Observation& observation) const {
+    through_sensor(observation, [&](const auto& sensor, const auto& z) { kernel.update(sensor, z, own); });
   }
 
   // What is a position has been placed in the vehicle's axes before (fusion/known_sensor.h).

@@ -8,6 +8,7 @@
 
 #include "fusion/estimate.h"
 #include "fusion/filters/filter.h"
+#include "fusion/filters/merge.h"
 #include "fusion/motion/conversion.h"
 
 namespace ttf::fusion::estimators {
@@ -69,6 +70,7 @@ struct Single {
   void update(const S& sensor, const sensors::Measurement<S::kDimension>& z, Own& own) const {
     filter.update(model, sensor, z, own);
   }
+  void merge(Own& first, double a, const Own& second, double b) const { filters::merge<M>(first, a, second, b); }
   Gaussian<2> position(const Own& own) const {
     return {own.x.template head<2>(), own.p.template topLeftCorner<2, 2>()};
   }

@@ -18,6 +18,7 @@
 #include <utility>
 
 #include "fusion/filters/correct.h"
+#include "fusion/filters/merge.h"
 #include "fusion/filters/modes.h"
 #include "fusion/motion/conversion.h"
 
@@ -93,6 +94,17 @@ class Imm {
     for (int j = 0; j < kModes; ++j) modes.probability(j) = std::exp(log_weight(j) - most);
     modes.probability /= modes.probability.sum();
     return mixed;
+  }
+
+  // The mixture of two, mode by mode (merge.h): each mode's estimates weighed with its probability in either.
+  void merge(Modes<Ms...>& first, double a, const Modes<Ms...>& second, double b) const {
+    each([&]<std::size_t J>() {
+      using M = std::tuple_element_t<J, std::tuple<Ms...>>;
+      const int j = static_cast<int>(J);
+      const double in_first = a * first.probability(j), in_second = b * second.probability(j);
+      filters::merge<M>(std::get<J>(first.estimates), in_first, std::get<J>(second.estimates), in_second);
+    });
+    first.probability = (a * first.probability + b * second.probability) / (a + b);
   }
 
   // Mean and covariance of (x, y, vx, vy, ax, ay) over all modes; a mode that knows no acceleration has none.

@@ -2,7 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <iterator>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "core/errors.h"
 #include "fusion/tracker_config.h"
@@ -38,7 +41,20 @@ TEST(TrackerConfig, ReadsEveryKey) {
       "delete_misses: 6\ndelete_position_sigma: 7\nmax_objects: 12\nhistory_scans: 16\nheading_noise: 0.5\n"
       "filter: unscented\nturn_noise: 0.4\ninitial_turn_rate_sigma: 0.7\nmode_seconds: 9\n"
       "extent_noise: 0.25\ncoast_after: 120 ms\ndelete_after: 2 s\n"
-      "max_observations: 200\nbuff_waits: fixed_lag\nfixed_lag: 70 ms\n");
+      "max_observations: 200\nbuff_waits: fixed_lag\nfixed_lag: 70 ms\n"
+      "association: jpda\nbirth: existence\ndetection_probability: 0.7\nclutter_density: 0.02\n"
+      "initial_existence: 0.2\nsurvival_seconds: 30\nconfirm_existence: 0.9\ndelete_existence: 0.02\n"
+      "merge_probability: 0.95\nmerge_scans: 7\n");
+  EXPECT_EQ(c.association, Association::kJpda);
+  EXPECT_EQ(c.birth, Birth::kExistence);
+  EXPECT_EQ(c.detection_probability, 0.7);
+  EXPECT_EQ(c.clutter_density, 0.02);
+  EXPECT_EQ(c.initial_existence, 0.2);
+  EXPECT_EQ(c.survival_seconds, 30.0);
+  EXPECT_EQ(c.confirm_existence, 0.9);
+  EXPECT_EQ(c.delete_existence, 0.02);
+  EXPECT_EQ(c.merge_probability, 0.95);
+  EXPECT_EQ(c.merge_scans, 7);
   EXPECT_EQ(c.max_observations, 200u);
   EXPECT_EQ(c.buff_waits, BuffWaiting::kFixedLag);
   EXPECT_EQ(c.fixed_lag, Duration::milliseconds(70));
@@ -162,23 +178,64 @@ TEST(TrackerConfig, OnlyStraightMotionIsTakenInOtherThanByRewinding) {
   }
 }
 
-// The example of docs/tracker.md, as it stands there.
-TEST(TrackerConfig, TheDocumentedExampleLoads) {
+TEST(TrackerConfig, OtherMethodsThanRewindingKnowOneWayToAssociate) {
+  for (const std::string other : {"association: jpda", "birth: existence", "merge_probability: 0.9"}) {
+    EXPECT_EQ(load(other + "\nlate: rewind\n").late, oosm::Kind::kRewind);
+    std::vector<std::string> sentences;
+    load(other + "\nlate: al1\n", &sentences);
+    ASSERT_EQ(sentences.size(), 1u) << other;
+    EXPECT_EQ(sentences[0], "t.yaml:2: late = al1: must be rewind, but with association nearest, birth m_of_n and "
+                            "merge_probability 0: the other methods do not go back to what was decided since");
+  }
+}
+
+TEST(TrackerConfig, RefusesWhatAssociationAndBirthCannotBe) {
+  std::vector<std::string> sentences;
+  load("association: global\nbirth: twice\ndetection_probability: 1\nclutter_density: 0\nsurvival_seconds: -1\n"
+       "initial_existence: 0\nconfirm_existence: 1\nmerge_probability: 1\nmerge_scans: 0\ndelete_existence: 1e-9\n",
+       &sentences);
+  const char* const expected[] = {"t.yaml:1: association = global", "t.yaml:2: birth = twice",
+                                  "t.yaml:3: detection_probability = 1", "t.yaml:4: clutter_density = 0",
+                                  "t.yaml:5: survival_seconds = -1", "t.yaml:6: initial_existence = 0",
+                                  "t.yaml:7: confirm_existence = 1", "t.yaml:8: merge_probability = 1",
+                                  "t.yaml:9: merge_scans = 0"};
+  ASSERT_EQ(sentences.size(), std::size(expected));
+  for (std::size_t i = 0; i < sentences.size(); ++i)
+    EXPECT_NE(sentences[i].find(expected[i]), std::string::npos) << sentences[i];
+  EXPECT_NE(sentences[0].find("nearest, jpda"), std::string::npos) << sentences[0];
+  EXPECT_NE(sentences[1].find("m_of_n, existence"), std::string::npos) << sentences[1];
+  sentences.clear();
+  load("delete_existence: 0.1\n", &sentences);
+  ASSERT_EQ(sentences.size(), 1u);
+  EXPECT_NE(sentences[0].find("t.yaml:1: delete_existence = 0.1"), std::string::npos) << sentences[0];
+  EXPECT_NE(sentences[0].find("must be below initial_existence"), std::string::npos) << sentences[0];
+  sentences.clear();
+  load("delete_existence: 0.05\nconfirm_existence: 0.05\n", &sentences);
+  ASSERT_EQ(sentences.size(), 1u);
+  EXPECT_NE(sentences[0].find("must be below confirm_existence"), std::string::npos) << sentences[0];
+}
+
+// The examples of docs/tracker.md, as they stand there.
+TEST(TrackerConfig, TheDocumentedExamplesLoad) {
   std::ostringstream page;
   page << std::ifstream(TTF_SOURCE_DIR "/docs/tracker.md").rdbuf();
   const std::string begin = "```yaml\n", all = page.str();
-  const std::size_t from = all.find(begin);
-  ASSERT_NE(from, std::string::npos);
-  const std::string example = all.substr(from + begin.size(), all.find("```", from + 1) - from - begin.size());
-  Findings findings;
-  YamlMap root = StrictYaml::parse(example, "tracker.md").root(findings);
-  YamlMap tracker = root.map("tracker");
-  const TrackerConfig config = load_tracker(tracker);
-  tracker.finish();
-  root.finish();
-  EXPECT_TRUE(findings.empty());
-  EXPECT_EQ(config.motion, MotionModel::kCtrv);
-  EXPECT_EQ(config.filter, FilterKind::kUnscented);
+  std::vector<TrackerConfig> configs;
+  for (std::size_t from = all.find(begin); from != std::string::npos; from = all.find(begin, from + 1)) {
+    const std::size_t first = from + begin.size();
+    Findings findings;
+    YamlMap root = StrictYaml::parse(all.substr(first, all.find("```", first) - first), "tracker.md").root(findings);
+    YamlMap tracker = root.map("tracker");
+    configs.push_back(load_tracker(tracker));
+    tracker.finish();
+    root.finish();
+    EXPECT_TRUE(findings.empty());
+  }
+  ASSERT_EQ(configs.size(), 2u);
+  EXPECT_EQ(configs[0].motion, MotionModel::kCtrv);
+  EXPECT_EQ(configs[0].filter, FilterKind::kUnscented);
+  EXPECT_EQ(configs[1].association, Association::kJpda);
+  EXPECT_EQ(configs[1].birth, Birth::kExistence);
 }
 
 // A track that ends before it coasts would never be said to.

@@ -128,7 +128,9 @@ bool same_bits(const TrackSet& a, const TrackSet& b) {
                              same(s.heading, t.heading) &&
                              same(s.extent.size, t.extent.size) &&
                              same(s.extent.covariance, t.extent.covariance) && s.hits == t.hits &&
-                             s.scans == t.scans && s.misses == t.misses && s.confirmed == t.confirmed;
+                             s.scans == t.scans && s.misses == t.misses && s.confirmed == t.confirmed &&
+                             same(s.existence, t.existence) && s.twin_scans == t.twin_scans &&
+                             (s.twin_scans == 0 || s.twin == t.twin);
                     });
 }
 

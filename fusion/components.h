@@ -1,0 +1,37 @@
+// Which nodes hang together: union-find with path halving, the least node of each component being its root. Storage is
+// taken at construction.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <vector>
+
+namespace ttf::fusion {
+
+class Components {
+ public:
+  explicit Components(std::size_t most) : parent_(most) {}
+
+  std::size_t capacity() const { return parent_.size(); }
+  void reset(std::size_t nodes) {
+    std::iota(parent_.begin(), parent_.begin() + static_cast<std::ptrdiff_t>(nodes), 0);
+  }
+  void join(int first, int second) {
+    const int a = root(first), b = root(second);
+    parent_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+  }
+  int root(int node) {
+    while (parent_[static_cast<std::size_t>(node)] != node) {
+      int& parent = parent_[static_cast<std::size_t>(node)];
+      parent = parent_[static_cast<std::size_t>(parent)];
+      node = parent;
+    }
+    return node;
+  }
+
+ private:
+  std::vector<int> parent_;
+};
+
+}  // namespace ttf::fusion

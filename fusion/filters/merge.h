@@ -1,0 +1,31 @@
+// Two normal distributions of one state as one: mean and covariance of their mixture. With weights a and b, d = x_b -
+// x_a:
+//   x <- x_a + b / (a + b) d,   P <- (a P_a + b P_b) / (a + b) + a b / (a + b)^2 d d'.
+// Positive semi-definite, symmetric to the bit where both are. Merging one after the other gives the moments of all
+// (Salmond: "Mixture reduction algorithms for target tracking in clutter", SPIE 1305, 1990), angles as angles.
+#pragma once
+
+#include "fusion/motion/kernels.h"
+#include "fusion/motion/motion_model.h"
+
+namespace ttf::fusion::filters {
+
+// Weights not negative, not both zero; one of zero leaves the other as it is.
+template <motion::Model M>
+void merge(Gaussian<M::kStates>& first, double a, const Gaussian<M::kStates>& second, double b) {
+  constexpr int kN = M::kStates;
+  if (b <= 0.0) return;
+  if (a <= 0.0) {
+    first = second;
+    return;
+  }
+  const double share = b / (a + b);
+  const Vector<kN> d = M::difference(second.x, first.x);
+  first.x += share * d;
+  M::normalise(first.x);
+  for (int c = 0; c < kN; ++c)
+    for (int r = 0; r < kN; ++r) first.p(r, c) += share * (second.p(r, c) - first.p(r, c));
+  add_outer<kN>(first.p, share * (1.0 - share), d);
+}
+
+}  // namespace ttf::fusion::filters

@@ -1,0 +1,106 @@
+#include "tests/fusion/crossing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fusion/metrics/clear_mot.h"
+#include "fusion/metrics/consistency.h"
+#include "fusion/metrics/set_distance.h"
+#include "fusion/timeline.h"
+
+namespace ttf::fusion {
+namespace {
+
+constexpr int kLists = 60, kQuiet = 15;
+constexpr double kPeriod = 0.1, kSigma = 0.3;
+constexpr double kWidth = 60.0, kHeight = 20.0;
+
+}  // namespace
+
+Crossing::Drive Crossing::draw_drive(std::uint64_t seed) const {
+  RandomStream stream({.seed = seed, .purpose = Purpose::kTest, .entity = 5});
+  const Covariance f = transition(MotionModel::kConstantVelocity, kPeriod);
+  const Covariance q = driving_noise(MotionModel::kConstantVelocity, process_noise, kPeriod);
+  std::vector<State> now(2, State::Zero());
+  for (int object = 0; object < 2; ++object) {
+    const double side = object == 0 ? 1.0 : -1.0;
+    State& x = now[static_cast<std::size_t>(object)];
+    x(0) = 5.0;
+    x(1) = 4.0 * side;
+    x(2) = 8.0;
+    x(3) = -4.0 / 3.0 * side;
+  }
+  Drive drive;
+  for (int k = 0; k < kLists; ++k) {
+    std::vector<Observation> list;
+    for (State& x : now) {
+      if (k > 0) x = draw(f * x, q, stream);
+      const bool seen = stream.uniform() < detection_probability || k < kQuiet;
+      const double dx = kSigma * stream.normal(), dy = kSigma * stream.normal();
+      if (seen) list.push_back(position(x(0) + dx, x(1) + dy, kSigma));
+    }
+    // The number of false ones is Poisson's: waiting times until their sum is over.
+    for (double sum = -std::log(1.0 - stream.uniform()); k >= kQuiet && sum < clutter_density * kWidth * kHeight;
+         sum -= std::log(1.0 - stream.uniform()))
+      list.push_back(position(stream.uniform(0.0, kWidth), stream.uniform(-0.5 * kHeight, 0.5 * kHeight), kSigma));
+    drive.truth.push_back(now);
+    drive.lists.push_back(scan(0, static_cast<std::uint32_t>(k), at_ms(100 * k), std::move(list)));
+  }
+  return drive;
+}
+
+TrackerConfig Crossing::config() const {
+  TrackerConfig config;
+  config.process_noise = process_noise;
+  config.detection_probability = detection_probability;
+  config.clutter_density = clutter_density;
+  return config;
+}
+
+Followed follow(const Crossing& crossing, const TrackerConfig& config, int runs) {
+  Followed sum;
+  std::uint64_t judged = 0, pairs = 0;
+  for (int run = 1; run <= runs; ++run) {
+    const Crossing::Drive drive = crossing.draw_drive(static_cast<std::uint64_t>(run));
+    Timeline timeline(config, 96);
+    metrics::ClearMot mot({.objects = 2, .tracks = 200, .objects_ever = 2}, 3.0);
+    metrics::SetMetric distance(2, 200, {.distance_m = 5.0, .order = 2.0});
+    const auto estimator = make_estimator(config);
+    for (std::size_t k = 0; k < drive.lists.size(); ++k) {
+      timeline.insert(drive.lists[k].view());
+      std::vector<metrics::Point> truths, estimates;
+      std::vector<metrics::Named> objects, tracks;
+      std::vector<Cartesian> states;
+      for (const State& x : drive.truth[k]) {
+        objects.push_back({static_cast<metrics::Identity>(objects.size()), {x(0), x(1)}});
+        truths.push_back({x(0), x(1)});
+      }
+      for (const Track& track : timeline.current().tracks) {
+        if (!track.confirmed) continue;
+        states.push_back(estimator->cartesian(track.estimate));
+        estimates.push_back({states.back().x(0), states.back().x(1)});
+        tracks.push_back({static_cast<metrics::Identity>(index_of(track.id)), estimates.back()});
+      }
+      mot.step(objects, tracks);
+      if (k < static_cast<std::size_t>(kQuiet)) continue;
+      ++judged;
+      sum.gospa += distance.between(truths, estimates).gospa.distance_m;
+      for (std::size_t i = 0; i < truths.size(); ++i) {
+        const int estimate = distance.estimate_of()[i];
+        if (estimate < 0) continue;
+        const Cartesian& state = states[static_cast<std::size_t>(estimate)];
+        sum.nees += metrics::nees<4>({state.x.head<4>(), state.p.topLeftCorner<4, 4>()},
+                                     Vector<4>(drive.truth[k][i].head<4>()));
+        ++pairs;
+      }
+    }
+    sum.switches += mot.counts().switches;
+    sum.misses += mot.counts().misses;
+    sum.false_tracks += mot.counts().false_positives;
+  }
+  sum.nees /= static_cast<double>(pairs);
+  sum.gospa /= static_cast<double>(judged);
+  return sum;
+}
+
+}  // namespace ttf::fusion
