@@ -111,7 +111,7 @@ PreparedDrive SweepDrives::prepare(const results::RunKey& key) const {
   drive.cluster = schedules::parse_cluster(std::move(cluster), file);
   if (auto findings = schedules::check(drive.cluster); !findings.empty()) throw InputError(std::move(findings));
   schedules::bind_ports(drive.cluster, nodes::step_ports());
-  sim::check_fits(drive.scenario, drive.cluster, false);
+  sim::check_fits(drive.scenario, drive.cluster, drive.strategy, false);
   return drive;
 }
 

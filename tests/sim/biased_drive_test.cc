@@ -266,7 +266,7 @@ TEST(BiasedDrive, ASensorThatIsNoneIsRefused) {
   sensor.name = "sonar";
   sensor.line = 17;
   try {
-    sim::check_fits(drive.scenario, drive.cluster, false);
+    sim::check_fits(drive.scenario, drive.cluster, drive.strategy, false);
     FAIL() << "taken";
   } catch (const InputError& error) {
     ASSERT_EQ(error.findings().size(), 1u);
