@@ -389,8 +389,8 @@ expect 2 '--replay = 24: must be 0..23' experiment "$campaign" --replay 24
 expect 2 '--shard = 3/2: must be i/n' experiment "$campaign" --shard 3/2
 sed -e 's/guardian: true/guardian: true, why: not/' "$campaign" >"$work/schedules/broken.yaml"
 expect 2 'broken.yaml:[0-9]+: variants.guardian.why: is not a known key' experiment "$work/schedules/broken.yaml"
-sed -e 's/^kind: .*/kind: sweep/' "$campaign" >"$work/schedules/broken.yaml"
-expect 2 'kind = sweep: must be fault_campaign' experiment "$work/schedules/broken.yaml"
+sed -e 's/^kind: .*/kind: voyage/' "$campaign" >"$work/schedules/broken.yaml"
+expect 2 'kind = voyage: must be sweep or fault_campaign' experiment "$work/schedules/broken.yaml"
 sed -e 's/^expect:/classes: {crash: 1}\nexpect:/' "$campaign" >"$work/schedules/crashes.yaml"
 expect 0 'crash +24 ' experiment "$work/schedules/crashes.yaml"
 
