@@ -13,8 +13,8 @@
 namespace ttf::schedules {
 
 inline const std::vector<std::string>& shipped_clusters() {
-  static const std::vector<std::string> kNames{"paper_unsynchronised", "paper_synchronised", "laser_radar",
-                                               "laser_radar_synchronised", "flexray_demo"};
+  static const std::vector<std::string> kNames{"paper_unsynchronised", "paper_synchronised", "paper_event_triggered",
+                                               "laser_radar", "laser_radar_synchronised", "flexray_demo"};
   return kNames;
 }
 

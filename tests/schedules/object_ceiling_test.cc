@@ -39,6 +39,10 @@ TEST(ObjectCeiling, OfTheShippedClusters) {
   EXPECT_EQ(paper.lists[0].slots, 9);
   EXPECT_EQ(paper.lists[0].objects, 25) << "27 would fit the slots, but not the list";
   EXPECT_EQ(paper.lists[2].countable, 255);
+  const ObjectCeiling on_can = ceiling_of("paper_event_triggered");
+  EXPECT_EQ(on_can.lists.size(), 1u) << "observations are not on FlexRay";
+  EXPECT_EQ(on_can.carried, 25);
+  EXPECT_EQ(on_can.with_all_static_slots, 70);
 }
 
 TEST(ObjectCeiling, IsShown) {
