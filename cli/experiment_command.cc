@@ -57,9 +57,9 @@ void add_experiment(CLI::App& app, Action& action) {
                                      "One fault alone, or one run as point/paradigm/replication");
   auto* resume = command->add_flag("--resume", options->resume, "Go on with what --out has already");
   command->add_option("--out", options->out, "Folder for results (a sweep's default: out/<name>)");
-  command->add_flag("--json", options->json, "The answer as JSON on standard output");
+  auto* json = command->add_flag("--json", options->json, "The answer as JSON on standard output");
   merge->excludes(shard)->excludes(resume);
-  replay->excludes(shard)->excludes(merge)->excludes(resume);
+  replay->excludes(shard)->excludes(merge)->excludes(resume)->excludes(json);
   command->callback([options, &action] { action = [options] { return run_experiment(*options); }; });
 }
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "cli/drive_setup.h"
 #include "cli/experiment_options.h"
@@ -30,6 +31,12 @@ std::string key_text(const SweepFile& sweep, const results::RunKey& key) {
   return fmt::format("{}/{}/{}", key.point, sweep.paradigms[key.paradigm].name, key.replication);
 }
 
+std::string names_of(const SweepFile& sweep) {
+  std::vector<std::string> names;
+  for (const experiments::Paradigm& paradigm : sweep.paradigms) names.push_back(paradigm.name);
+  return joined(names);
+}
+
 results::RunKey key_of(const std::string& text, const SweepFile& sweep) {
   const std::size_t first = text.find('/'), second = text.rfind('/');
   results::RunKey key;
@@ -46,8 +53,8 @@ results::RunKey key_of(const std::string& text, const SweepFile& sweep) {
         return key;
   }
   throw InputError({"command line", 0, "--replay", text,
-                    fmt::format("must be point/paradigm/replication, of points 0..{} and replications 0..{}",
-                                sweep.points() - 1, sweep.replications - 1)});
+                    fmt::format("must be point/paradigm/replication, of points 0..{} and replications 0..{}; paradigms: {}",
+                                sweep.points() - 1, sweep.replications - 1, names_of(sweep))});
 }
 
 int replay(const ExperimentOptions& options, const SweepDrives& drives) {
@@ -74,24 +81,33 @@ int replay(const ExperimentOptions& options, const SweepDrives& drives) {
   return run.status == results::kDone ? 0 : 1;
 }
 
+// Of this experiment, every run of it. Throws InputError.
+Store opened(const SweepDrives& drives, const std::string& path) {
+  Store store = Store::open(path);
+  if (store.head().identity != drives.identity() || store.head().measures != drives.columns() ||
+      store.head().version != TTF_VERSION)
+    throw InputError({path, 0, "", "",
+                      "must be of this experiment: the file, its scenario, a cluster or the program was another then"});
+  const SweepFile& sweep = drives.sweep();
+  for (const results::RunKey& key : store.keys())
+    if (key.point >= sweep.points() || key.replication >= sweep.replications || key.paradigm >= sweep.paradigms.size())
+      throw InputError({path, 0, "runs", fmt::format("{}/{}/{}", key.point, key.paradigm, key.replication),
+                        "must be a run of this experiment: point/paradigm/replication"});
+  return store;
+}
+
 Store store_of(const ExperimentOptions& options, const SweepDrives& drives, const std::string& path) {
   const SweepFile& sweep = drives.sweep();
   if (!std::filesystem::exists(path))
     return Store::create(path, {sweep.name, drives.identity(), TTF_VERSION, sweep.text, drives.columns()});
   if (!options.resume)
     throw InputError({path, 0, "", "", "is there already: --resume goes on with it, another --out begins anew"});
-  Store store = Store::open(path);
-  if (store.head().identity != drives.identity() || store.head().measures != drives.columns())
-    throw InputError({path, 0, "", "", "must be of this experiment: the file, its scenario or a cluster was another then"});
-  return store;
+  return opened(drives, path);
 }
 
-void merge(const ExperimentOptions& options, const SweepDrives& drives, Store& store) {
-  for (const std::string& folder : options.merge) {
-    const std::string path = folder + "/results.sqlite";
-    const Store shard = Store::open(path);
-    if (shard.head().identity != drives.identity())
-      throw InputError({path, 0, "", "", "must be of this experiment: the file, its scenario or a cluster was another then"});
+// Whether all of it is there.
+bool merge(const std::vector<Store>& shards, const SweepFile& sweep, Store& store) {
+  for (const Store& shard : shards) {
     std::vector<results::Run> some;
     shard.for_each([&](const results::Run& run) {
       some.push_back(run);
@@ -99,17 +115,20 @@ void merge(const ExperimentOptions& options, const SweepDrives& drives, Store& s
     });
     store.add(some);
   }
+  const std::uint64_t all = std::uint64_t{sweep.replications} * sweep.paradigms.size() * sweep.points();
+  if (sweep.stop || store.count() == all) return true;
+  fmt::print(stderr, "error: {} of {} runs are not among them: --resume drives them\n", all - store.count(), all);
+  return false;
 }
 
-void drive(const ExperimentOptions& options, const SweepDrives& drives, Store& store) {
+void drive(const ExperimentOptions& options, const SweepDrives& drives, experiments::Shard shard, Store& store) {
   const SweepFile& sweep = drives.sweep();
-  if (!options.shard.empty() && sweep.stop)
-    throw InputError({"command line", 0, "--shard", options.shard, "needs an experiment without `stop`: no shard sees enough"});
   const unsigned jobs = options.jobs > 0 ? options.jobs : experiments::workers_here();
   fmt::print(stderr, "{}: {}, {}, {}, {} ...\n", sweep.name, counted(sweep.points(), "point"),
-             counted(sweep.paradigms.size(), "paradigm"), counted(sweep.replications, "replication"), counted(jobs, "worker"));
+             counted(sweep.paradigms.size(), "paradigm"), counted(sweep.replications, "replication"),
+             counted(jobs, "worker"));
   const Progress progress("runs");
-  experiments::run_sweep(drives, store, shard_of(options.shard), jobs, [&](const experiments::SweepProgress& now) {
+  experiments::run_sweep(drives, store, shard, jobs, [&](const experiments::SweepProgress& now) {
     progress(now.done, now.all, now.driven);
   });
 }
@@ -158,9 +177,10 @@ std::string failures_text(const ExperimentOptions& options, const SweepFile& swe
   std::size_t shown = 0;
   store.for_each([&](const results::Run& run) {
     if (run.status == results::kDone || ++shown > kShownFailures) return;
-    text += fmt::format("{}: {}\n  ttfusion experiment {} --replay {}\n", sweep.label_of(run.key.point), run.status,
-                        options.file, key_text(sweep, run.key));
+    text += fmt::format("{}: {}\n  ttfusion experiment {} --replay {} --out one\n", sweep.label_of(run.key.point),
+                        run.status, options.file, key_text(sweep, run.key));
   });
+  if (shown > kShownFailures) text += fmt::format("and {} more, in runs.csv\n", shown - kShownFailures);
   return text;
 }
 
@@ -170,13 +190,20 @@ int run_sweep_experiment(const ExperimentOptions& options) {
   const SweepFile sweep = experiments::load_sweep(options.file);
   const SweepDrives drives(sweep);
   if (options.replay) return replay(options, drives);
+  // All that can be wrong with what is asked for, before anything is written.
+  const experiments::Shard shard = shard_of(options.shard);
+  if (!options.shard.empty() && sweep.stop)
+    throw InputError({"command line", 0, "--shard", options.shard, "needs an experiment without `stop`: no shard sees enough"});
+  std::vector<Store> shards;
+  for (const std::string& from : options.merge) shards.push_back(opened(drives, from + "/results.sqlite"));
+
   const std::string folder = options.out.empty() ? "out/" + sweep.name : options.out;
   create_folder(folder);
   Store store = store_of(options, drives, folder + "/results.sqlite");
-  if (options.merge.empty())
-    drive(options, drives, store);
-  else
-    merge(options, drives, store);
+  if (shards.empty())
+    drive(options, drives, shard, store);
+  else if (!merge(shards, sweep, store))
+    return 1;
 
   const experiments::SweepAnswer answer = experiments::answer_of(sweep, store);
   const std::string text = experiments::answer_text(sweep, answer) + failures_text(options, sweep, store);

@@ -1,5 +1,6 @@
 #include "core/yaml_edit.h"
 
+#include <algorithm>
 #include <charconv>
 #include <optional>
 

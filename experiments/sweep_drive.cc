@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <new>
+#include <string>
 
 #include "core/file_bytes.h"
 #include "core/hash.h"
@@ -65,7 +67,13 @@ void SweepDrives::prepare_at(const results::RunKey& key) {
       file = base.cluster_files[static_cast<std::size_t>(paradigm.strategy)];
     }
     if (!clusters_.contains(file)) clusters_[file] = read_file(file);
-    (void)prepare(key);
+    std::vector<double> low, high;
+    for (const Axis* axis : sweep_.drawn()) {
+      low.push_back(axis->low);
+      high.push_back(axis->high);
+    }
+    (void)prepare(key, low);
+    if (!high.empty()) (void)prepare(key, high);
   } catch (const InputError& error) {
     Findings findings;
     for (Finding finding : error.findings()) {
@@ -80,22 +88,22 @@ std::vector<double> SweepDrives::drawn(std::uint32_t replication) const {
   std::vector<double> values;
   for (const Axis* axis : sweep_.drawn()) {
     RandomStream stream({sweep_.seed, replication, Purpose::kSweep, static_cast<std::uint16_t>(values.size()), 0});
-    values.push_back(stream.uniform(axis->low, axis->high));
+    values.push_back(std::stod(fmt::format("{:.6g}", stream.uniform(axis->low, axis->high))));
   }
   return values;
 }
 
-PreparedDrive SweepDrives::prepare(const results::RunKey& key) const {
+PreparedDrive SweepDrives::prepare(const results::RunKey& key) const { return prepare(key, drawn(key.replication)); }
+
+PreparedDrive SweepDrives::prepare(const results::RunKey& key, const std::vector<double>& values) const {
   const Paradigm& paradigm = sweep_.paradigms[key.paradigm];
   Edits edits = paradigm.edits;
   for (const Setting* setting : sweep_.settings_of(key.point))
     edits.insert(edits.end(), setting->edits.begin(), setting->edits.end());
-  const std::vector<double> values = drawn(key.replication);
   const std::vector<const Axis*> axes = sweep_.drawn();
   for (std::size_t a = 0; a < axes.size(); ++a)
     for (const std::string& name : axes[a]->keys)
-      edits.emplace_back(name, axes[a]->unit.empty() ? fmt::format("{}", values[a])
-                                                     : fmt::format("{:.6f} {}", values[a], axes[a]->unit));
+      edits.emplace_back(name, fmt::format("{}{}{}", values[a], axes[a]->unit.empty() ? "" : " ", axes[a]->unit));
   PreparedDrive drive;
   std::string text = scenario_text_;
   apply(edits, false, text, sweep_.scenario_file);
@@ -118,8 +126,12 @@ PreparedDrive SweepDrives::prepare(const results::RunKey& key) const {
 results::Run SweepDrives::run(const results::RunKey& key) const {
   try {
     return run(key, prepare(key));
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
-    return {key, error.what(), std::vector<double>(columns().size(), kNotMeasured)};
+    results::Run failed{key, error.what(), drawn(key.replication)};
+    failed.values.resize(columns().size(), kNotMeasured);
+    return failed;
   }
 }
 
@@ -134,6 +146,8 @@ results::Run SweepDrives::run(const results::RunKey& key, const PreparedDrive& d
     const sim::DriveOutcome outcome = sim::run_drive(config, tee);
     const DriveSummary summary = measures.finish();
     for (const std::string& name : sweep_.measures) run.values.push_back(find_measure(name)->of(summary, outcome));
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     run.status = error.what();
     run.values.resize(columns().size(), kNotMeasured);

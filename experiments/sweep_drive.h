@@ -23,15 +23,15 @@ struct PreparedDrive {
 // The files an experiment follows from, read once; const afterwards, for many workers.
 class SweepDrives {
  public:
-  // Prepares every point of small grids, of large ones every value of every axis, so that what cannot be driven is known
-  // before anything is. Throws InputError, whose sentences name file, line and point.
+  // Prepares every point of small grids, of large ones every value of every axis, with the ends of what is drawn, so that
+  // what cannot be driven is known before anything is. Throws InputError, whose sentences name file, line and point.
   explicit SweepDrives(const SweepFile& sweep);
 
   // Throws InputError.
   PreparedDrive prepare(const results::RunKey& key) const;
-  // By random axis, in the file's order: a function of seed, axis and replication alone.
+  // By random axis, in the file's order: a function of seed, axis and replication alone. Rounded to six digits.
   std::vector<double> drawn(std::uint32_t replication) const;
-  // Measures and drawn axes; a run that fails says why.
+  // Measures and drawn axes; a run that fails says why, but for std::bad_alloc, which says nothing of the run.
   results::Run run(const results::RunKey& key) const;
   // The same of a drive that is prepared, with a listener more.
   results::Run run(const results::RunKey& key, const PreparedDrive& drive, records::Sink* listener = nullptr) const;
@@ -43,6 +43,7 @@ class SweepDrives {
   const SweepFile& sweep() const { return sweep_; }
 
  private:
+  PreparedDrive prepare(const results::RunKey& key, const std::vector<double>& drawn) const;
   void prepare_at(const results::RunKey& key);
 
   const SweepFile& sweep_;

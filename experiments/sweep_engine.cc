@@ -4,7 +4,10 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <exception>
 #include <mutex>
+#include <optional>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -45,10 +48,18 @@ class Workers {
   Workers(const SweepDrives& drives, const std::vector<RunKey>& wanted) : drives_(drives), wanted_(wanted) {}
 
   void work(unsigned workers, const std::function<void(std::vector<Run>)>& take) {
-    running_ = workers;
     std::vector<std::thread> threads;
-    for (unsigned w = 0; w < workers; ++w) threads.emplace_back([this] { drive(); });
+    threads.reserve(workers);
     std::exception_ptr failure;
+    try {
+      for (unsigned w = 0; w < workers; ++w) {
+        threads.emplace_back([this] { drive(); });
+        const std::lock_guard lock(mutex_);
+        ++running_;
+      }
+    } catch (const std::system_error&) {   // with fewer, then
+      if (threads.empty()) throw;
+    }
     for (bool last = false; !last;) {
       std::vector<Run> runs;
       {
@@ -67,11 +78,26 @@ class Workers {
     }
     for (std::thread& thread : threads) thread.join();
     if (failure) std::rethrow_exception(failure);
+    if (failure_) std::rethrow_exception(failure_);
   }
 
  private:
-  // Neighbours are of one drive as far as they go; its preparation is shared unless something is drawn for each.
   void drive() {
+    std::exception_ptr failure;
+    try {
+      drive_all();
+    } catch (...) {
+      failure = std::current_exception();
+      next_ = wanted_.size();
+    }
+    const std::lock_guard lock(mutex_);
+    if (failure) failure_ = failure;
+    --running_;
+    changed_.notify_all();
+  }
+
+  // Neighbours are of one drive as far as they go; its preparation is shared unless something is drawn for each.
+  void drive_all() {
     const bool shared = drives_.sweep().drawn().empty();
     for (std::size_t first = next_.fetch_add(kAtATime); first < wanted_.size(); first = next_.fetch_add(kAtATime)) {
       const std::size_t end = std::min<std::size_t>(first + kAtATime, wanted_.size());
@@ -87,9 +113,6 @@ class Workers {
         waiting_.push_back(std::move(run));
       }
     }
-    const std::lock_guard lock(mutex_);
-    --running_;
-    changed_.notify_all();
   }
 
   // Nothing where it cannot be: run() says why.
@@ -106,8 +129,9 @@ class Workers {
   std::atomic<std::size_t> next_{0};
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::vector<Run> waiting_;      // guarded, as the next
-  unsigned running_ = 0;
+  std::vector<Run> waiting_;      // guarded, as the next two
+  int running_ = 0;               // may be below 0 for a moment: who is done before it is counted
+  std::exception_ptr failure_;
 };
 
 }  // namespace
@@ -134,10 +158,7 @@ void run_sweep(const SweepDrives& drives, results::Store& store, Shard shard, un
           if (const RunKey key{point, r, paradigm}; shard.has(r) && !ledger.has(key)) wanted.push_back(key);
     Workers(drives, wanted).work(workers, [&](std::vector<Run> runs) {
       store.add(runs);
-      for (const Run& run : runs) {
-        ledger.add(run.key);
-        now.failed += run.status != results::kDone;
-      }
+      for (const Run& run : runs) ledger.add(run.key);
       now.done += runs.size();
       now.driven += runs.size();
       progress(now);

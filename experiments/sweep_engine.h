@@ -16,7 +16,6 @@ namespace ttf::experiments {
 struct SweepProgress {
   std::uint64_t done = 0, all = 0;    // runs of this shard; with a stop rule `all` may not be needed
   std::uint64_t driven = 0;           // of them now, not found in the store
-  std::uint64_t failed = 0;           // of those
 };
 
 // Throws std::runtime_error where the store cannot take what was driven; what it has stays. `progress` is called now and

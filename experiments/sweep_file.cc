@@ -16,6 +16,7 @@ namespace ttf::experiments {
 namespace {
 
 constexpr std::size_t kMostPoints = 10'000, kMostParadigms = 64;
+constexpr std::uint64_t kMostRuns = 100'000'000;
 constexpr double kLargest = 1e12;
 
 std::optional<double> number_of(const std::string& text) {
@@ -31,10 +32,18 @@ std::string with_unit(double number, const std::string& unit) {
 // Rounded to six digits: what stands in tables is what was simulated.
 double rounded(double x) { return *number_of(fmt::format("{:.6g}", x)); }
 
+constexpr std::string_view kNames = "must be of letters, digits, dots, _ and -, and not begin with a dot";
+
 bool is_name(const std::string& name) {
-  return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
+  return !name.empty() && name.front() != '.' && std::all_of(name.begin(), name.end(), [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.';
   });
+}
+
+// Of the store, whose columns have no case.
+bool is_column(std::string name) {
+  std::transform(name.begin(), name.end(), name.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
+  return name == "point" || name == "replication" || name == "paradigm" || name == "status" || find_measure(name) != nullptr;
 }
 
 class Reader {
@@ -47,7 +56,7 @@ class Reader {
     if (root_.text("kind") != "sweep") root_.fail("kind", "must be sweep");
     findings_.throw_if_any();   // another kind's keys are not to be judged
     file_.name = root_.text("name");
-    if (!is_name(file_.name)) root_.fail("name", "must be of letters, digits, dots, _ and -: folders are called so");
+    if (!is_name(file_.name)) root_.fail("name", std::string(kNames));
     file_.question = root_.text("question");
     file_.scenario_file = path_of(root_.text("scenario"));
     file_.seed = static_cast<std::uint64_t>(root_.integer("seed", {0, std::int64_t{1} << 62}));
@@ -57,6 +66,8 @@ class Reader {
     if (file_.axes.empty()) root_.fail("axes", "must have one at least");
     if (!file_.axes.empty() && file_.points() > kMostPoints)
       root_.fail("axes", fmt::format("must make {} points at most, and make {}", kMostPoints, file_.points()));
+    check_runs();
+    check_keys();
     read_measures();
     read_comparison();
     read_expectations();
@@ -74,7 +85,7 @@ class Reader {
     for (auto& [name, map] : root_.named_maps("paradigms")) {
       Paradigm paradigm;
       paradigm.name = name;
-      if (!is_name(name)) map.fail("", "must be named by letters, digits, dots, _ and -");
+      if (!is_name(name)) map.fail("", std::string(kNames));
       using fusion::StrategyKind;
       paradigm.strategy = map.choice<StrategyKind>(
           "strategy", {{"buff", StrategyKind::kBuff}, {"adva", StrategyKind::kAdva}, {"tt", StrategyKind::kTt}});
@@ -90,7 +101,8 @@ class Reader {
   void read_axis(const std::string& name, YamlMap& map) {
     Axis axis;
     axis.name = name;
-    if (!is_name(name)) map.fail("", "must be named by letters, digits, dots, _ and -");
+    if (!is_name(name)) map.fail("", std::string(kNames));
+    if (is_column(name)) map.fail("", "must not be called as a measure, or point, replication, paradigm or status");
     const bool settings = map.has("settings");
     if (!settings) axis.keys = map.texts("keys");
     if (settings) {
@@ -140,6 +152,34 @@ class Reader {
     Setting setting{value, number, {}};
     for (const std::string& key : axis.keys) setting.edits.emplace_back(key, value);
     axis.settings.push_back(std::move(setting));
+  }
+
+  void check_runs() {
+    const std::uint64_t runs = std::uint64_t{file_.replications} * file_.paradigms.size() * file_.points();
+    if (runs > kMostRuns)
+      root_.fail("replications", fmt::format("must make {} runs at most, and make {}", kMostRuns, runs));
+  }
+
+  // A key that two would set has one value, and nobody can tell whose.
+  void check_keys() {
+    std::map<std::string, std::string> owners;   // of a key: an axis
+    const auto varied = [&](const std::string& key, const std::string& axis) {
+      if (key == "seed" || key.starts_with("clusters"))
+        root_.fail("axes", key + " must not be varied: the experiment has a seed, and paradigms have clusters");
+      const auto [owner, is_new] = owners.emplace(key, axis);
+      if (!is_new && owner->second != axis)
+        root_.fail("axes", fmt::format("must not vary {} twice: {} and {} do", key, owner->second, axis));
+    };
+    for (const Axis& axis : file_.axes) {
+      for (const std::string& key : axis.keys) varied(key, axis.name);
+      for (const Setting& setting : axis.settings)
+        for (const auto& [key, value] : setting.edits) varied(key, axis.name);
+    }
+    for (const Paradigm& paradigm : file_.paradigms)
+      for (const auto& [key, value] : paradigm.edits)
+        if (owners.contains(key) || key == "seed" || key.starts_with("clusters"))
+          root_.fail("paradigms", fmt::format("must not set {} in {}: {}", key, paradigm.name,
+                                              owners.contains(key) ? "an axis varies it" : "the experiment has a seed, and paradigms have clusters"));
   }
 
   void read_measures() {

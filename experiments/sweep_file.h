@@ -3,18 +3,17 @@
 //   kind: sweep
 //   name: process_noise_crossover
 //   question: Is it better to measure often or to know when?
-//   scenario: ../scenarios/paper_scenario1.yaml    from this file's folder, as all files
+//   scenario: ../scenarios/dynamics.yaml           from this file's folder, as all files
 //   seed: 1
 //   replications: 1000                             of every point, each with draws of its own, the same for all paradigms
 //   paradigms:                                     who is compared, each a drive of every point and replication
 //     event_triggered: {strategy: adva}            on the scenario's cluster for it
-//     time_triggered:  {strategy: tt, cluster: ../schedules/paper_synchronised.yaml,
-//                       set: {tracker.process_noise: 2}}
+//     time_triggered:  {strategy: tt, cluster: ../schedules/paper_synchronised.yaml, set: {duration: 2 s}}
 //   axes:                                          what is varied; the grid has every combination
-//     noise:  {keys: [world.acceleration_noise], values: [0.5, 1, 2]}
-//     period: {keys: [cluster.sensors.camera.period], from: 30, to: 60, count: 4, scale: logarithmic, unit: ms}
-//     road:   {settings: {dry: {world.yaw_rate_noise: 0.05}, icy: {world.yaw_rate_noise: 0.2}}}
-//     load:   {keys: [cluster.can.observation_can.other_load], uniform: [0, 0.3]}   no grid: drawn once a replication
+//     noise: {keys: [world.acceleration_noise], values: [0.5, 1, 2]}
+//     speed: {keys: ["world.objects[0].speed"], from: 5, to: 20, count: 4, scale: logarithmic}   and unit: ms, or so
+//     road:  {settings: {dry: {world.yaw_rate_noise: 0.05}, icy: {world.yaw_rate_noise: 0.2}}}
+//     load:  {keys: [cluster.can.observation_can.other_load], uniform: [0, 0.3]}   no grid: drawn once a replication
 //   measures: [position_rmse_truth, nees]          experiments/sweep_measures.h; the first is what is asked for; absent: all
 //   compare: {baseline: event_triggered, confidence: 0.95}
 //   stop: {half_width: 0.002, batch: 50}           a point has enough when the first measure's differences are that sure
@@ -22,7 +21,7 @@
 //     - {measure: position_rmse_truth, less: time_triggered, than: event_triggered, where: {noise: 2}}
 //
 // A key leads to a scalar of the scenario that is written there, "world.objects[0].speed"; of the paradigm's cluster where it
-// begins with "cluster.". The values of an axis with several keys go to all of them.
+// begins with "cluster."; each is set in one place only. The values of an axis with several keys go to all of them.
 #pragma once
 
 #include <cstdint>
@@ -38,7 +37,7 @@ namespace ttf::experiments {
 
 struct Setting {
   std::string label;                                            // how tables and expectations call it
-  std::optional<double> number;                                 // where it is one: of a range, or of values that all are
+  std::optional<double> number;                                 // where the label is one
   std::vector<std::pair<std::string, std::string>> edits;       // key, value
 };
 

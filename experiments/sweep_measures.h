@@ -12,11 +12,9 @@ namespace ttf::experiments {
 struct Measure {
   std::string_view name, unit, meaning;
   double (*of)(const DriveSummary& summary, const sim::DriveOutcome& outcome);
-  bool less_is_better = true;
 };
 
 namespace measure {
-
 
 inline double milliseconds(const AgeStatistics& age) {
   return age.count == 0 ? kNotMeasured : static_cast<double>(age.sum.ns) / static_cast<double>(age.count) * 1e-6;
@@ -59,7 +57,7 @@ inline constexpr std::array<Measure, 17> kMeasures{{
   {"age_used_oldest", "ms", "median age of the oldest of the sensors' newest measurements",
    [](const DriveSummary& s, const sim::DriveOutcome&) { return measure::milliseconds(s.age_used_oldest, 500); }},
   {"lists_fused", "", "observation lists that were fused in the whole drive",
-   [](const DriveSummary& s, const sim::DriveOutcome&) { return static_cast<double>(s.fused); }, false},
+   [](const DriveSummary& s, const sim::DriveOutcome&) { return static_cast<double>(s.fused + s.fused_late); }},
   {"out_of_sequence", "", "share of lists that came behind a newer one",
    [](const DriveSummary& s, const sim::DriveOutcome&) { return measure::share(s.out_of_sequence, s.received); }},
   {"precision", "us", "how far the clocks were apart at most",

@@ -17,7 +17,7 @@ using results::Interval;
 std::string text_of(const Interval& interval, bool sign) {
   if (std::isnan(interval.mean)) return "-";
   const double width = std::isnan(interval.half_width) ? std::abs(interval.mean) * 1e-3 : interval.half_width;
-  const int decimals = width > 0.0 ? std::clamp(1 - static_cast<int>(std::floor(std::log10(width))), 0, 9) : 3;
+  const int decimals = width > 0.0 && std::isfinite(width) ? std::clamp(1 - static_cast<int>(std::floor(std::log10(width))), 0, 9) : 3;
   std::string text = sign ? fmt::format("{:+.{}f}", interval.mean, decimals) : fmt::format("{:.{}f}", interval.mean, decimals);
   if (!std::isnan(interval.half_width)) text += fmt::format(" +- {:.{}f}", interval.half_width, decimals);
   return text;
@@ -78,10 +78,9 @@ std::string answer_sentences(const SweepFile& sweep, const SweepAnswer& answer) 
     text += fmt::format("{} of {} is less than of {} at {}, more at {}, undecided at {}.\n", sweep.measures.front(),
                         sweep.paradigms[p].name, baseline, counted(static_cast<std::uint64_t>(less), "point"), more, undecided);
     for (const Crossing& crossing : answer.crossings)
-      if (crossing.paradigm == p)
-        text += fmt::format("They cross at {} {:.4g}{}{}.\n", crossing.axis, crossing.at,
-                            crossing.others.empty() ? "" : ", with " + crossing.others,
-                            crossing.certain ? "" : ", within what is not certain");
+      if (crossing.paradigm == p && crossing.certain)
+        text += fmt::format("They cross at {} {:.4g}{}.\n", crossing.axis, crossing.at,
+                            crossing.others.empty() ? "" : ", with " + crossing.others);
   }
   return text;
 }

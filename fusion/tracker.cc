@@ -195,6 +195,7 @@ void Tracker::take_in_all(Track& track, std::size_t column, const Scan& scan) {
   const double unseen = joint_.none_of_column(column) * exists_unseen(track.existence, config_);
   double exists = unseen;
   for (const JointAssociation::Shared& shared : joint_.of_column(column)) exists += shared.probability;
+  if (!(exists > 0.0)) return;   // it is long gone, and nothing has been seen of it
   explanations_.clear();
   explanations_.push_back({nullptr, unseen / exists});
   for (const JointAssociation::Shared& shared : joint_.of_column(column))

@@ -6,7 +6,7 @@
 namespace ttf::results {
 
 void Moments::add(double x) {
-  if (std::isnan(x)) return;
+  if (!std::isfinite(x)) return;
   ++count_;
   const double off = x - mean_;
   mean_ += off / static_cast<double>(count_);

@@ -7,7 +7,7 @@
 namespace ttf::results {
 
 // Mean and variance of what is added, in one pass (Welford: "Note on a method for calculating corrected sums of squares
-// and products", Technometrics 4, 1962). What is not a number is not counted.
+// and products", Technometrics 4, 1962). What is not finite is not counted.
 class Moments {
  public:
   void add(double x);
@@ -21,7 +21,7 @@ class Moments {
 };
 
 // mean +- half_width contains the expectation in a share `confidence` of all such samples, if the mean is normally
-// distributed: Student's t. Not a number where there are too few.
+// distributed: Student's t. Not a number where there are too few. `confidence` is above 0 and below 1.
 struct Interval {
   std::uint64_t count = 0;
   double mean = std::numeric_limits<double>::quiet_NaN();

@@ -22,6 +22,11 @@ std::string identifier(std::string_view name) {
   return out + '"';
 }
 
+std::string reason(sqlite3* handle) {
+  const int code = sqlite3_errcode(handle);
+  return code == SQLITE_BUSY || code == SQLITE_LOCKED ? "is in use: another process writes there" : sqlite3_errmsg(handle);
+}
+
 }  // namespace
 
 struct Store::Database {
@@ -38,7 +43,7 @@ struct Store::Database {
   Database(const Database&) = delete;
   Database& operator=(const Database&) = delete;
 
-  [[noreturn]] void fail() const { throw std::runtime_error(path + ": " + sqlite3_errmsg(handle)); }
+  [[noreturn]] void fail() const { throw std::runtime_error(path + ": " + reason(handle)); }
   void execute(const std::string& sql) const {
     if (sqlite3_exec(handle, sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) fail();
   }
@@ -82,7 +87,7 @@ class Statement {
   void check(int code) const {
     if (code != SQLITE_OK) fail();
   }
-  [[noreturn]] void fail() const { throw std::runtime_error(path_ + ": " + sqlite3_errmsg(database_)); }
+  [[noreturn]] void fail() const { throw std::runtime_error(path_ + ": " + reason(database_)); }
 
   sqlite3* database_;
   const std::string& path_;
@@ -113,10 +118,15 @@ Store& Store::operator=(Store&&) noexcept = default;
 
 Store Store::create(const std::string& path, const StoreHead& head) {
   if (std::filesystem::exists(path)) throw std::runtime_error(path + ": is there already");
-  Store store(std::make_unique<Database>(path, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE));
-  store.head_ = head;
-  const Database& database = *store.database_;
-  // In one transaction: a store without its head is none.
+  // Under another name until it is whole: a store without its head is none.
+  const std::string unfinished = path + ".new";
+  std::filesystem::remove(unfinished);
+  create_in(Database(unfinished, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE), head);
+  std::filesystem::rename(unfinished, path);
+  return open(path);
+}
+
+void Store::create_in(const Database& database, const StoreHead& head) {
   database.execute("BEGIN; CREATE TABLE meta(key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID");
   Statement meta(database.handle, database.path, "INSERT INTO meta VALUES(?, ?)");
   std::string measures, table;
@@ -134,7 +144,6 @@ Store Store::create(const std::string& path, const StoreHead& head) {
   }
   database.execute("CREATE TABLE runs(point INTEGER, replication INTEGER, paradigm INTEGER, status TEXT NOT NULL" + table +
                    ", PRIMARY KEY(point, replication, paradigm)) WITHOUT ROWID; COMMIT");
-  return store;
 }
 
 Store Store::open(const std::string& path) {
@@ -180,7 +189,7 @@ void Store::add(const std::vector<Run>& runs) {
       insert.again();
     }
     database_->execute("COMMIT");
-  } catch (const std::runtime_error&) {
+  } catch (...) {
     sqlite3_exec(database_->handle, "ROLLBACK", nullptr, nullptr, nullptr);   // some errors have done so already
     throw;
   }

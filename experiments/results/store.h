@@ -31,8 +31,8 @@ inline constexpr const char* kDone = "done";
 
 struct StoreHead {
   std::string name;
-  std::string identity;           // of everything the runs follow from: two stores of one identity hold the same runs
-  std::string version;
+  // Of all files the runs follow from, and of the program: two stores of the same of both hold the same runs.
+  std::string identity, version;
   std::string text;               // the experiment's file
   std::vector<std::string> measures;
 };
@@ -59,6 +59,7 @@ class Store {
  private:
   struct Database;
   explicit Store(std::unique_ptr<Database> database);
+  static void create_in(const Database& database, const StoreHead& head);
   std::unique_ptr<Database> database_;
   StoreHead head_;
 };

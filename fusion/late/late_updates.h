@@ -23,7 +23,7 @@
 //
 // Memory, for max_objects + 3 max_observations objects, each (constant velocity, acceleration):
 //   augmented 21, 46 KB; clone 7, 15 KB; adjoint 10, 21 KB; al1, bl1 3, 6 KB; a, b 0.5, 1 KB; c 0.3, 0.4 KB.
-// Rewinding remembers the tracks after every list instead, 0.8 KB each.
+// Rewinding remembers the tracks after every list instead, 1.1 KB each.
 #pragma once
 
 #include <cstddef>

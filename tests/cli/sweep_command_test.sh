@@ -66,9 +66,20 @@ expect 2 'must be point/paradigm/replication' experiment "$file" --replay 1/buff
 
 # ---- what is refused, and what does not come out as expected
 sed 's/seed: 3/seed: 4/' "$file" >"$work/other.yaml"
-expect 2 'must be of this experiment: the file, its scenario or a cluster was another then' \
+expect 2 'must be of this experiment: the file, its scenario or a cluster or the program was another then' \
   experiment "$work/other.yaml" --out "$work/whole" --resume
 expect 2 'must be of this experiment' experiment "$work/other.yaml" --merge "$work/first" --out "$work/none"
+expect 2 'none/results.sqlite: cannot be opened' experiment "$file" --merge "$work/first" "$work/none" --out "$work/none"
+expect 2 '--shard = 3/2' experiment "$file" --shard 3/2 --out "$work/none"
+[[ -e $work/none ]] && fail "what is refused leaves a folder behind"
+expect 1 '80 of 160 runs are not among them: --resume drives them' experiment "$file" --merge "$work/first" --out "$work/half"
+expect 0 '' experiment "$file" --out "$work/half" --resume
+cmp "$work/whole/runs.csv" "$work/half/runs.csv" || fail "a shard and the rest are not the whole"
+cp -r "$work/first" "$work/foreign"
+python3 -c "import sqlite3, sys
+with sqlite3.connect(sys.argv[1]) as store: store.execute('update runs set paradigm = 5 where point = 1 and replication = 0 and paradigm = 1')" \
+  "$work/foreign/results.sqlite"
+expect 2 'runs = 1/5/0: must be a run of this experiment' experiment "$file" --out "$work/foreign" --resume
 sed 's/replications: 40/replications: 4/' "$file" >"$work/few.yaml"
 echo "expect: [{measure: age_fused, less: adva, than: tt}, {measure: age_fused, less: tt, than: adva}]" >>"$work/few.yaml"
 expect 1 'does not hold for certain at' experiment "$work/few.yaml" --out "$work/few"

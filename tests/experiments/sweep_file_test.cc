@@ -32,7 +32,7 @@ TEST(SweepFile, ListsRangesSettingsAndDraws) {
       "axes:\n"
       "  list: {keys: [world.acceleration_noise], values: [0.5, 2]}\n"
       "  range: {keys: [cluster.sensors.camera.period], from: 10, to: 1000, count: 3, scale: logarithmic, unit: ms}\n"
-      "  named: {settings: {dry: {world.yaw_rate_noise: 0}, wet: {world.yaw_rate_noise: 0.1, seed: 4}}}\n"
+      "  named: {settings: {dry: {world.yaw_rate_noise: 0}, wet: {world.yaw_rate_noise: 0.1, duration: 4 s}}}\n"
       "  load: {keys: [tracker.process_noise], uniform: [1, 3]}\n");
   ASSERT_EQ(sweep.grid().size(), 3u);
   ASSERT_EQ(sweep.drawn().size(), 1u);
@@ -49,18 +49,18 @@ TEST(SweepFile, ListsRangesSettingsAndDraws) {
 
 TEST(SweepFile, WhatIsWrongIsToldWithItsLine) {
   const auto axis = [](const std::string& text) { return refusal(kHead + "axes:\n  one: " + text + "\n"); };
-  EXPECT_THAT(axis("{keys: [seed], values: [1, 1]}"), HasSubstr("must not have a value twice: 1"));
-  EXPECT_THAT(axis("{keys: [seed], from: 0, to: 4, count: 1}"), HasSubstr("count"));
-  EXPECT_THAT(axis("{keys: [seed], from: 0, to: 4, count: 3, scale: logarithmic}"), HasSubstr("both ends above 0"));
-  EXPECT_THAT(axis("{keys: [seed], uniform: [4, 1]}"), HasSubstr("must be two numbers, the lower one first"));
-  EXPECT_THAT(axis("{keys: [seed], values: [1], to: 4}"), HasSubstr("small.yaml:9: axes.one.to"));
+  EXPECT_THAT(axis("{keys: [world.yaw_rate_noise], values: [1, 1]}"), HasSubstr("must not have a value twice: 1"));
+  EXPECT_THAT(axis("{keys: [world.yaw_rate_noise], from: 0, to: 4, count: 1}"), HasSubstr("count"));
+  EXPECT_THAT(axis("{keys: [world.yaw_rate_noise], from: 0, to: 4, count: 3, scale: logarithmic}"), HasSubstr("both ends above 0"));
+  EXPECT_THAT(axis("{keys: [world.yaw_rate_noise], uniform: [4, 1]}"), HasSubstr("must be two numbers, the lower one first"));
+  EXPECT_THAT(axis("{keys: [world.yaw_rate_noise], values: [1], to: 4}"), HasSubstr("small.yaml:9: axes.one.to"));
   EXPECT_THAT(axis("{keys: [world.speed], values: [1]}"), HasSubstr("world.speed: must be in the file"));
   EXPECT_THAT(axis("{keys: [world.acceleration_noise], values: [51]}"),
               AllOf(HasSubstr("dynamics.yaml:13: world.acceleration_noise = 51: must be a number 0..50 m/s^2"),
                     HasSubstr("(with a, one 51)")));
   EXPECT_THAT(axis("{keys: [cluster.sensors.laser.period], values: [80 m]}"), HasSubstr("paper_unsynchronised.yaml:"));
   EXPECT_THAT(refusal(kHead), HasSubstr("axes"));
-  const std::string axes = "axes: {one: {keys: [seed], values: [1, 2]}}\n";
+  const std::string axes = "axes: {one: {keys: [world.yaw_rate_noise], values: [1, 2]}}\n";
   EXPECT_EQ(refusal(kHead + axes), "taken");
   EXPECT_THAT(refusal(kHead + axes + "measures: [speed]\n"), HasSubstr("must be some of position_rmse_truth"));
   EXPECT_THAT(refusal(kHead + axes + "compare: {baseline: b}\n"), HasSubstr("must be one of the paradigms"));
@@ -69,12 +69,28 @@ TEST(SweepFile, WhatIsWrongIsToldWithItsLine) {
               HasSubstr("not one: 3"));
   EXPECT_THAT(refusal(kHead + axes + "colour: red\n"), HasSubstr("colour"));
   EXPECT_THAT(refusal("kind: other\n"), HasSubstr("must be sweep"));
+  EXPECT_THAT(axis("{keys: [world.acceleration_noise], uniform: [-6, 12]}"),
+              HasSubstr("world.acceleration_noise = -6: must be a number 0..50"));
+  EXPECT_THAT(axis("{keys: [seed], values: [1]}"), HasSubstr("seed must not be varied"));
+  for (const char* name : {"nees", "Status", "point"})
+    EXPECT_THAT(refusal(kHead + "axes:\n  " + name + ": {keys: [tracker.process_noise], uniform: [1, 2]}\n"),
+                HasSubstr("must not be called as a measure"));
+  EXPECT_THAT(refusal(kHead + "axes:\n  one: {keys: [world.yaw_rate_noise], values: [0, 1]}\n"
+                              "  two: {settings: {a: {world.yaw_rate_noise: 0}}}\n"),
+              HasSubstr("must not vary world.yaw_rate_noise twice: one and two do"));
+  std::string head = kHead;
+  head.replace(head.find("name: small"), 11, "name: ..");
+  EXPECT_THAT(refusal(head + axes), HasSubstr("not begin with a dot"));
+  head = kHead;
+  head.replace(head.find("replications: 2"), 15, "replications: 10000000");
+  EXPECT_THAT(refusal(head + "axes:\n  one: {keys: [tracker.process_noise], from: 1, to: 9, count: 9}\n"),
+              HasSubstr("must make 100000000 runs at most, and make 180000000"));
 }
 
 // The grid is bounded before anything is made of it.
 TEST(SweepFile, TooManyPointsAreRefused) {
   std::string axes = "axes:\n";
-  for (int a = 0; a < 9; ++a) axes += fmt::format("  a{}: {{keys: [seed], from: 0, to: 9, count: 10}}\n", a);
+  for (int a = 0; a < 9; ++a) axes += fmt::format("  a{}: {{keys: [key{}], from: 0, to: 9, count: 10}}\n", a, a);
   EXPECT_THAT(refusal(kHead + axes), HasSubstr("must make 10000 points at most"));
 }
 
