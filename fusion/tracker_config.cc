@@ -5,13 +5,18 @@
 namespace ttf::fusion {
 namespace {
 
+// There all is linear but a radar's measurement: what carries more than the estimate, errors of sensors or a past, is for
+// these alone.
+bool is_straight_and_extended(const TrackerConfig& c) {
+  return (c.motion == MotionModel::kConstantVelocity || c.motion == MotionModel::kConstantAcceleration) &&
+         c.filter == FilterKind::kExtended;
+}
+
 void load_systematic(YamlMap& yaml, TrackerConfig& c) {
   c.systematic = yaml.choice_or<SystematicErrorsAre>(
       "systematic", c.systematic,
       {{"ignore", SystematicErrorsAre::kIgnored}, {"consider", SystematicErrorsAre::kConsidered}});
-  const bool straight =
-      c.motion == MotionModel::kConstantVelocity || c.motion == MotionModel::kConstantAcceleration;
-  if (c.systematic == SystematicErrorsAre::kConsidered && !(straight && c.filter == FilterKind::kExtended))
+  if (c.systematic == SystematicErrorsAre::kConsidered && !is_straight_and_extended(c))
     yaml.fail("systematic", "must be ignore but where motion is constant_velocity or constant_acceleration and filter "
                             "is extended");
   if (!yaml.has("sensors")) return;
@@ -24,10 +29,6 @@ void load_systematic(YamlMap& yaml, TrackerConfig& c) {
   }
   check_biases(c.sensors, yaml, "sensors");
 }
-
-}  // namespace
-
-namespace {
 
 void load_association(YamlMap& yaml, TrackerConfig& c) {
   c.association = yaml.choice_or<Association>("association", c.association,
@@ -44,6 +45,22 @@ void load_association(YamlMap& yaml, TrackerConfig& c) {
   if (c.delete_existence >= c.confirm_existence) yaml.fail("delete_existence", "must be below confirm_existence");
   c.merge_probability = yaml.number_or("merge_probability", c.merge_probability, {0.0, 0.999999});
   c.merge_scans = static_cast<int>(yaml.integer_or("merge_scans", c.merge_scans, {1, 255}, "scans"));
+}
+
+// Last: what it may be depends on the others.
+void load_late(YamlMap& yaml, TrackerConfig& c) {
+  Choices<oosm::Kind> methods;
+  for (const oosm::NamedKind& named : oosm::kKinds) methods.emplace_back(named.name, named.kind);
+  c.late = yaml.choice_or<oosm::Kind>("late", c.late, methods);
+  if (c.late == oosm::Kind::kRewind) return;
+  if (!is_straight_and_extended(c))
+    yaml.fail("late", "must be rewind, but with motion constant_velocity or constant_acceleration and filter extended: "
+                      "of the others' estimates the methods know nothing");
+  if (c.systematic == SystematicErrorsAre::kConsidered)
+    yaml.fail("late", "must be rewind where systematic is consider: the other methods carry no errors of sensors");
+  if (c.association != Association::kNearest || c.birth != Birth::kMOfN || c.merge_probability != 0.0)
+    yaml.fail("late", "must be rewind, but with association nearest, birth m_of_n and merge_probability 0: the other "
+                      "methods do not go back to what was decided since");
 }
 
 }  // namespace
@@ -95,24 +112,11 @@ TrackerConfig load_tracker(YamlMap& yaml) {
   if ((c.history_scans + 1) * tracks > kMostRemembered)
     yaml.fail("history_scans", "is too much to remember: (history_scans + 1) x (max_objects + 3 max_observations) "
                                "must be at most 1000000");
-  Choices<oosm::Kind> methods;
-  for (const oosm::NamedKind& named : oosm::kKinds) methods.emplace_back(named.name, named.kind);
-  c.late = yaml.choice_or<oosm::Kind>("late", c.late, methods);
-  const bool straight = c.motion == MotionModel::kConstantVelocity || c.motion == MotionModel::kConstantAcceleration;
-  if (c.late != oosm::Kind::kRewind && !(straight && c.filter == FilterKind::kExtended))
-    yaml.fail("late", "must be rewind, but with motion constant_velocity or constant_acceleration and filter extended: "
-                      "of the others' estimates the methods know nothing");
   c.heading_noise = yaml.number_or("heading_noise", c.heading_noise, {0.0, 100.0}, "rad^2/s");
   c.extent_noise = yaml.number_or("extent_noise", c.extent_noise, {0.0, 100.0}, "m^2/s");
   load_systematic(yaml, c);
   load_association(yaml, c);
-  if (c.late != oosm::Kind::kRewind && c.systematic == SystematicErrorsAre::kConsidered)
-    yaml.fail("late", "must be rewind where systematic is consider: the other methods carry no errors of sensors");
-  const bool simple =
-      c.association == Association::kNearest && c.birth == Birth::kMOfN && c.merge_probability == 0.0;
-  if (c.late != oosm::Kind::kRewind && !simple)
-    yaml.fail("late", "must be rewind, but with association nearest, birth m_of_n and merge_probability 0: the other "
-                      "methods do not go back to what was decided since");
+  load_late(yaml, c);
   return c;
 }
 
