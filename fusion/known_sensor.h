@@ -60,5 +60,10 @@ void place(Observation& observation, SensorId id, const KnownSensor& sensor);
 inline const KnownSensor* known(std::span<const KnownSensor> sensors, SensorId id) {
   return index_of(id) < sensors.size() ? &sensors[index_of(id)] : nullptr;
 }
+// Where it stands [m], in the vehicle's axes.
+inline Vector<2> place_of(std::span<const KnownSensor> sensors, SensorId id) {
+  const KnownSensor* sensor = known(sensors, id);
+  return sensor != nullptr ? sensor->mounting.position : Vector<2>(0.0, 0.0);
+}
 
 }  // namespace ttf::fusion

@@ -226,8 +226,7 @@ void Tracker::correct_extent(Track& track, const Observation& z) const {
   if (z.has_width) correct_width(track.extent, z.width, z.sigma_width);
   if (!z.has_span) return;
   const Cartesian now = estimator_->cartesian(track.estimate);
-  const KnownSensor* sensor = known(config_.sensors, z.sensor);
-  const Eigen::Vector2d from = sensor != nullptr ? sensor->mounting.position : Eigen::Vector2d::Zero();
+  const Vector<2> from = place_of(config_.sensors, z.sensor);
   const double x = now.x(0) - from.x(), y = now.x(1) - from.y(), range = std::hypot(x, y);
   if (range <= 0.0) return;
   const Facing facing = facing_of(now, track.heading);

@@ -117,9 +117,8 @@ void LateUpdates::mend(Track& track, Object& object, const ObservationId& which,
   track.estimate = pasts_->newest(object.slot, set_.time);
 
   Observation now = z;
-  const KnownSensor* sensor = known(tracker_.config().sensors, z.sensor);
-  const Eigen::Vector2d from = sensor != nullptr ? sensor->mounting.position : Eigen::Vector2d::Zero();
-  const double age = (set_.time - which.measured).seconds(), range = (z.z.head<2>() - from).norm();
+  const double age = (set_.time - which.measured).seconds();
+  const double range = (z.z.head<2>() - place_of(tracker_.config().sensors, z.sensor)).norm();
   const double walked = tracker_.config().extent_noise * age;
   now.sigma_heading = widened(z.sigma_heading, tracker_.config().heading_noise * age);
   now.sigma_length = widened(z.sigma_length, walked);
