@@ -64,6 +64,7 @@ sleep_to() {
 launch() {
   local folder=$1
   shift
+  ! $virtual_time || sleep_to 0
   "$ttfusion" launch "$drive" "${on_vcans[@]}" --no-pictures --json --out "$folder" "$@" >"$folder.json" 2>"$folder.txt"
 }
 
