@@ -11,9 +11,10 @@
 
 namespace ttf::fusion {
 
+// In the sensor's axes until it is placed (fusion/known_sensor.h); then a position is in the sensor car's frame (ISO 8855).
 enum class ObservationKind : std::uint8_t {
-  kPosition,           // z = (x, y) [m] in the sensor car's frame (ISO 8855)
-  kRangeBearingRate,   // z = (range [m], bearing [rad], range rate [m/s]), sensor at the origin
+  kPosition,           // z = (x, y) [m]
+  kRangeBearingRate,   // z = (range [m], bearing [rad], range rate [m/s])
 };
 
 constexpr int dimension_of(ObservationKind kind) { return kind == ObservationKind::kPosition ? 2 : 3; }
