@@ -79,6 +79,7 @@ class DriveMeasures final : public records::Sink {
   // Completes what waits for its truth. Call once, at the end.
   DriveSummary finish();
 
+  bool wants_frames() const override { return false; }
   using records::Sink::on;
   void on(const records::FusionInput&) override;
   void on(const records::ListFused&) override;

@@ -50,6 +50,7 @@ Executive::Executive(const ExecutiveConfig& config, std::vector<std::shared_ptr<
       node_(cluster_.node(config.node)),
       lines_(lines),
       sink_(sink),
+      wants_frames_(sink.wants_frames()),
       strobes_(cluster_.sensors.size()) {
   TTF_CHECK(steps.size() == node_.tasks.size(), "{} steps for {} tasks", steps.size(), node_.tasks.size());
   if (node_.flexray) {

@@ -121,6 +121,7 @@ class Executive final : private bus::ControllerEvents {
 
   void list_arrived(PduId pdu, bus::ArrivalEffect effect, std::uint32_t sequence, std::optional<std::uint32_t> torn,
                     Microticks at) override;
+  bool wants_bytes() const override { return wants_frames_; }
   void frame_sent(const bus::Transmission& transmission, std::int64_t cycle, bool null_frame, PduId pdu,
                   std::uint32_t sequence, int fragment, bool last) override;
   void slot_problem(std::int64_t cycle, int slot, schedules::Channel channel, bus::SlotStatus status,
@@ -153,6 +154,7 @@ class Executive final : private bus::ControllerEvents {
   const schedules::Node& node_;
   SensorLines& lines_;
   records::Sink& sink_;
+  const bool wants_frames_;
   std::unique_ptr<bus::FlexRayController> flexray_;
   std::vector<std::unique_ptr<bus::CanController>> cans_;
   std::vector<TaskState> tasks_;

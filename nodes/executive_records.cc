@@ -6,21 +6,25 @@ namespace ttf::nodes {
 
 void Executive::frame_sent(const bus::Transmission& transmission, std::int64_t cycle, bool null_frame, PduId pdu,
                            std::uint32_t sequence, int fragment, bool last) {
-  records::SlotFrameSent sent;
-  sent.stamp = stamp(transmission.start);
+  if (!wants_frames_ && !last) return;
   // A frame ends in the cycle it began in, so the clock can say now when that will be.
-  sent.end = stamp(transmission.end);
-  sent.cycle = cycle;
-  sent.slot = static_cast<std::uint16_t>(transmission.slot);
-  sent.channel = static_cast<std::uint8_t>(transmission.channel);
-  sent.null_frame = null_frame;
-  sent.pdu = pdu;
-  if (pdu != kNoPdu) sent.sensor = cluster_.pdu(pdu).sensor;
-  sent.sequence = sequence;
-  sent.fragment = static_cast<std::uint8_t>(fragment);
-  sent.bytes = transmission.bytes;
-  sink_.on(sent);
-  if (last) hop(sent.end, records::Hop::kSent, pdu, sequence, -1);
+  const records::Stamp end = stamp(transmission.end);
+  if (wants_frames_) {
+    records::SlotFrameSent sent;
+    sent.stamp = stamp(transmission.start);
+    sent.end = end;
+    sent.cycle = cycle;
+    sent.slot = static_cast<std::uint16_t>(transmission.slot);
+    sent.channel = static_cast<std::uint8_t>(transmission.channel);
+    sent.null_frame = null_frame;
+    sent.pdu = pdu;
+    if (pdu != kNoPdu) sent.sensor = cluster_.pdu(pdu).sensor;
+    sent.sequence = sequence;
+    sent.fragment = static_cast<std::uint8_t>(fragment);
+    sent.bytes = transmission.bytes;
+    sink_.on(sent);
+  }
+  if (last) hop(end, records::Hop::kSent, pdu, sequence, -1);
 }
 
 // The message a frame is of; none for a foreign frame, which receivers ignore, too.

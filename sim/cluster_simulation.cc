@@ -112,12 +112,14 @@ ClusterSimulation::ClusterSimulation(const SimulationConfig& config, records::Si
       config_(config),
       others_(config.others),
       sink_(sink),
-      channel_log_(cluster_.flexray, FlexRayMedium::kMostLogged, sink),
       can_ports_(cluster_.nodes.size(), std::vector<bus::CanPort*>(cluster_.can_buses.size())),
       can_log_(std::make_unique<CanLog>(*this, cluster_.can_buses.size())),
       nodes_(cluster_.nodes.size()),
       watched_cycle_(cluster_.nodes.size(), kNoCycle) {
-  medium_.set_log(&channel_log_);
+  if (sink.wants_frames())
+    medium_.set_log(&channel_log_.emplace(cluster_.flexray, FlexRayMedium::kMostLogged, sink));
+  else
+    medium_.set_transparent(true);
   for (std::size_t b = 0; b < cluster_.can_buses.size(); ++b) {
     std::vector<NodeId> members;
     for (std::size_t n = 0; n < cluster_.nodes.size(); ++n)

@@ -102,7 +102,7 @@ class ClusterSimulation final : public Crank, private nodes::SensorLines {
   const SimulationConfig config_;
   TurnTaking* const others_;
   records::Sink& sink_;
-  ChannelLog channel_log_;
+  std::optional<ChannelLog> channel_log_;                      // where somebody wants frames
   std::vector<std::unique_ptr<CanMedium>> cans_;
   std::vector<std::unique_ptr<FlexRayTap>> flexray_taps_;      // by NodeId, null off FlexRay
   std::vector<std::unique_ptr<CanTap>> can_taps_;

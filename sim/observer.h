@@ -26,6 +26,7 @@ class Observer final : public records::Sink {
   // `start`: of the world, which the reference is in. `integrated`: cycle 0 starts at kFirstCycle.
   void follow(const world::Reference& reference, const world::World& world, TrueTime start, bool integrated);
 
+  bool wants_frames() const override { return false; }
   using records::Sink::on;
   void on(const records::Measured& measured) override { truth(measured.stamp); }
   void on(const records::FeatureUsed& used) override { truth(used.stamp); }

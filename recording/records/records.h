@@ -367,6 +367,9 @@ struct MediumCounts {
 class Sink {
  public:
   virtual ~Sink() = default;
+  // Whether SlotFrameSent and ChannelFrame are looked at, nearly all that a drive records. Where nobody does, a drive tells of
+  // none, and its FlexRay carries what frames say instead of their bits; every other record is the same.
+  virtual bool wants_frames() const { return true; }
   virtual void on(const Measured&) {}
   virtual void on(const CanFrameSent&) {}
   virtual void on(const SlotFrameSent&) {}

@@ -1,6 +1,7 @@
 // Passes every record on to several sinks, in their order.
 #pragma once
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -11,6 +12,9 @@ namespace ttf::records {
 class Tee final : public Every<Tee> {
  public:
   explicit Tee(std::vector<Sink*> sinks) : sinks_(std::move(sinks)) {}
+  bool wants_frames() const override {
+    return std::any_of(sinks_.begin(), sinks_.end(), [](const Sink* sink) { return sink->wants_frames(); });
+  }
   template <class Record>
   void each(const Record& record) {
     for (Sink* sink : sinks_) sink->on(record);

@@ -1,0 +1,66 @@
+// Whether anybody looks at the frames makes no difference to anything else.
+#include <gtest/gtest.h>
+
+#include <type_traits>
+
+#include "recording/records/tee.h"
+#include "sim/drive.h"
+#include "tests/recording/record_text.h"
+#include "tests/sim/drive_fixture.h"
+
+namespace ttf::sim {
+namespace {
+
+// Every record but those of FlexRay's frames, which are counted.
+class Others final : public records::Every<Others> {
+ public:
+  explicit Others(bool wants_frames) : wants_frames_(wants_frames) {}
+  bool wants_frames() const override { return wants_frames_; }
+  template <class Record>
+  void each(const Record& record) {
+    if constexpr (std::is_same_v<Record, records::SlotFrameSent> || std::is_same_v<Record, records::ChannelFrame>)
+      ++frames;
+    else
+      text.on(record);
+  }
+
+  recording::TextSink text;
+  int frames = 0;
+
+ private:
+  bool wants_frames_;
+};
+
+void compare(const char* scenario, fusion::StrategyKind strategy) {
+  const testing_support::Drive drive(scenario, strategy);
+  const DriveConfig config{&drive.scenario, &drive.cluster, strategy, 3, 1, nullptr};
+  Others all(true), others(false);
+  const DriveOutcome with = run_drive(config, all), without = run_drive(config, others);
+  EXPECT_GT(all.frames, 1000);
+  EXPECT_EQ(others.frames, 0);
+  ASSERT_EQ(all.text.lines.size(), others.text.lines.size());
+  for (std::size_t line = 0; line < all.text.lines.size(); ++line)
+    ASSERT_EQ(all.text.lines[line], others.text.lines[line]);
+  EXPECT_EQ(with.frames_sent, without.frames_sent);
+  EXPECT_EQ(with.flexray_load, without.flexray_load);
+  EXPECT_EQ(with.counts.slot_problems, without.counts.slot_problems);
+}
+
+TEST(UnwantedFrames, LeaveAllOtherRecordsAsTheyAre) {
+  for (const fusion::StrategyKind strategy : testing_support::kStrategies)
+    compare("scenarios/paper_scenario1.yaml", strategy);
+}
+
+TEST(UnwantedFrames, AreStillSubjectToFaults) {
+  for (const fusion::StrategyKind strategy : testing_support::kStrategies)
+    compare("scenarios/faulty_bus.yaml", strategy);
+}
+
+TEST(UnwantedFrames, AreThoseThatNoListenerWants) {
+  Others some(true), none(false);
+  EXPECT_TRUE(records::Tee({&none, &some}).wants_frames());
+  EXPECT_FALSE(records::Tee({&none}).wants_frames());
+}
+
+}  // namespace
+}  // namespace ttf::sim
