@@ -43,7 +43,7 @@ void ErrorRecursion::fuse(const Look& look) {
   const auto behind = std::upper_bound(steps_.begin(), steps_.end(), look.measured, [](GlobalTime at, const Step& step) {
     return at < step.look.measured;
   });
-  auto step = steps_.insert(behind, {look, {}, {}});
+  auto step = steps_.insert(behind, Step{look});
   for (; step != steps_.end(); ++step) {
     const Eigen::Matrix2d& noise = step->look.noise;
     if (step == steps_.begin()) {

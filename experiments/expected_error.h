@@ -53,9 +53,10 @@ class ErrorRecursion {
  private:
   struct Step {
     Look look;
-    Eigen::Matrix4d assumed, actual;   // with it
+    // With it.
+    Eigen::Matrix4d assumed = Eigen::Matrix4d::Zero(), actual = Eigen::Matrix4d::Zero();
   };
-  const PointMotion motion_;
+  PointMotion motion_;
   std::vector<Step> steps_;            // in the order of measurement
 };
 

@@ -2,14 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <new>
+#include <optional>
 #include <string>
 
 #include "core/file_bytes.h"
 #include "core/hash.h"
 #include "core/random.h"
 #include "core/yaml_edit.h"
+#include "experiments/expected_drive.h"
 #include "experiments/measures.h"
 #include "experiments/sweep_measures.h"
 #include "nodes/catalog.h"
@@ -140,11 +143,18 @@ results::Run SweepDrives::run(const results::RunKey& key, const PreparedDrive& d
   try {
     DriveMeasures measures(sim::evaluation_start(drive.scenario));
     std::vector<records::Sink*> sinks{&measures};
+    std::optional<ExpectedError> expected;
+    if (const bool asked = std::count(sweep_.measures.begin(), sweep_.measures.end(), "position_mse_expected") > 0;
+        asked && ExpectedError::is_defined(drive.scenario))
+      sinks.push_back(&expected.emplace(drive.scenario));
     if (listener != nullptr) sinks.push_back(listener);
     records::Tee tee(sinks);
     const sim::DriveConfig config{&drive.scenario, &drive.cluster, drive.strategy, sweep_.seed, key.replication, nullptr};
     const sim::DriveOutcome outcome = sim::run_drive(config, tee);
-    const DriveSummary summary = measures.finish();
+    DriveSummary summary = measures.finish();
+    summary.position_mse_reference_corrected = summary.position_rmse_reference * summary.position_rmse_reference -
+                                               expected_square(drive.scenario.reference, summary.reference_weights);
+    if (expected) summary.position_mse_expected = expected->position_mse();
     for (const std::string& name : sweep_.measures) run.values.push_back(find_measure(name)->of(summary, outcome));
   } catch (const std::bad_alloc&) {
     throw;
