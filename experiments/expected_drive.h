@@ -1,10 +1,10 @@
-// The expected error of one drive, from the instants that it had: when lists were measured, with which covariance, when they were
-// fused, and when images were used. No estimate is looked at.
+// The expected error of one drive, from the instants that it had: when lists were measured, with which covariance, when
+// they were fused, and when images were used. No estimate is looked at.
 //
-// The recursion of experiments/expected_error.h over these, with the scenario's process noise as assumed and the world's as actual.
-// What is not in it: systematic errors of sensors and manoeuvres, which are no noise; associations, for of every list the observation
-// next to the object is taken, within 4 m, and a list that has none says nothing; that a sensor's own noise may be another than the
-// covariance it gives; what the bus rounds.
+// The recursion of experiments/expected_error.h over these, with the scenario's process noise as assumed and the
+// world's as actual. What is not in it: systematic errors of sensors and manoeuvres, which are no noise; associations,
+// for of every list the observation next to the object is taken, within 4 m, and a list that has none says nothing;
+// that a sensor's own noise may be another than the covariance it gives; what the bus rounds.
 #pragma once
 
 #include <cstdint>
@@ -23,8 +23,8 @@ class ExpectedError final : public records::Sink {
   static bool is_defined(const nodes::Scenario& scenario);
   explicit ExpectedError(const nodes::Scenario& scenario);
 
-  // Expected square of the position's error [m^2] over the first uses of images from the scenario's evaluate_from on; not a number
-  // where there are none.
+  // Expected square of the position's error [m^2] over the first uses of images from the scenario's evaluate_from on;
+  // not a number where there are none.
   double position_mse() const;
 
   using records::Sink::on;

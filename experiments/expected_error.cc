@@ -22,7 +22,8 @@ Eigen::Matrix4d moved_on(const Eigen::Matrix4d& p, const Eigen::Matrix2d& densit
          blocks(density * (dt * dt * dt / 3.0), density * (dt * dt / 2.0), density * dt);
 }
 
-Eigen::Matrix4d corrected(const Eigen::Matrix4d& p, const Eigen::Matrix<double, 4, 2>& gain, const Eigen::Matrix2d& noise) {
+Eigen::Matrix4d corrected(const Eigen::Matrix4d& p, const Eigen::Matrix<double, 4, 2>& gain,
+                          const Eigen::Matrix2d& noise) {
   Eigen::Matrix4d rest = Eigen::Matrix4d::Identity();
   rest.leftCols<2>() -= gain;
   return rest * p * rest.transpose() + gain * noise * gain.transpose();
@@ -40,9 +41,8 @@ PointMotion PointMotion::known(double density, double velocity_sigma) {
 }
 
 void ErrorRecursion::fuse(const Look& look) {
-  const auto behind = std::upper_bound(steps_.begin(), steps_.end(), look.measured, [](GlobalTime at, const Step& step) {
-    return at < step.look.measured;
-  });
+  const auto behind = std::upper_bound(steps_.begin(), steps_.end(), look.measured,
+                                       [](GlobalTime at, const Step& step) { return at < step.look.measured; });
   auto step = steps_.insert(behind, Step{look});
   for (; step != steps_.end(); ++step) {
     const Eigen::Matrix2d& noise = step->look.noise;

@@ -71,7 +71,7 @@ struct DriveSummary {
   std::uint64_t duplicates = 0;
   std::uint64_t warnings = 0;              // uses in which an object warned
   // What only who knows the scenario can say: filled in by others.
-  double position_mse_reference_corrected = kNotMeasured;   // against the DGPS, less its own error (experiments/reference_judge.h)
+  double position_mse_reference_corrected = kNotMeasured;   // less the DGPS' own error (experiments/reference_judge.h)
   double position_mse_expected = kNotMeasured;              // without sampling (experiments/expected_drive.h)
 };
 

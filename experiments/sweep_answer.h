@@ -21,8 +21,8 @@ struct PointAnswer {
   std::vector<std::vector<results::Interval>> means, differences;
 };
 
-// Between two neighbours on a numeric axis of the grid, all else equal, the first measure's difference changes its sign; or between two
-// points with others between them at which there is no difference at all.
+// Between two neighbours on a numeric axis of the grid, all else equal, the first measure's difference changes its sign;
+// or between two points with others between them at which there is no difference at all.
 struct Crossing {
   std::size_t paradigm = 0;          // it and the baseline
   std::string axis;

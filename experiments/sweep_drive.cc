@@ -98,7 +98,8 @@ void SweepDrives::prepare_at(const results::RunKey& key) const {
   } catch (const InputError& error) {
     Findings findings;
     for (Finding finding : error.findings()) {
-      finding.expected += fmt::format(" (with {}, {})", sweep_.paradigms[key.paradigm].name, sweep_.label_of(key.point));
+      finding.expected +=
+          fmt::format(" (with {}, {})", sweep_.paradigms[key.paradigm].name, sweep_.label_of(key.point));
       findings.add(std::move(finding));
     }
     findings.throw_if_any();
@@ -121,7 +122,8 @@ std::vector<Edit> SweepDrives::edits_of(const results::RunKey& key, const std::v
   const Paradigm& paradigm = sweep_.paradigms[key.paradigm];
   std::vector<Edit> edits = paradigm.edits;
   const auto add = [&](const Edit& edit, const std::string& value) {
-    if (edit.paradigm.empty() || edit.paradigm == paradigm.name) edits.push_back({edit.key, value, edit.paradigm, edit.line});
+    if (edit.paradigm.empty() || edit.paradigm == paradigm.name)
+      edits.push_back({edit.key, value, edit.paradigm, edit.line});
   };
   for (const Setting* setting : sweep_.settings_of(key.point))
     for (const Edit& edit : setting->edits) add(edit, edit.value);

@@ -108,7 +108,8 @@ class Reader {
           "strategy", {{"buff", StrategyKind::kBuff}, {"adva", StrategyKind::kAdva}, {"tt", StrategyKind::kTt}});
       if (map.has("cluster")) paradigm.cluster_file = path_of(map.text("cluster"));
       if (map.has("set"))
-        for (const auto& [key, value] : map.named_texts("set")) paradigm.edits.push_back({key, file_value(key, value), name, map.line("set")});
+        for (const auto& [key, value] : map.named_texts("set"))
+          paradigm.edits.push_back({key, file_value(key, value), name, map.line("set")});
       map.finish();
       file_.paradigms.push_back(std::move(paradigm));
     }

@@ -22,10 +22,10 @@
 //     - {measure: position_rmse_truth, less: time_triggered, than: event_triggered, where: {noise: 2}}
 //
 // A key leads to a scalar of the scenario that is written there, "world.objects[0].speed"; of the paradigm's cluster where it
-// begins with "cluster."; each is set in one place only. The values of an axis with several keys go to all of them. `scenario`,
-// `cluster` and `faults` are keys, too, whose values are files: another scenario, another cluster, and a plan of what goes wrong,
-// {faults: [...]}, for a scenario that has none of its own. Behind a paradigm's name and a slash a key is that paradigm's only,
-// "time_triggered/cluster.sensors.laser.repetition".
+// begins with "cluster."; each is set in one place only. The values of an axis with several keys go to all of them.
+// `scenario`, `cluster` and `faults` are keys, too, whose values are files: another scenario, another cluster, and a plan
+// of what goes wrong, {faults: [...]}, for a scenario that has none of its own. Behind a paradigm's name and a slash a key
+// is that paradigm's only, "time_triggered/cluster.sensors.laser.repetition".
 #pragma once
 
 #include <cstdint>

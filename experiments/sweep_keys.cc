@@ -49,7 +49,8 @@ class KeyCheck {
         if (std::any_of(setting.edits.begin(), edit, [&](const Edit& other) {
               return other.key == edit->key && meet(other.paradigm, edit->paradigm);
             }))
-          return fail(*edit, "axes", fmt::format("must not set {} twice in {} of {}", edit->key, setting.label, axis.name));
+          return fail(*edit, "axes",
+                      fmt::format("must not set {} twice in {} of {}", edit->key, setting.label, axis.name));
       }
   }
 

@@ -65,10 +65,10 @@ inline constexpr std::array<Measure, 19> kMeasures{{
   {"flexray_load", "", "share of the time in which the busier FlexRay channel is taken",
    [](const DriveSummary&, const sim::DriveOutcome& o) { return o.flexray_load; }},
   {"position_mse_reference_corrected", "m^2",
-   "mean square of the position error against the DGPS, less what the DGPS' own error is known to add: of the truth's expectation",
+   "mean square of the position error against the DGPS, less what the DGPS' own error is known to add",
    [](const DriveSummary& s, const sim::DriveOutcome&) { return s.position_mse_reference_corrected; }},
   {"position_mse_expected", "m^2",
-   "what position_mse_truth is to be expected to be, without sampling, of one object that goes straight and sensors without bias",
+   "what position_mse_truth must be expected to be, by covariances alone: one object, going straight, no bias",
    [](const DriveSummary& s, const sim::DriveOutcome&) { return s.position_mse_expected; }},
 }};
 // clang-format on

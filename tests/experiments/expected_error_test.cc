@@ -1,5 +1,5 @@
-// The covariance recursion of a schedule: against closed forms, and against what the strategies and their tracker make of drawn
-// measurements.
+// The covariance recursion of a schedule: against closed forms, and against what the strategies and their tracker make
+// of drawn measurements.
 #include "experiments/expected_error.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,8 @@ using fusion::StrategyKind;
 GlobalTime at_ms(double ms) { return GlobalTime{static_cast<std::int64_t>(std::llround(ms * 1e6))}; }
 Look look_at(double ms, double variance) { return {at_ms(ms), variance * Eigen::Matrix2d::Identity()}; }
 
-// Least squares through n points of a line, of whose slope nothing is known: at the last one 2 (2n - 1) / (n (n + 1)) of R.
+// Least squares through n points of a line, of whose slope nothing is known: at the last one 2 (2n - 1) / (n (n + 1))
+// of R.
 TEST(ExpectedError, WithoutNoiseOfMotionItIsThatOfALineThroughAllPoints) {
   ErrorRecursion recursion(PointMotion::known(0.0, 1e4));
   for (int n = 1; n <= 20; ++n) {
@@ -221,8 +222,8 @@ TEST_P(AgainstStrategies, ListsAreFusedWhenSaid) {
   EXPECT_EQ(GetParam() == StrategyKind::kAdva, later == 0u);
 }
 
-// 4,000 drives of 2 s: the mean square of the error, over the uses from 0.6 s on, has the expected one in its interval; a drive counts
-// once, for its errors hang together.
+// 4,000 drives of 2 s: the mean square of the error, over the uses from 0.6 s on, has the expected one in its interval;
+// a drive counts once, for its errors hang together.
 TEST_P(AgainstStrategies, TheErrorIsTheExpectedOne) {
   const Drawn drawn = drawn_lists(2000.0);
   const std::vector<Use> uses = uses_every_40_ms(600.0, 2000.0);
@@ -232,7 +233,8 @@ TEST_P(AgainstStrategies, TheErrorIsTheExpectedOne) {
   const auto fused = fused_at(GetParam(), drawn.lists, drawn.longest);
   const auto errors = expected_errors(PointMotion::known(Sampled::kDensity, 8.0), looks, fused, uses);
   double expected = 0.0;
-  for (const Eigen::Matrix4d& error : errors) expected += error.topLeftCorner<2, 2>().trace() / static_cast<double>(uses.size());
+  for (const Eigen::Matrix4d& error : errors)
+    expected += error.topLeftCorner<2, 2>().trace() / static_cast<double>(uses.size());
 
   results::Moments moments;
   for (std::uint32_t replication = 0; replication < 4000; ++replication) {
@@ -260,8 +262,8 @@ INSTANTIATE_TEST_SUITE_P(Strategies, AgainstStrategies,
                          testing::Values(StrategyKind::kBuff, StrategyKind::kAdva, StrategyKind::kTt),
                          [](const auto& one) { return std::string(nodes::name_of(one.param)); });
 
-// Two equal sensors of one period, the other one `phase` (0 to 1) of it behind: the variance of the predicted position, averaged
-// over time, when both have settled. A list is known when it has been under way for `delay_ms`.
+// Two equal sensors of one period, the other one `phase` (0 to 1) of it behind: the variance of the predicted position,
+// averaged over time, when both have settled. A list is known when it has been under way for `delay_ms`.
 double average_variance(double density, double variance, double period_ms, double phase, double delay_ms) {
   constexpr int kPeriods = 400, kSteps = 20;
   std::vector<Look> looks;
@@ -271,8 +273,8 @@ double average_variance(double density, double variance, double period_ms, doubl
       looks.push_back(look_at(begin, variance));
       fused.push_back(at_ms(begin + delay_ms));
     }
-  // From the last but one list of the first sensor on; the error grows as a polynomial of the third order between two lists, of which
-  // Simpson's rule knows the mean.
+  // From the last but one list of the first sensor on; the error grows as a polynomial of the third order between two
+  // lists, of which Simpson's rule knows the mean.
   double sum = 0.0;
   const double begin = period_ms * (kPeriods - 1) + delay_ms;
   for (const auto& [from, to] : {std::pair{0.0, phase}, std::pair{phase, 1.0}}) {
@@ -284,23 +286,26 @@ double average_variance(double density, double variance, double period_ms, doubl
       uses.push_back({k < kSteps ? std::max(at, at_ms(begin + period_ms * from)) : at - Duration{1000}, at});
     }
     const auto errors = expected_errors(PointMotion::known(density, 8.0), looks, fused, uses);
-    for (int k = 0; k <= kSteps; ++k)
-      sum += (to - from) * errors[static_cast<std::size_t>(k)](0, 0) * (k == 0 || k == kSteps ? 1.0 : k % 2 == 1 ? 4.0 : 2.0) /
-             (3.0 * kSteps);
+    for (int k = 0; k <= kSteps; ++k) {
+      const double weight = k == 0 || k == kSteps ? 1.0 : k % 2 == 1 ? 4.0 : 2.0;
+      sum += (to - from) * errors[static_cast<std::size_t>(k)](0, 0) * weight / (3.0 * kSteps);
+    }
   }
   return sum;
 }
 
-// Niu, Varshney, Mehrotra, Mohan: "Temporally staggered sensors in multi-sensor target tracking systems", IEEE Transactions on
-// Aerospace and Electronic Systems 41, 2005: sensors of equal noise that are evenly staggered leave less error on the average over
-// time than synchronous ones; and with two, the closer to even the less.
+// Niu, Varshney, Mehrotra, Mohan: "Temporally staggered sensors in multi-sensor target tracking systems", IEEE
+// Transactions on Aerospace and Electronic Systems 41, 2005: sensors of equal noise that are evenly staggered leave
+// less error on the average over time than synchronous ones; and with two, the closer to even the less.
 TEST(SchedulePhases, EvenlyStaggeredSensorsLeaveLessErrorThanSynchronousOnes) {
   double least = 1.0, most = 0.0;
   for (const double density : {0.01, 0.1, 1.0, 10.0, 100.0})
     for (const double sigma : {0.02, 0.1, 0.5, 2.0})
       for (const double period_ms : {20.0, 80.0, 320.0})
         for (const double delay_ms : {0.0, 40.0}) {
-          const auto of = [&](double phase) { return average_variance(density, sigma * sigma, period_ms, phase, delay_ms); };
+          const auto of = [&](double phase) {
+            return average_variance(density, sigma * sigma, period_ms, phase, delay_ms);
+          };
           const double synchronous = of(0.0), quarter = of(0.25), even = of(0.5);
           EXPECT_LT(even, synchronous) << density << " " << sigma << " " << period_ms << " " << delay_ms;
           EXPECT_LT(even, quarter) << density << " " << sigma << " " << period_ms << " " << delay_ms;
@@ -312,7 +317,8 @@ TEST(SchedulePhases, EvenlyStaggeredSensorsLeaveLessErrorThanSynchronousOnes) {
   RecordProperty("even_by_synchronous", std::to_string(least) + " to " + std::to_string(most));
 }
 
-// It is a matter of the average: who is asked at one instant of the period only is best off with both lists right before it.
+// It is a matter of the average: who is asked at one instant of the period only is best off with both lists right
+// before it.
 TEST(SchedulePhases, AskedAtOneInstantOnlySynchronousSensorsAreBetter) {
   const auto used_late = [](double phase) {
     std::vector<Look> looks;

@@ -1,5 +1,5 @@
-// The experiments that are shipped can be driven: the ends of each grid, with every paradigm. And what covariances say of a whole
-// cluster is what is sampled of it, where it is linear.
+// The experiments that are shipped can be driven: the ends of each grid, with every paradigm. And what covariances say
+// of a whole cluster is what is sampled of it, where it is linear.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -47,7 +47,8 @@ TEST(ShippedSweeps, TheErrorOfAWholeClusterIsTheExpectedOne) {
   SweepFile sweep = load_sweep(kFolder + "schedule_phases.yaml");
   const SweepDrives drives(sweep);
   const auto column = [&](const char* name) {
-    return static_cast<std::size_t>(std::find(sweep.measures.begin(), sweep.measures.end(), name) - sweep.measures.begin());
+    const auto found = std::find(sweep.measures.begin(), sweep.measures.end(), name);
+    return static_cast<std::size_t>(found - sweep.measures.begin());
   };
   const std::size_t sampled = column("position_mse_truth"), expected = column("position_mse_expected");
   for (const std::uint32_t point : {1u, 2u}) {

@@ -90,8 +90,10 @@ TEST(SweepFile, WhatIsWrongIsToldWithItsLine) {
 TEST(SweepFile, AKeyMayBeOneParadigmsOnly) {
   const SweepFile sweep = file(
       "axes:\n"
-      "  period: {settings: {\"42\": {a/cluster.sensors.camera.period: 42 ms, t/cluster.sensors.camera.repetition: 8},\n"
-      "                      \"84\": {a/cluster.sensors.camera.period: 84 ms, t/cluster.sensors.camera.repetition: 16}}}\n"
+      "  period:\n"
+      "    settings:\n"
+      "      \"42\": {a/cluster.sensors.camera.period: 42 ms, t/cluster.sensors.camera.repetition: 8}\n"
+      "      \"84\": {a/cluster.sensors.camera.period: 84 ms, t/cluster.sensors.camera.repetition: 16}\n"
       "  noise: {keys: [a/tracker.process_noise], values: [7, 8]}\n"
       "  other: {keys: [t/tracker.process_noise], values: [9], unit: \"\"}\n");
   const SweepDrives drives(sweep);
@@ -111,7 +113,7 @@ TEST(SweepFile, AKeyMayBeOneParadigmsOnly) {
   EXPECT_EQ(axes("  one: {keys: [a/duration], values: [3 s]}\n  two: {keys: [t/duration], values: [4 s]}\n"), "taken");
   EXPECT_THAT(axes("  one: {keys: [t/cluster.sensors.camera.period], values: [42 ms]}\n"),
               AllOf(HasSubstr("small.yaml:9: cluster.sensors.camera.period: must be in the file"),
-                    HasSubstr("paper_synchronised.yaml: only what is written there can be varied (with t, one 42 ms)")));
+                    HasSubstr("synchronised.yaml: only what is written there can be varied (with t, one 42 ms)")));
 }
 
 TEST(SweepFile, FilesAreValues) {
@@ -121,7 +123,8 @@ TEST(SweepFile, FilesAreValues) {
       "  way: {settings: {flexray: {}, can: {a/cluster: ../schedules/paper_event_triggered.yaml}}}\n"
       "  fault: {settings: {none: {}, lists: {faults: faults/lists_5.yaml}}}\n");
   const SweepDrives drives(sweep);
-  const PreparedDrive plain = drives.prepare({0, 0, 0}), all = drives.prepare({7, 0, 0}), other = drives.prepare({7, 0, 1});
+  const PreparedDrive plain = drives.prepare({0, 0, 0}), all = drives.prepare({7, 0, 0});
+  const PreparedDrive other = drives.prepare({7, 0, 1});
   EXPECT_EQ(plain.scenario.name, "paper_scenario1");
   EXPECT_EQ(plain.cluster.name, "paper_unsynchronised");
   EXPECT_TRUE(plain.scenario.faults.empty());
