@@ -44,6 +44,11 @@ TEST(SweepFile, ListsRangesSettingsAndDraws) {
   EXPECT_EQ(sweep.settings_of(2)[1]->number, 100.0);
   EXPECT_TRUE(sweep.grid()[1]->logarithmic);
   EXPECT_EQ(sweep.settings_of(1)[2]->edits.size(), 2u);
+  const SweepFile with_unit =
+      file("axes: {period: {keys: [a/cluster.sensors.camera.period], values: [42, 84], unit: ms}}\n");
+  EXPECT_EQ(with_unit.label_of(1), "period 84 ms");
+  EXPECT_EQ(with_unit.settings_of(1)[0]->number, 84.0);
+  EXPECT_EQ(SweepDrives(with_unit).prepare({1, 0, 0}).cluster.sensors[1].period, Duration::milliseconds(84));
   EXPECT_GT(sweep.measures.size(), 10u) << "all of them where none is named";
 }
 
@@ -95,7 +100,7 @@ TEST(SweepFile, AKeyMayBeOneParadigmsOnly) {
       "      \"42\": {a/cluster.sensors.camera.period: 42 ms, t/cluster.sensors.camera.repetition: 8}\n"
       "      \"84\": {a/cluster.sensors.camera.period: 84 ms, t/cluster.sensors.camera.repetition: 16}\n"
       "  noise: {keys: [a/tracker.process_noise], values: [7, 8]}\n"
-      "  other: {keys: [t/tracker.process_noise], values: [9], unit: \"\"}\n");
+      "  other: {keys: [t/tracker.process_noise], values: [9]}\n");
   const SweepDrives drives(sweep);
   const PreparedDrive free = drives.prepare({3, 0, 0}), scheduled = drives.prepare({3, 0, 1});
   EXPECT_EQ(free.cluster.sensors[1].period, Duration::milliseconds(84));
