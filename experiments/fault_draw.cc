@@ -227,7 +227,7 @@ std::string parameters_text(const Fault& fault, const schedules::Cluster& cluste
   for (const auto& [key, value] : nodes::keys_of(fault, cluster)) {
     if (!out.empty()) out += "; ";
     std::string cell = value;   // a list's commas would be the table's
-    for (std::size_t at = 0; (at = cell.find(", ", at)) != std::string::npos;) cell.replace(at, 2, "+");
+    for (std::size_t at = 0; (at = cell.find(", ", at)) != std::string::npos;) cell.replace(at, 2, 1, '+');
     out += fmt::format("{}: {}", key, cell);
   }
   return out;

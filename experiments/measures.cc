@@ -183,6 +183,7 @@ DriveSummary DriveMeasures::finish() {
   if (pending_) judge(*pending_);
   pending_.reset();
   summary_.reference_compared = reference_.compared();
+  summary_.reference_weights = reference_.weights();
   summary_.position_rmse_reference = reference_.position_rmse();
   summary_.velocity_rmse_reference = reference_.velocity_rmse();
   if (summary_.matched > 0) {

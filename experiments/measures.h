@@ -44,6 +44,7 @@ struct DriveSummary {
   std::uint64_t missed = 0;                // true objects without an image within the gate
   std::uint64_t spurious = 0;              // image objects without a true object within the gate
   std::uint64_t reference_compared = 0;
+  ReferenceWeights reference_weights;
   std::uint64_t uses = 0;                  // times the feature service used an image, or refused one
   std::uint64_t stale_uses = 0;            // of them refused: the image was too old
   // Normalised estimation error squared of (x, y, vx, vy) predicted to the use, averaged over the same pairs at first uses of
@@ -69,6 +70,9 @@ struct DriveSummary {
   std::uint64_t dropped = 0;               // too old for the history
   std::uint64_t duplicates = 0;
   std::uint64_t warnings = 0;              // uses in which an object warned
+  // What only who knows the scenario can say: filled in by others.
+  double position_mse_reference_corrected = kNotMeasured;   // less the DGPS' own error (experiments/reference_judge.h)
+  double position_mse_expected = kNotMeasured;              // without sampling (experiments/expected_drive.h)
 };
 
 class DriveMeasures final : public records::Sink {

@@ -49,10 +49,29 @@ void ReferenceJudge::judge(const Use& use) {
   if (nearest == nullptr) return;
   ++compared_;
   position_squares_ += best * best;
+  sums_.squares += (1.0 - s) * (1.0 - s) + s * s;
+  sums_.products += 2.0 * s * (1.0 - s);
+  sums_.range_squared += nearest->x * nearest->x + nearest->y * nearest->y;
   const double evx = nearest->vx - (a.vx + s * (b.vx - a.vx)), evy = nearest->vy - (a.vy + s * (b.vy - a.vy));
   if (!std::isfinite(evx) || !std::isfinite(evy)) return;
   ++velocities_;
   velocity_squares_ += evx * evx + evy * evy;
+}
+
+ReferenceWeights ReferenceJudge::weights() const {
+  if (compared_ == 0) return {};
+  const auto n = static_cast<double>(compared_);
+  return {sums_.squares / n, sums_.products / n, sums_.range_squared / n};
+}
+
+double expected_square(const world::ReferenceConfig& reference, const ReferenceWeights& weights) {
+  const double calm = 1.0 - reference.excursion_probability;
+  const double there = 1.0 - std::pow(calm, reference.excursion_fixes);
+  const double same = calm * (1.0 - std::pow(calm, reference.excursion_fixes - 1));
+  const double noise = reference.sigma_m * reference.sigma_m, excursion = reference.excursion_m * reference.excursion_m;
+  const double alignment = 2.0 * noise / (reference.alignment_baseline_m * reference.alignment_baseline_m);
+  return (2.0 * noise + excursion * there) * weights.squares + excursion * same * weights.products +
+         alignment * weights.range_squared;
 }
 
 double ReferenceJudge::position_rmse() const { return root_mean(position_squares_, compared_); }

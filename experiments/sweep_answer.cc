@@ -95,14 +95,20 @@ void find_crossings(const SweepFile& sweep, std::size_t paradigm, std::size_t a,
     const std::vector<const Setting*> settings = sweep.settings_of(point), next = sweep.settings_of(point + stride);
     if (settings[a] + 1 != next[a] || !settings[a]->number || !next[a]->number) continue;
     const Interval before = answer.points[point].differences[paradigm].front();
-    const Interval after = answer.points[point + stride].differences[paradigm].front();
+    // Where there is no difference at all, the other side is behind it.
+    std::uint32_t behind = point + stride;
+    const Setting* const last = &axis.settings.back();
+    while (answer.points[behind].differences[paradigm].front().mean == 0.0 && sweep.settings_of(behind)[a] != last)
+      behind += stride;
+    const Interval after = answer.points[behind].differences[paradigm].front();
     if (!(before.mean * after.mean < 0.0)) continue;
-    const double part = before.mean / (before.mean - after.mean), x = *settings[a]->number, y = *next[a]->number;
+    const double to = answer.points[point + stride].differences[paradigm].front().mean;
+    const double part = before.mean / (before.mean - to), x = *settings[a]->number, y = *next[a]->number;
     std::vector<std::string> others;
     for (std::size_t other = 0; other < grid.size(); ++other)
       if (other != a && grid[other]->settings.size() > 1) others.push_back(grid[other]->name + " " + settings[other]->label);
     const auto certain = [](const Interval& interval) { return interval.below(0.0) || interval.above(0.0); };
-    answer.crossings.push_back({paradigm, axis.name, joined(others), point, point + stride,
+    answer.crossings.push_back({paradigm, axis.name, joined(others), point, behind,
                                 axis.logarithmic ? x * std::pow(y / x, part) : x + part * (y - x),
                                 certain(before) && certain(after)});
   }

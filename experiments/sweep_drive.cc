@@ -2,17 +2,22 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <new>
+#include <optional>
 #include <string>
 
 #include "core/file_bytes.h"
 #include "core/hash.h"
 #include "core/random.h"
+#include "core/strict_yaml.h"
 #include "core/yaml_edit.h"
+#include "experiments/expected_drive.h"
 #include "experiments/measures.h"
 #include "experiments/sweep_measures.h"
 #include "nodes/catalog.h"
+#include "nodes/fault_plan.h"
 #include "recording/records/tee.h"
 #include "schedules/checker.h"
 #include "schedules/loader.h"
@@ -25,19 +30,16 @@ namespace {
 constexpr std::string_view kOfCluster = "cluster.";
 constexpr std::size_t kAllPrepared = 1000;   // drives of a grid that are prepared, every one, before it begins
 
-using Edits = std::vector<std::pair<std::string, std::string>>;
-
-void apply(const Edits& edits, bool of_cluster, std::string& text, const std::string& name) {
-  for (const auto& [key, value] : edits) {
-    const bool is = key.starts_with(kOfCluster);
-    if (is != of_cluster) continue;
-    text = with_value(text, name, std::string_view(key).substr(is ? kOfCluster.size() : 0), value);
-  }
+// The last one's, if there is one.
+const std::string* file_of(const std::vector<Edit>& edits, std::string_view key) {
+  const auto last = std::find_if(edits.rbegin(), edits.rend(), [&](const Edit& edit) { return edit.key == key; });
+  return last == edits.rend() ? nullptr : &last->value;
 }
 
 }  // namespace
 
-SweepDrives::SweepDrives(const SweepFile& sweep) : sweep_(sweep), scenario_text_(read_file(sweep.scenario_file)) {
+SweepDrives::SweepDrives(const SweepFile& sweep) : sweep_(sweep) {
+  read_files();
   const std::size_t points = sweep.points();
   const auto each_paradigm = [&](std::uint32_t point) {
     for (std::uint32_t p = 0; p < sweep.paradigms.size(); ++p) prepare_at({point, 0, p});
@@ -52,21 +54,40 @@ SweepDrives::SweepDrives(const SweepFile& sweep) : sweep_(sweep), scenario_text_
       for (std::size_t s = 1; s < axis->settings.size(); ++s) each_paradigm(static_cast<std::uint32_t>(s * step));
     }
   }
-  std::string all = sweep.text + '\0' + scenario_text_;
-  for (const auto& [path, text] : clusters_) all += '\0' + std::filesystem::path(path).filename().string() + '\0' + text;
+  std::string all = sweep.text + '\0' + texts_.at(sweep.scenario_file);
+  for (const auto& [path, text] : texts_)
+    if (path != sweep.scenario_file) all += '\0' + std::filesystem::path(path).filename().string() + '\0' + text;
   identity_ = hex_hash(all);
 }
 
-// Reads the clusters as they are asked for, and says at which point something is wrong.
-void SweepDrives::prepare_at(const results::RunKey& key) {
-  const Paradigm& paradigm = sweep_.paradigms[key.paradigm];
+// All that any drive may ask for: the clusters that the scenarios have, too.
+void SweepDrives::read_files() {
+  std::vector<std::string> scenarios{sweep_.scenario_file};
+  const auto read = [&](const std::string& file) {
+    if (!texts_.contains(file)) texts_[file] = read_file(file);
+  };
+  const auto read_named = [&](const Edit& edit) {
+    if (!is_file(edit)) return;
+    read(edit.value);
+    if (edit.key == kScenarioFile) scenarios.push_back(edit.value);
+  };
+  read(sweep_.scenario_file);
+  for (const Axis& axis : sweep_.axes)
+    for (const Setting& setting : axis.settings)
+      for (const Edit& edit : setting.edits) read_named(edit);
+  for (const Paradigm& paradigm : sweep_.paradigms)
+    for (const Edit& edit : paradigm.edits) read_named(edit);
+  for (const Paradigm& paradigm : sweep_.paradigms) {
+    if (paradigm.cluster_file) read(*paradigm.cluster_file);
+    for (std::size_t s = 0; s < scenarios.size() && !paradigm.cluster_file; ++s)
+      read(nodes::parse_scenario(texts_.at(scenarios[s]), scenarios[s])
+               .cluster_files[static_cast<std::size_t>(paradigm.strategy)]);
+  }
+}
+
+// Says at which point something is wrong.
+void SweepDrives::prepare_at(const results::RunKey& key) const {
   try {
-    std::string file = paradigm.cluster_file.value_or("");
-    if (!paradigm.cluster_file) {
-      const nodes::Scenario base = nodes::parse_scenario(scenario_text_, sweep_.scenario_file);
-      file = base.cluster_files[static_cast<std::size_t>(paradigm.strategy)];
-    }
-    if (!clusters_.contains(file)) clusters_[file] = read_file(file);
     std::vector<double> low, high;
     for (const Axis* axis : sweep_.drawn()) {
       low.push_back(axis->low);
@@ -77,7 +98,8 @@ void SweepDrives::prepare_at(const results::RunKey& key) {
   } catch (const InputError& error) {
     Findings findings;
     for (Finding finding : error.findings()) {
-      finding.expected += fmt::format(" (with {}, {})", paradigm.name, sweep_.label_of(key.point));
+      finding.expected +=
+          fmt::format(" (with {}, {})", sweep_.paradigms[key.paradigm].name, sweep_.label_of(key.point));
       findings.add(std::move(finding));
     }
     findings.throw_if_any();
@@ -95,28 +117,67 @@ std::vector<double> SweepDrives::drawn(std::uint32_t replication) const {
 
 PreparedDrive SweepDrives::prepare(const results::RunKey& key) const { return prepare(key, drawn(key.replication)); }
 
-PreparedDrive SweepDrives::prepare(const results::RunKey& key, const std::vector<double>& values) const {
+// The paradigm's own, the point's, and what is drawn, in this order.
+std::vector<Edit> SweepDrives::edits_of(const results::RunKey& key, const std::vector<double>& drawn) const {
   const Paradigm& paradigm = sweep_.paradigms[key.paradigm];
-  Edits edits = paradigm.edits;
+  std::vector<Edit> edits = paradigm.edits;
+  const auto add = [&](const Edit& edit, const std::string& value) {
+    if (edit.paradigm.empty() || edit.paradigm == paradigm.name)
+      edits.push_back({edit.key, value, edit.paradigm, edit.line});
+  };
   for (const Setting* setting : sweep_.settings_of(key.point))
-    edits.insert(edits.end(), setting->edits.begin(), setting->edits.end());
+    for (const Edit& edit : setting->edits) add(edit, edit.value);
   const std::vector<const Axis*> axes = sweep_.drawn();
   for (std::size_t a = 0; a < axes.size(); ++a)
-    for (const std::string& name : axes[a]->keys)
-      edits.emplace_back(name, fmt::format("{}{}{}", values[a], axes[a]->unit.empty() ? "" : " ", axes[a]->unit));
+    for (const Edit& edit : axes[a]->keys)
+      add(edit, fmt::format("{}{}{}", drawn[a], axes[a]->unit.empty() ? "" : " ", axes[a]->unit));
+  return edits;
+}
+
+std::string SweepDrives::edited(const std::vector<Edit>& edits, bool of_cluster, const std::string& name) const {
+  std::string text = texts_.at(name);
+  for (const Edit& edit : edits) {
+    const bool is = edit.key.starts_with(kOfCluster);
+    if (is != of_cluster || is_file(edit)) continue;
+    try {
+      text = with_value(text, name, std::string_view(edit.key).substr(is ? kOfCluster.size() : 0), edit.value);
+    } catch (const InputError& error) {
+      if (error.findings().front().line != 0) throw;
+      // It stands nowhere: who asks for it does.
+      throw InputError({sweep_.file, edit.line, edit.key, "",
+                        fmt::format("must be in the file {}: only what is written there can be varied", name)});
+    }
+  }
+  return text;
+}
+
+// As if it had been written in the scenario.
+void SweepDrives::plan_faults(const std::string& file, nodes::Scenario& scenario) const {
+  if (!scenario.faults.empty())
+    throw InputError({scenario.file, 0, "faults", "", "must not be there where " + file + " says what goes wrong"});
+  const std::string& text = texts_.at(file);
+  const StrictYaml yaml = StrictYaml::parse(text, file);
+  Findings findings;
+  YamlMap root = yaml.root(findings);
+  scenario.faults = nodes::load_fault_plan(root, scenario.duration);
+  root.finish();
+  findings.throw_if_any();
+  scenario.text += "\n" + text;
+}
+
+PreparedDrive SweepDrives::prepare(const results::RunKey& key, const std::vector<double>& values) const {
+  const Paradigm& paradigm = sweep_.paradigms[key.paradigm];
+  const std::vector<Edit> edits = edits_of(key, values);
+  const std::string* scenario = file_of(edits, kScenarioFile);
+  const std::string& scenario_file = scenario != nullptr ? *scenario : sweep_.scenario_file;
   PreparedDrive drive;
-  std::string text = scenario_text_;
-  apply(edits, false, text, sweep_.scenario_file);
-  drive.scenario = nodes::parse_scenario(std::move(text), sweep_.scenario_file);
+  drive.scenario = nodes::parse_scenario(edited(edits, false, scenario_file), scenario_file);
+  if (const std::string* faults = file_of(edits, kFaultsFile)) plan_faults(*faults, drive.scenario);
   drive.strategy = paradigm.strategy;
   std::string& file = drive.scenario.cluster_files[static_cast<std::size_t>(paradigm.strategy)];
   if (paradigm.cluster_file) file = *paradigm.cluster_file;
-  const auto known = clusters_.find(file);
-  if (known == clusters_.end())
-    throw InputError({sweep_.scenario_file, 0, "clusters", file, "must not be varied: give the paradigm a cluster"});
-  std::string cluster = known->second;
-  apply(edits, true, cluster, file);
-  drive.cluster = schedules::parse_cluster(std::move(cluster), file);
+  if (const std::string* cluster = file_of(edits, kClusterFile)) file = *cluster;
+  drive.cluster = schedules::parse_cluster(edited(edits, true, file), file);
   if (auto findings = schedules::check(drive.cluster); !findings.empty()) throw InputError(std::move(findings));
   schedules::bind_ports(drive.cluster, nodes::step_ports());
   sim::check_fits(drive.scenario, drive.cluster, drive.strategy, false);
@@ -140,11 +201,18 @@ results::Run SweepDrives::run(const results::RunKey& key, const PreparedDrive& d
   try {
     DriveMeasures measures(sim::evaluation_start(drive.scenario));
     std::vector<records::Sink*> sinks{&measures};
+    std::optional<ExpectedError> expected;
+    if (const bool asked = std::count(sweep_.measures.begin(), sweep_.measures.end(), "position_mse_expected") > 0;
+        asked && ExpectedError::is_defined(drive.scenario))
+      sinks.push_back(&expected.emplace(drive.scenario));
     if (listener != nullptr) sinks.push_back(listener);
     records::Tee tee(sinks);
     const sim::DriveConfig config{&drive.scenario, &drive.cluster, drive.strategy, sweep_.seed, key.replication, nullptr};
     const sim::DriveOutcome outcome = sim::run_drive(config, tee);
-    const DriveSummary summary = measures.finish();
+    DriveSummary summary = measures.finish();
+    summary.position_mse_reference_corrected = summary.position_rmse_reference * summary.position_rmse_reference -
+                                               expected_square(drive.scenario.reference, summary.reference_weights);
+    if (expected) summary.position_mse_expected = expected->position_mse();
     for (const std::string& name : sweep_.measures) run.values.push_back(find_measure(name)->of(summary, outcome));
   } catch (const std::bad_alloc&) {
     throw;

@@ -44,11 +44,15 @@ class SweepDrives {
 
  private:
   PreparedDrive prepare(const results::RunKey& key, const std::vector<double>& drawn) const;
-  void prepare_at(const results::RunKey& key);
+  void read_files();
+  void prepare_at(const results::RunKey& key) const;
+  std::vector<Edit> edits_of(const results::RunKey& key, const std::vector<double>& drawn) const;
+  // Those of a cluster, or of a scenario, in what stands in the file `name`.
+  std::string edited(const std::vector<Edit>& edits, bool of_cluster, const std::string& name) const;
+  void plan_faults(const std::string& file, nodes::Scenario& scenario) const;
 
   const SweepFile& sweep_;
-  std::string scenario_text_;
-  std::map<std::string, std::string> clusters_;   // text by path
+  std::map<std::string, std::string> texts_;   // of scenarios, clusters and plans of faults, by path
   std::string identity_;
 };
 

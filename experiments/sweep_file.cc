@@ -9,6 +9,7 @@
 
 #include "core/counted.h"
 #include "core/strict_yaml.h"
+#include "experiments/sweep_keys.h"
 #include "experiments/sweep_measures.h"
 #include "nodes/scenario.h"
 
@@ -67,7 +68,7 @@ class Reader {
     if (!file_.axes.empty() && file_.points() > kMostPoints)
       root_.fail("axes", fmt::format("must make {} points at most, and make {}", kMostPoints, file_.points()));
     check_runs();
-    check_keys();
+    check_keys(file_, findings_);
     read_measures();
     read_comparison();
     read_expectations();
@@ -81,6 +82,22 @@ class Reader {
     return (std::filesystem::path(yaml_.name()).parent_path() / name).lexically_normal().string();
   }
 
+  std::string file_value(const std::string& key, const std::string& value) const {
+    return is_file({key, value, "", 0}) && !value.empty() ? path_of(value) : value;
+  }
+
+  // What stands before a slash is a paradigm.
+  Edit edit(const std::string& text, const std::string& value, int line) {
+    const std::size_t slash = text.find('/');
+    const std::string paradigm = slash == std::string::npos ? "" : text.substr(0, slash);
+    const std::string key = slash == std::string::npos ? text : text.substr(slash + 1);
+    const bool known = std::any_of(file_.paradigms.begin(), file_.paradigms.end(),
+                                   [&](const Paradigm& one) { return one.name == paradigm; });
+    if (slash != std::string::npos && !known)
+      findings_.add({yaml_.name(), line, text, paradigm, "must be one of the paradigms, before the slash"});
+    return {key, file_value(key, value), paradigm, line};
+  }
+
   void read_paradigms() {
     for (auto& [name, map] : root_.named_maps("paradigms")) {
       Paradigm paradigm;
@@ -90,7 +107,9 @@ class Reader {
       paradigm.strategy = map.choice<StrategyKind>(
           "strategy", {{"buff", StrategyKind::kBuff}, {"adva", StrategyKind::kAdva}, {"tt", StrategyKind::kTt}});
       if (map.has("cluster")) paradigm.cluster_file = path_of(map.text("cluster"));
-      if (map.has("set")) paradigm.edits = map.named_texts("set");
+      if (map.has("set"))
+        for (const auto& [key, value] : map.named_texts("set"))
+          paradigm.edits.push_back({key, file_value(key, value), name, map.line("set")});
       map.finish();
       file_.paradigms.push_back(std::move(paradigm));
     }
@@ -104,11 +123,14 @@ class Reader {
     if (!is_name(name)) map.fail("", std::string(kNames));
     if (is_column(name)) map.fail("", "must not be called as a measure, or point, replication, paradigm or status");
     const bool settings = map.has("settings");
-    if (!settings) axis.keys = map.texts("keys");
+    if (!settings)
+      for (const std::string& key : map.texts("keys")) axis.keys.push_back(edit(key, "", map.line("keys")));
     if (settings) {
       for (auto& [label, edits] : map.named_maps("settings")) {
-        (void)edits;
-        axis.settings.push_back({label, number_of(label), map.map("settings").named_texts(label)});
+        Setting setting{label, number_of(label), {}};
+        for (const auto& [key, value] : map.map("settings").named_texts(label))
+          setting.edits.push_back(edit(key, value, edits.line()));
+        axis.settings.push_back(std::move(setting));
       }
       if (axis.settings.empty()) map.fail("settings", "must have one at least");
     } else if (map.has("uniform")) {
@@ -118,11 +140,15 @@ class Reader {
       if (low && high && *low < *high && std::abs(*low) <= kLargest && std::abs(*high) <= kLargest) {
         axis.low = *low;
         axis.high = *high;
+        if (std::any_of(axis.keys.begin(), axis.keys.end(), [](const Edit& key) { return is_file(key); }))
+          map.fail("keys", "must be no file's where a number is drawn");
       } else {
         map.fail("uniform", "must be two numbers, the lower one first");
       }
     } else if (map.has("values")) {
-      for (const std::string& value : map.texts("values")) add(axis, value, number_of(value));
+      axis.unit = map.text_or("unit", "");
+      for (const std::string& value : map.texts("values"))
+        add(axis, axis.unit.empty() ? value : value + " " + axis.unit, number_of(value));
     } else {
       read_range(axis, map);
     }
@@ -150,7 +176,10 @@ class Reader {
 
   void add(Axis& axis, const std::string& value, std::optional<double> number) {
     Setting setting{value, number, {}};
-    for (const std::string& key : axis.keys) setting.edits.emplace_back(key, value);
+    for (Edit one : axis.keys) {
+      one.value = file_value(one.key, value);
+      setting.edits.push_back(std::move(one));
+    }
     axis.settings.push_back(std::move(setting));
   }
 
@@ -158,28 +187,6 @@ class Reader {
     const std::uint64_t runs = std::uint64_t{file_.replications} * file_.paradigms.size() * file_.points();
     if (runs > kMostRuns)
       root_.fail("replications", fmt::format("must make {} runs at most, and make {}", kMostRuns, runs));
-  }
-
-  // A key that two would set has one value, and nobody can tell whose.
-  void check_keys() {
-    std::map<std::string, std::string> owners;   // of a key: an axis
-    const auto varied = [&](const std::string& key, const std::string& axis) {
-      if (key == "seed" || key.starts_with("clusters"))
-        root_.fail("axes", key + " must not be varied: the experiment has a seed, and paradigms have clusters");
-      const auto [owner, is_new] = owners.emplace(key, axis);
-      if (!is_new && owner->second != axis)
-        root_.fail("axes", fmt::format("must not vary {} twice: {} and {} do", key, owner->second, axis));
-    };
-    for (const Axis& axis : file_.axes) {
-      for (const std::string& key : axis.keys) varied(key, axis.name);
-      for (const Setting& setting : axis.settings)
-        for (const auto& [key, value] : setting.edits) varied(key, axis.name);
-    }
-    for (const Paradigm& paradigm : file_.paradigms)
-      for (const auto& [key, value] : paradigm.edits)
-        if (owners.contains(key) || key == "seed" || key.starts_with("clusters"))
-          root_.fail("paradigms", fmt::format("must not set {} in {}: {}", key, paradigm.name,
-                                              owners.contains(key) ? "an axis varies it" : "the experiment has a seed, and paradigms have clusters"));
   }
 
   void read_measures() {

@@ -13,6 +13,7 @@
 //     noise: {keys: [world.acceleration_noise], values: [0.5, 1, 2]}
 //     speed: {keys: ["world.objects[0].speed"], from: 5, to: 20, count: 4, scale: logarithmic}   and unit: ms, or so
 //     road:  {settings: {dry: {world.yaw_rate_noise: 0.05}, icy: {world.yaw_rate_noise: 0.2}}}
+//     bus:   {settings: {sound: {}, torn: {faults: torn.yaml, time_triggered/tracker.process_noise: 3}}}
 //     load:  {keys: [cluster.can.observation_can.other_load], uniform: [0, 0.3]}   no grid: drawn once a replication
 //   measures: [position_rmse_truth, nees]          experiments/sweep_measures.h; the first is what is asked for; absent: all
 //   compare: {baseline: event_triggered, confidence: 0.95}
@@ -22,23 +23,37 @@
 //
 // A key leads to a scalar of the scenario that is written there, "world.objects[0].speed"; of the paradigm's cluster where it
 // begins with "cluster."; each is set in one place only. The values of an axis with several keys go to all of them.
+// `scenario`, `cluster` and `faults` are keys, too, whose values are files: another scenario, another cluster, and a plan
+// of what goes wrong, {faults: [...]}, for a scenario that has none of its own. Behind a paradigm's name and a slash a key
+// is that paradigm's only, "time_triggered/cluster.sensors.laser.repetition".
 #pragma once
 
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
-#include <utility>
+#include <string_view>
 #include <vector>
 
 #include "fusion/strategy.h"
 
 namespace ttf::experiments {
 
+struct Edit {
+  std::string key, value;
+  std::string paradigm;                         // whose only; empty: of all
+  int line = 0;                                 // in the experiment's file
+};
+// Keys whose values are files, as paths that can be opened.
+inline constexpr std::string_view kScenarioFile = "scenario", kClusterFile = "cluster", kFaultsFile = "faults";
+inline bool is_file(const Edit& edit) {
+  return edit.key == kScenarioFile || edit.key == kClusterFile || edit.key == kFaultsFile;
+}
+
 struct Setting {
   std::string label;                                            // how tables and expectations call it
   std::optional<double> number;                                 // where the label is one
-  std::vector<std::pair<std::string, std::string>> edits;       // key, value
+  std::vector<Edit> edits;
 };
 
 struct Axis {
@@ -46,7 +61,7 @@ struct Axis {
   std::vector<Setting> settings;                // of a random axis: none
   bool logarithmic = false;
   // Random: uniformly from `low` to `high`, to all keys.
-  std::vector<std::string> keys;
+  std::vector<Edit> keys;                       // without values
   double low = 0.0, high = 0.0;
   std::string unit;                             // behind numbers; may be empty
   bool random() const { return settings.empty(); }
@@ -56,7 +71,7 @@ struct Paradigm {
   std::string name;
   fusion::StrategyKind strategy{};
   std::optional<std::string> cluster_file;      // none: the scenario's for the strategy
-  std::vector<std::pair<std::string, std::string>> edits;
+  std::vector<Edit> edits;
 };
 
 struct StopRule {

@@ -29,7 +29,7 @@ inline double share(std::uint64_t part, std::uint64_t of) {
 }  // namespace measure
 
 // clang-format off
-inline constexpr std::array<Measure, 17> kMeasures{{
+inline constexpr std::array<Measure, 19> kMeasures{{
   {"position_rmse_truth", "m", "root mean square of the position error against the truth, when the image is used",
    [](const DriveSummary& s, const sim::DriveOutcome&) { return s.position_rmse_truth; }},
   {"position_mse_truth", "m^2", "mean square of the same: what averages over runs without bias",
@@ -64,6 +64,12 @@ inline constexpr std::array<Measure, 17> kMeasures{{
    [](const DriveSummary&, const sim::DriveOutcome& o) { return static_cast<double>(o.precision.ns) * 1e-3; }},
   {"flexray_load", "", "share of the time in which the busier FlexRay channel is taken",
    [](const DriveSummary&, const sim::DriveOutcome& o) { return o.flexray_load; }},
+  {"position_mse_reference_corrected", "m^2",
+   "mean square of the position error against the DGPS, less what the DGPS' own error is known to add",
+   [](const DriveSummary& s, const sim::DriveOutcome&) { return s.position_mse_reference_corrected; }},
+  {"position_mse_expected", "m^2",
+   "what position_mse_truth must be expected to be, by covariances alone: one object, going straight, no bias",
+   [](const DriveSummary& s, const sim::DriveOutcome&) { return s.position_mse_expected; }},
 }};
 // clang-format on
 

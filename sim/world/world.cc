@@ -120,6 +120,9 @@ WorldConfig load_world(YamlMap& yaml) {
     map.finish();
     config.objects.push_back(std::move(object));
   }
+  const auto all = static_cast<std::int64_t>(config.objects.size());
+  const std::int64_t count = yaml.integer_or("object_count", all, {std::min<std::int64_t>(all, 1), all});
+  config.objects.resize(static_cast<std::size_t>(count));
   return config;
 }
 

@@ -36,7 +36,7 @@ struct ObjectConfig {
 };
 
 struct WorldConfig {
-  std::vector<ObjectConfig> objects;
+  std::vector<ObjectConfig> objects;   // of those in the file the first `object_count`, if it says how many
   // Standard deviations of the acceleration [m/s^2] and yaw rate [rad/s] added in each 10 ms step.
   double acceleration_noise = 0.0;
   double yaw_rate_noise = 0.0;

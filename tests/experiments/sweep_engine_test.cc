@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 
@@ -140,6 +141,30 @@ TEST_F(SweepEngine, DifferencesArePaired) {
   const std::string text = answer_text(sweep, answer);
   EXPECT_THAT(text, testing::HasSubstr("position_rmse_truth of tt is less than of adva at 1 point, more at 1, undecided at 0."));
   EXPECT_THAT(text, testing::HasSubstr("They cross at noise 29.57."));
+}
+
+// Where two are exactly alike, the sides differ by what is behind it.
+TEST_F(SweepEngine, ACrossingMayBeAtAPoint) {
+  std::string text = sweep_text(3);
+  text.replace(text.find("[1, 40]"), 7, "[1, 20, 40]");
+  const SweepFile sweep = parse_sweep(text, TTF_SOURCE_DIR "/experiments/small.yaml");
+  const SweepDrives drives(sweep);
+  const auto crossings = [&](const std::string& name, std::array<double, 3> differences) {
+    results::Store made = store(drives, name);
+    for (std::uint32_t point = 0; point < 3; ++point)
+      for (std::uint32_t r = 0; r < 3; ++r)
+        made.add({made_up(point, r, 0, 1.0), made_up(point, r, 1, 1.0 + differences[point] * (1.0 + 0.01 * r))});
+    return answer_of(sweep, made).crossings;
+  };
+  const std::vector<Crossing> through = crossings("through", {-1.0, 0.0, 1.0});
+  ASSERT_EQ(through.size(), 1u);
+  EXPECT_EQ(through[0].at, 20.0);
+  EXPECT_EQ(through[0].before, 0u);
+  EXPECT_EQ(through[0].after, 2u);
+  EXPECT_TRUE(through[0].certain);
+  EXPECT_TRUE(crossings("touched", {1.0, 0.0, 1.0}).empty());
+  EXPECT_TRUE(crossings("left", {0.0, 0.0, 1.0}).empty());
+  EXPECT_TRUE(crossings("met", {1.0, 0.0, 0.0}).empty());
 }
 
 // A run that failed is a row, and takes its pair out of the differences, nothing else.

@@ -44,6 +44,11 @@ TEST(SweepFile, ListsRangesSettingsAndDraws) {
   EXPECT_EQ(sweep.settings_of(2)[1]->number, 100.0);
   EXPECT_TRUE(sweep.grid()[1]->logarithmic);
   EXPECT_EQ(sweep.settings_of(1)[2]->edits.size(), 2u);
+  const SweepFile with_unit =
+      file("axes: {period: {keys: [a/cluster.sensors.camera.period], values: [42, 84], unit: ms}}\n");
+  EXPECT_EQ(with_unit.label_of(1), "period 84 ms");
+  EXPECT_EQ(with_unit.settings_of(1)[0]->number, 84.0);
+  EXPECT_EQ(SweepDrives(with_unit).prepare({1, 0, 0}).cluster.sensors[1].period, Duration::milliseconds(84));
   EXPECT_GT(sweep.measures.size(), 10u) << "all of them where none is named";
 }
 
@@ -85,6 +90,61 @@ TEST(SweepFile, WhatIsWrongIsToldWithItsLine) {
   head.replace(head.find("replications: 2"), 15, "replications: 10000000");
   EXPECT_THAT(refusal(head + "axes:\n  one: {keys: [tracker.process_noise], from: 1, to: 9, count: 9}\n"),
               HasSubstr("must make 100000000 runs at most, and make 180000000"));
+}
+
+TEST(SweepFile, AKeyMayBeOneParadigmsOnly) {
+  const SweepFile sweep = file(
+      "axes:\n"
+      "  period:\n"
+      "    settings:\n"
+      "      \"42\": {a/cluster.sensors.camera.period: 42 ms, t/cluster.sensors.camera.repetition: 8}\n"
+      "      \"84\": {a/cluster.sensors.camera.period: 84 ms, t/cluster.sensors.camera.repetition: 16}\n"
+      "  noise: {keys: [a/tracker.process_noise], values: [7, 8]}\n"
+      "  other: {keys: [t/tracker.process_noise], values: [9]}\n");
+  const SweepDrives drives(sweep);
+  const PreparedDrive free = drives.prepare({3, 0, 0}), scheduled = drives.prepare({3, 0, 1});
+  EXPECT_EQ(free.cluster.sensors[1].period, Duration::milliseconds(84));
+  EXPECT_EQ(scheduled.cluster.sensors[1].at.repetition, 16);
+  EXPECT_EQ(free.scenario.tracker.process_noise, 8.0);
+  EXPECT_EQ(scheduled.scenario.tracker.process_noise, 9.0);
+
+  const auto axes = [](const std::string& text) { return refusal(kHead + "axes:\n" + text); };
+  EXPECT_THAT(axes("  one: {keys: [b/duration], values: [3 s]}\n"),
+              HasSubstr("small.yaml:9: b/duration = b: must be one of the paradigms, before the slash"));
+  EXPECT_THAT(axes("  one: {keys: [a/duration], values: [3 s]}\n  two: {keys: [duration], values: [4 s]}\n"),
+              HasSubstr("small.yaml:10: axes: must not vary duration twice: one and two do"));
+  EXPECT_THAT(axes("  one: {settings: {x: {duration: 3 s, t/duration: 4 s}}}\n"),
+              HasSubstr("must not set duration twice in x of one"));
+  EXPECT_EQ(axes("  one: {keys: [a/duration], values: [3 s]}\n  two: {keys: [t/duration], values: [4 s]}\n"), "taken");
+  EXPECT_THAT(axes("  one: {keys: [t/cluster.sensors.camera.period], values: [42 ms]}\n"),
+              AllOf(HasSubstr("small.yaml:9: cluster.sensors.camera.period: must be in the file"),
+                    HasSubstr("synchronised.yaml: only what is written there can be varied (with t, one 42 ms)")));
+}
+
+TEST(SweepFile, FilesAreValues) {
+  const SweepFile sweep = file(
+      "axes:\n"
+      "  road: {keys: [scenario], values: [../scenarios/paper_scenario1.yaml, ../scenarios/dynamics.yaml]}\n"
+      "  way: {settings: {flexray: {}, can: {a/cluster: ../schedules/paper_event_triggered.yaml}}}\n"
+      "  fault: {settings: {none: {}, lists: {faults: faults/lists_5.yaml}}}\n");
+  const SweepDrives drives(sweep);
+  const PreparedDrive plain = drives.prepare({0, 0, 0}), all = drives.prepare({7, 0, 0});
+  const PreparedDrive other = drives.prepare({7, 0, 1});
+  EXPECT_EQ(plain.scenario.name, "paper_scenario1");
+  EXPECT_EQ(plain.cluster.name, "paper_unsynchronised");
+  EXPECT_TRUE(plain.scenario.faults.empty());
+  EXPECT_EQ(all.scenario.name, "dynamics");
+  EXPECT_EQ(all.cluster.name, "paper_event_triggered");
+  EXPECT_EQ(other.cluster.name, "paper_synchronised");
+  EXPECT_EQ(all.scenario.faults.faults.size(), 1u);
+  EXPECT_THAT(all.scenario.text, HasSubstr("node: gateway, probability: 0.05")) << "what is logged is what was driven";
+
+  const auto axis = [](const std::string& text) { return refusal(kHead + "axes:\n  one: " + text + "\n"); };
+  EXPECT_THAT(axis("{keys: [faults], values: [faults/none.yaml]}"), HasSubstr("faults/none.yaml"));
+  EXPECT_THAT(axis("{keys: [faults], uniform: [0, 1]}"), HasSubstr("must be no file's where a number is drawn"));
+  EXPECT_THAT(axis("{keys: [faults], values: [../scenarios/dynamics.yaml]}"), HasSubstr("dynamics.yaml:1: name"));
+  EXPECT_THAT(axis("{settings: {x: {faults: faults/lists_5.yaml, scenario: ../scenarios/faulty_bus.yaml}}}"),
+              HasSubstr("faulty_bus.yaml: faults: must not be there where"));
 }
 
 // The grid is bounded before anything is made of it.

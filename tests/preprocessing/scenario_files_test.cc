@@ -54,6 +54,23 @@ TEST(ScenarioFiles, SensorAndCalibrationDefaultsAgree) {
   EXPECT_EQ(s.laser_preprocessing.rectangle.range_noise_m, s.laser.range_sigma_m);
 }
 
+TEST(ScenarioFiles, TheWorldHasAsManyObjectsAsSaid) {
+  const Scenario crowd = load_scenario(TTF_SOURCE_DIR "/scenarios/crowd.yaml");
+  ASSERT_EQ(crowd.world.objects.size(), 25U);
+  const std::string key = "object_count: 25";
+  const auto with = [&](const std::string& count) {
+    std::string text = crowd.text;
+    text.replace(text.find(key), key.size(), "object_count: " + count);
+    return parse_scenario(text, crowd.file);
+  };
+  const Scenario two = with("2");
+  ASSERT_EQ(two.world.objects.size(), 2U);
+  EXPECT_EQ(two.world.objects[1].name, crowd.world.objects[1].name);
+  EXPECT_EQ(with("33").world.objects.size(), 33U);
+  EXPECT_THROW(with("34"), InputError);
+  EXPECT_THROW(with("0"), InputError);
+}
+
 TEST(ScenarioFiles, AnUnknownKeyAndATruncatedFileAreRefused) {
   std::ifstream in(TTF_SOURCE_DIR "/scenarios/paper_scenario1.yaml");
   const std::string text((std::istreambuf_iterator<char>(in)), {});
