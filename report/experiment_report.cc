@@ -54,24 +54,40 @@ std::optional<Least> least_at(const ExperimentFolder& folder, const ExperimentPo
   return least;
 }
 
-PageTable measure_of_points(const ExperimentFolder& folder, std::size_t m) {
+// Begun with the axes' names, or their values at a point.
+std::vector<std::string> axes_of(const ExperimentFolder& folder) {
+  return folder.axes.empty() ? std::vector<std::string>{"point"} : folder.axes;
+}
+std::vector<std::string> settings_of(const ExperimentPoint& point) {
+  return point.settings.empty() ? std::vector<std::string>{std::to_string(point.point)} : point.settings;
+}
+
+PageTable means_table(const ExperimentFolder& folder, std::size_t m) {
   const ExperimentMeasure& measure = folder.measures[m];
   PageTable table{fmt::format("{}{}; mean of the replications, {:g} % intervals", measure.with_unit(),
                               measure.meaning.empty() ? "" : ": " + measure.meaning, 100.0 * folder.confidence),
-                  {}, {}};
-  table.header = folder.axes.empty() ? std::vector<std::string>{"point"} : folder.axes;
+                  axes_of(folder), {}};
   table.header.push_back("runs");
   for (const std::string& paradigm : folder.paradigms) table.header.push_back(paradigm);
-  for (const std::string& paradigm : folder.paradigms)
-    if (paradigm != folder.baseline) table.header.push_back(fmt::format("{} − {}", paradigm, folder.baseline));
   for (const ExperimentPoint& point : folder.points) {
-    std::vector<std::string> row = point.settings;
-    if (row.empty()) row.push_back(std::to_string(point.point));
+    std::vector<std::string> row = settings_of(point);
     std::uint64_t runs = 0;
     for (const auto& estimates : point.estimates) runs = std::max(runs, estimates[m].mean.count);
     row.push_back(std::to_string(runs));
     for (const auto& estimates : point.estimates)
       row.push_back(with_interval(estimates[m].mean.mean, estimates[m].mean.half_width));
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+PageTable differences_table(const ExperimentFolder& folder, std::size_t m) {
+  PageTable table{fmt::format("{} less that of {}, paired by replication: whether it is less or more for certain",
+                              folder.measures[m].with_unit(), folder.baseline), axes_of(folder), {}};
+  for (const std::string& paradigm : folder.paradigms)
+    if (paradigm != folder.baseline) table.header.push_back(fmt::format("{} − {}", paradigm, folder.baseline));
+  for (const ExperimentPoint& point : folder.points) {
+    std::vector<std::string> row = settings_of(point);
     for (std::size_t p = 0; p < folder.paradigms.size(); ++p) {
       if (folder.paradigms[p] == folder.baseline) continue;
       const auto& difference = point.estimates[p][m].difference;
@@ -98,7 +114,7 @@ std::vector<std::string> sentences(const ExperimentFolder& folder) {
       all.push_back(fmt::format("{} and {} may cross at {} {}{}: that is not certain.", crossing.paradigm, folder.baseline,
                                 crossing.axis, brief(crossing.at), crossing.others.empty() ? "" : ", with " + crossing.others));
   }
-  if (!certain && !folder.axes.empty()) all.push_back("Nobody crosses " + folder.baseline + " for certain.");
+  if (!certain && !folder.axes.empty()) all.push_back("Along no axis a paradigm crosses " + folder.baseline + " for certain.");
   for (const ExperimentExpectation& one : folder.expectations)
     all.push_back(fmt::format("Expected: {}. It {}.", one.expected,
                               one.holds ? "holds" : "does not hold for certain at " + joined(one.where_not)));
@@ -194,7 +210,8 @@ std::string experiment_report_html(const std::string& path) {
   page.section("What came out");
   page.lead(experiment_answer(folder));
   page.points(sentences(folder));
-  page.table(measure_of_points(folder, 0));
+  page.table(means_table(folder, 0));
+  if (folder.paradigms.size() > 1) page.table(differences_table(folder, 0));
   page.section("Over the axes");
   page.plot(means_plot(folder));
   page.plot(differences_plot(folder));
@@ -205,7 +222,8 @@ std::string experiment_report_html(const std::string& path) {
   page.section("All measures");
   for (std::size_t m = 1; m < folder.measures.size(); ++m) {
     page.open_details(folder.measures[m].with_unit());
-    page.table(measure_of_points(folder, m));
+    page.table(means_table(folder, m));
+    if (folder.paradigms.size() > 1) page.table(differences_table(folder, m));
     page.close_details();
   }
   failures(page, folder);

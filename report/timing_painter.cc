@@ -34,7 +34,7 @@ double lane_height(const Lane& lane) {
 // Everything needed to draw one picture; lives for one call of svg().
 class TimingPainter {
   static constexpr double kPixelsPerMs = 14, kLeastPlot = 1000, kMostPlot = 5600;
-  static constexpr double kTop = 62, kBox = 14, kText = 9.5;
+  static constexpr double kTop = 62, kTopInPage = 28, kBox = 14, kText = 9.5;
 
  public:
   TimingPainter(const Names& names, const TimingData& data, Duration cycle, TrueTime from, TrueTime to, TimingUse use)
@@ -56,14 +56,14 @@ class TimingPainter {
     for (const Lane& lane : lanes_) plot_.x = std::max(plot_.x, text_width(lane.label, 11) + 24);
     // A page's script makes it as wide as there is room.
     plot_.width = tags_.on() ? kLeastPlot : std::clamp(ms * kPixelsPerMs, kLeastPlot, kMostPlot);
-    plot_.y = kTop;
-    double y = kTop + faults_.height();
+    plot_.y = tags_.on() ? kTopInPage : kTop;
+    double y = plot_.y + faults_.height();
     for (std::size_t i = 0; i < lanes_.size(); ++i) {
       if (i > 0 && lanes_[i].section != lanes_[i - 1].section) y += 10;
       centre_[lanes_[i].key] = y + lane_height(lanes_[i]) / 2;
       y += lane_height(lanes_[i]);
     }
-    plot_.height = y - kTop;
+    plot_.height = y - plot_.y;
     legend_ = timing_legend(data_, names_, ways_, !images_.empty(), from_, to_);
     for (const auto& r : data_.on_channel)
       if (const ChannelMark mark = channel_mark(r, names_);

@@ -11,6 +11,10 @@
   };
   const figures = (value) => (value == null ? "–" : Number(value.toPrecision(4)).toString());
 
+  // As many decimals as tell neighbours on an axis apart.
+  const labels = (u, splits, axis, space, step) => splits.map((value) => value == null ? "" : u.scales.x.distr === 3 && axis === 0
+    ? figures(value) : value.toFixed(Math.max(0, Math.min(12, -Math.floor(Math.log10(step) + 1e-9)))));
+
   // Where a curve is nearest to x.
   const nearest = (curve, x) => {
     let low = 0, high = curve.x.length - 1;
@@ -161,7 +165,7 @@
         }
         tables.push(table);
       });
-      const axis = { stroke: ink, grid: { stroke: grid, width: 1 }, ticks: { stroke: grid, width: 1 },
+      const axis = { stroke: ink, values: labels, grid: { stroke: grid, width: 1 }, ticks: { stroke: grid, width: 1 },
         font: "12px system-ui, sans-serif", labelFont: "13px system-ui, sans-serif" };
       this.uplot = new uPlot({
         width, height: 320, series, bands,

@@ -48,6 +48,7 @@
         item.kind = "text";
         item.x = number(element, "x");
         item.y = number(element, "y");
+        item.free = element.parentNode.classList.contains("grid");
       } else if (element.tagName === "rect" && item.b !== undefined) {
         item.kind = "box";
         item.y = number(element, "y");
@@ -174,14 +175,16 @@
       this.range.textContent = `${this.box.dataset.label}: ${ms(this.from)} to ${ms(this.to)} ms, ${lasting(this.to - this.from)}`;
     }
 
-    // A text: in its box if that is wide enough, or beside what it names if its neighbours leave room.
+    // A text: in its box if that is wide enough, or beside what it names if its neighbours leave room; a cycle's number is
+    // above it.
     place(item, right, rows) {
       let x, begin;
       if (item.b !== undefined) {
         const low = Math.max(this.x(item.a), this.left), high = Math.min(this.x(item.b), right);
-        if (high - low < item.label + 5) return false;
+        if (!item.free && high - low < item.label + 5) return false;
         x = (low + high) / 2;
         begin = x - item.label / 2;
+        if (begin < this.left || begin + item.label > right) return false;
       } else {
         x = begin = this.x(item.a) + item.x - item.origin;
         if (begin < this.left || begin + item.label > right) return false;
