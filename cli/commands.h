@@ -25,6 +25,7 @@ void add_schedule(CLI::App& app, Action& action);
 void add_experiment(CLI::App& app, Action& action);
 void add_launch(CLI::App& app, Action& action);
 void add_node(CLI::App& app, Action& action);
+void add_report(CLI::App& app, Action& action);
 void add_track(CLI::App& app, Action& action);
 
 }  // namespace ttf::cli

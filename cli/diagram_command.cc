@@ -33,18 +33,6 @@ struct DiagramOptions {
   std::optional<int> frame;
 };
 
-report::Names names_of(const recording::LogManifest& manifest) {
-  report::Names names;
-  names.run = fmt::format("{}, {}", manifest.scenario_name, manifest.strategy);
-  names.nodes = manifest.node_names;
-  names.tasks = manifest.task_names;
-  names.pdus = manifest.pdu_names;
-  names.sensors = manifest.sensor_names;
-  names.can_buses = manifest.can_bus_names;
-  names.pdu_sensors = manifest.pdu_sensors;
-  return names;
-}
-
 // When the last task ended.
 struct Extent final : records::Sink {
   TrueTime last{};
@@ -101,8 +89,8 @@ std::string startup(const DiagramOptions& options) {
   run.read(extent);
   const Duration cycle{run.manifest().cycle_ns};
   const auto whole = extent.window(cycle).value_or(std::pair(TrueTime{}, TrueTime{}));
-  report::StartupDiagram diagram(names_of(run.manifest()), cycle, options.from_s >= 0.0 ? window.from : whole.first,
-                                 window.to.value_or(whole.second));
+  report::StartupDiagram diagram(report::names_of(run.manifest()), cycle,
+                                 options.from_s >= 0.0 ? window.from : whole.first, window.to.value_or(whole.second));
   run.read(diagram);
   return diagram.svg();
 }
@@ -118,11 +106,11 @@ std::string lateness(const DiagramOptions& options) {
   run.read(sums);
   if (sums.nodes().empty())
     throw InputError({options.logs[0], 0, "", "", "tells of no lateness: the run was not in real time"});
-  return report::lateness_svg(sums.nodes(), names_of(run.manifest()));
+  return report::lateness_svg(sums.nodes(), report::names_of(run.manifest()));
 }
 
 std::string timing(const recording::MergedLogs& run, TrueTime from, TrueTime to) {
-  report::TimingDiagram diagram(names_of(run.manifest()), {run.manifest().cycle_ns}, from, to);
+  report::TimingDiagram diagram(report::names_of(run.manifest()), {run.manifest().cycle_ns}, from, to);
   run.read(diagram);
   return diagram.svg();
 }
@@ -137,7 +125,7 @@ std::string positions(const std::vector<recording::MergedLogs>& runs, TrueTime f
     position.title = fmt::format("{}, {}", run.manifest().scenario_name, run.manifest().strategy);
     position.from = from;
     position.to = to;
-    plots.push_back(std::make_unique<report::PositionPlots>(names_of(run.manifest()), position));
+    plots.push_back(std::make_unique<report::PositionPlots>(report::names_of(run.manifest()), position));
     run.read(*plots.back());
     panels.push_back(plots.back().get());
     titles.push_back(run.manifest().strategy);

@@ -146,6 +146,10 @@ nlohmann::ordered_json to_json(const SweepFile& sweep, const experiments::SweepA
                               {"runs", answer.runs},          {"failed", answer.failed},
                               {"baseline", sweep.paradigms[sweep.baseline].name},
                               {"answer", experiments::answer_sentences(sweep, answer)}};
+  for (const std::string& name : sweep.measures) {
+    const experiments::Measure& measure = *experiments::find_measure(name);
+    json["measures"][name] = {{"unit", measure.unit}, {"meaning", measure.meaning}};
+  }
   const auto axes = sweep.grid();
   for (const experiments::PointAnswer& point : answer.points) {
     nlohmann::ordered_json one{{"point", point.point}};

@@ -56,6 +56,7 @@ int main(int argc, char** argv) {
   ttf::cli::add_experiment(app, action);
   ttf::cli::add_launch(app, action);
   ttf::cli::add_node(app, action);
+  ttf::cli::add_report(app, action);
   ttf::cli::add_track(app, action);
   if (const std::string words = unknown_command(app, argc, argv); !words.empty()) return refuse(words);
   try {

@@ -57,6 +57,18 @@ Names names_of(const schedules::Cluster& cluster) {
   return names;
 }
 
+Names names_of(const recording::LogManifest& manifest) {
+  Names names;
+  names.run = fmt::format("{}, {}", manifest.scenario_name, manifest.strategy);
+  names.nodes = manifest.node_names;
+  names.tasks = manifest.task_names;
+  names.pdus = manifest.pdu_names;
+  names.sensors = manifest.sensor_names;
+  names.can_buses = manifest.can_bus_names;
+  names.pdu_sensors = manifest.pdu_sensors;
+  return names;
+}
+
 SensorLook look_of(const std::string& sensor_name) {
   const std::string name = lower(sensor_name);
   const auto contains = [&](const char* part) { return name.find(part) != std::string::npos; };

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/ids.h"
+#include "recording/log_manifest.h"
 #include "schedules/cluster.h"
 
 namespace ttf::report {
@@ -27,6 +28,7 @@ struct Names {
 };
 
 Names names_of(const schedules::Cluster& cluster);
+Names names_of(const recording::LogManifest& manifest);
 
 // What a sensor's name says about its kind, for colours and markers that stay the same in every picture.
 enum class SensorLook : std::uint8_t { kLaser, kCamera, kRadar, kOther };

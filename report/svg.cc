@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <utility>
 #include <vector>
 
 namespace ttf::report {
@@ -119,6 +120,7 @@ void Svg::open_group(std::string_view css_class, const Area& clip) {
 void Svg::close_group() { body_ += "</g>\n"; }
 
 void Svg::finish_element(std::string_view name, std::string_view hover) {
+  body_ += std::exchange(tags_, {});
   if (hover.empty())
     body_ += "/>\n";
   else
@@ -217,6 +219,7 @@ void Svg::text(Point at, std::string_view text, const TextStyle& style) {
                    number(at.x), number(at.y));
   if (style.halo)
     body_ += " stroke=\"#ffffff\" stroke-width=\"2.5\" stroke-linejoin=\"round\" paint-order=\"stroke\"";
+  body_ += std::exchange(tags_, {});
   fmt::format_to(std::back_inserter(body_), ">{}</text>\n", escape(text));
 }
 

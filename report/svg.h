@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace ttf::report {
 
@@ -79,6 +80,9 @@ class Svg {
               std::string_view css_class = {});
   void text(Point at, std::string_view text, const TextStyle& style = {});
 
+  // Further attributes of the next element, as they are to stand there (" data-a=\"12\""): for scripts.
+  void tag_next(std::string attributes) { tags_ = std::move(attributes); }
+
   std::string str() const;
 
  private:
@@ -87,7 +91,7 @@ class Svg {
   double width_, height_;
   std::string title_;
   std::string defs_;
-  std::string body_;
+  std::string body_, tags_;
   std::set<std::string, std::less<>> heads_;  // colours that have an arrow head defined
   int clips_ = 0;
 };

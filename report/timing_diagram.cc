@@ -79,7 +79,7 @@ void TimingDiagram::on(const records::TimingProblem& r) {
     data_.problems.push_back({r.stamp.true_time, r.stamp.node, r.what, r.late, r.cycle, r.slot, r.channel, r.count});
 }
 
-std::string TimingDiagram::svg() const {
+std::string TimingDiagram::svg(TimingUse use) const {
   // These make the lanes; what was fused or used is drawn between them.
   const bool nothing = data_.measurements.empty() && data_.can_frames.empty() && data_.slot_frames.empty() &&
                        data_.runs.empty();
@@ -90,7 +90,7 @@ std::string TimingDiagram::svg() const {
   // Told of when it ended or, in a merged log, where it began: the picture is the same.
   TimingData data = data_;
   std::ranges::stable_sort(data.runs, {}, [](const TimingData::Run& run) { return std::tuple(run.start, run.node); });
-  return paint_timing(names_, data, cycle_, from_, to_);
+  return paint_timing(names_, data, cycle_, from_, to_, use);
 }
 
 }  // namespace ttf::report

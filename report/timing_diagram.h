@@ -10,6 +10,7 @@
 // show what was late, early or lost. Time is TrueTime.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "recording/records/records.h"
@@ -17,6 +18,10 @@
 #include "report/timing_data.h"
 
 namespace ttf::report {
+
+// A picture by itself, or part of a page whose script zooms and explains it: what moves then has its times with it,
+// in attributes (report/timing_tags.h).
+enum class TimingUse : std::uint8_t { kPicture, kPage };
 
 class TimingDiagram : public records::Sink {
  public:
@@ -39,7 +44,8 @@ class TimingDiagram : public records::Sink {
   void on(const records::TimingProblem& r) override;
 
   // The picture; one that says so if the window holds no records.
-  std::string svg() const;
+  std::string svg() const { return svg(TimingUse::kPicture); }
+  std::string svg(TimingUse use) const;
 
  private:
   bool near(TrueTime start, TrueTime end) const;

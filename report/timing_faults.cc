@@ -56,15 +56,20 @@ void FaultLanes::draw_labels(Svg& svg, const Area& plot) const {
   if (!lanes_.empty()) svg.line({12, y}, {plot.x + plot.width, y}, {.stroke = "#999999", .width = 0.8});
 }
 
-void FaultLanes::draw(Svg& svg, const Area& plot, const std::function<double(TrueTime)>& x) const {
+void FaultLanes::draw(Svg& svg, const Area& plot, const std::function<double(TrueTime)>& x,
+                      const TimingTags& tags) const {
   double y = plot.y;
   for (const auto& [fault, lane] : lanes_) {
     const double left = x(std::max(lane.start, from_)), right = x(std::min(lane.end, to_));
-    if (lane.start < to_ && lane.end >= from_)
+    if (lane.start < to_ && lane.end >= from_) {
+      svg.tag_next(tags.span(lane.start, lane.end));
       svg.rect({left, y + 4, std::max(1.5, right - left), 14}, {.fill = kFaultSpan, .stroke = kVermilion, .width = 0.7},
                lane.text, "fault");
-    for (const auto* act : lane.acts)
+    }
+    for (const auto* act : lane.acts) {
+      svg.tag_next(tags.at(act->at));
       svg.rect({x(act->at) - 0.7, y + 4, 1.4, 14}, {.fill = kVermilion}, act->text, "acts");
+    }
     y += kHeight;
   }
 }

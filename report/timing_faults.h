@@ -10,6 +10,7 @@
 #include "report/axes.h"
 #include "report/names.h"
 #include "report/timing_data.h"
+#include "report/timing_tags.h"
 
 namespace ttf::report {
 
@@ -27,7 +28,7 @@ class FaultLanes {
   double label_width() const;
   // `plot`: the lanes begin at its top; `x`: where an instant stands.
   void draw_labels(Svg& svg, const Area& plot) const;
-  void draw(Svg& svg, const Area& plot, const std::function<double(TrueTime)>& x) const;
+  void draw(Svg& svg, const Area& plot, const std::function<double(TrueTime)>& x, const TimingTags& tags) const;
   void add_to(std::vector<LegendEntry>& legend) const;
 
  private:

@@ -12,6 +12,7 @@
 #include "report/timing_cycles.h"
 #include "report/timing_faults.h"
 #include "report/timing_problems.h"
+#include "report/timing_tags.h"
 #include "report/timing_ways.h"
 
 namespace ttf::report {
@@ -33,15 +34,16 @@ double lane_height(const Lane& lane) {
 // Everything needed to draw one picture; lives for one call of svg().
 class TimingPainter {
   static constexpr double kPixelsPerMs = 14, kLeastPlot = 1000, kMostPlot = 5600;
-  static constexpr double kTop = 62, kBox = 14, kText = 9.5;
+  static constexpr double kTop = 62, kTopInPage = 28, kBox = 14, kText = 9.5;
 
  public:
-  TimingPainter(const Names& names, const TimingData& data, Duration cycle, TrueTime from, TrueTime to)
+  TimingPainter(const Names& names, const TimingData& data, Duration cycle, TrueTime from, TrueTime to, TimingUse use)
       : names_(names),
         data_(data),
         cycle_(cycle),
         from_(from),
         to_(to),
+        tags_(use),
         transfers_(transfers_of(data)),
         ways_(measurement_ways(data, names, transfers_)),
         images_(image_ways(data, names, transfers_)),
@@ -52,15 +54,16 @@ class TimingPainter {
     const double ms = (to - from).seconds() * 1e3;
     plot_.x = faults_.label_width() > 0 ? faults_.label_width() + 24 : 24;
     for (const Lane& lane : lanes_) plot_.x = std::max(plot_.x, text_width(lane.label, 11) + 24);
-    plot_.width = std::clamp(ms * kPixelsPerMs, kLeastPlot, kMostPlot);
-    plot_.y = kTop;
-    double y = kTop + faults_.height();
+    // A page's script makes it as wide as there is room.
+    plot_.width = tags_.on() ? kLeastPlot : std::clamp(ms * kPixelsPerMs, kLeastPlot, kMostPlot);
+    plot_.y = tags_.on() ? kTopInPage : kTop;
+    double y = plot_.y + faults_.height();
     for (std::size_t i = 0; i < lanes_.size(); ++i) {
       if (i > 0 && lanes_[i].section != lanes_[i - 1].section) y += 10;
       centre_[lanes_[i].key] = y + lane_height(lanes_[i]) / 2;
       y += lane_height(lanes_[i]);
     }
-    plot_.height = y - kTop;
+    plot_.height = y - plot_.y;
     legend_ = timing_legend(data_, names_, ways_, !images_.empty(), from_, to_);
     for (const auto& r : data_.on_channel)
       if (const ChannelMark mark = channel_mark(r, names_);
@@ -78,11 +81,11 @@ class TimingPainter {
                                           number(in_ms(from_)), number(in_ms(to_)));
     Svg svg(plot_.x + plot_.width + 24, height, title);
     svg_ = &svg;
-    svg.text({24, 22}, title, {.size = 14, .bold = true});
+    if (!tags_.on()) svg.text({24, 22}, title, {.size = 14, .bold = true});
     grid();
     faults_.draw_labels(svg, plot_);
     svg.open_group("events", plot_);
-    faults_.draw(svg, plot_, [&](TrueTime t) { return x(t); });
+    faults_.draw(svg, plot_, [&](TrueTime t) { return x(t); }, tags_);
     slots();
     channel_marks();
     can();
@@ -94,10 +97,11 @@ class TimingPainter {
     svg.close_group();
     svg.open_group("events", plot_);
     instants();
-    problems_->draw(svg, [&](const LaneKey& lane, TrueTime at) { return Point{x(at), y(lane)}; });
+    problems_->draw(svg, [&](const LaneKey& lane, TrueTime at) { return Point{x(at), y(lane)}; }, tags_);
     svg.close_group();
     labels();
-    svg.rect(plot_, {.stroke = kBlack, .width = 0.8});
+    svg.tag_next(tags_.span(from_, to_));
+    svg.rect(plot_, {.stroke = kBlack, .width = 0.8}, {}, tags_.on() ? "plot" : "");
     draw_legend(svg, {24, legend_top}, legend_width, legend_);
     return svg.str();
   }
@@ -109,6 +113,10 @@ class TimingPainter {
   }
   double y(const LaneKey& lane) const { return centre_.at(lane); }
   bool visible(TrueTime start, TrueTime end) const { return start < to_ && end >= from_; }
+  // In a hover's words, which a page's script adds itself.
+  std::string times(TrueTime start, TrueTime end) const {
+    return tags_.on() ? "" : fmt::format(", {} ms to {} ms", number(in_ms(start)), number(in_ms(end)));
+  }
   double stay_inside(double px) const { return std::clamp(px, plot_.x, plot_.x + plot_.width); }
 
   void grid() {
@@ -120,18 +128,24 @@ class TimingPainter {
       const TrueTime end = next != starts.end() ? next->second : it->second + cycle_;
       if (!visible(it->second, end)) continue;
       const double left = stay_inside(x(it->second)), right = stay_inside(x(end));
-      if (it->first % 2 != 0)
+      if (it->first % 2 != 0) {
+        svg_->tag_next(tags_.span(it->second, end));
         svg_->rect({left, plot_.y, right - left, plot_.height}, {.fill = "#f4f4f4"}, {}, "cycle");
-      if (it->second >= from_)
+      }
+      if (it->second >= from_) {
+        svg_->tag_next(tags_.at(it->second));
         svg_->line({left, plot_.y - 4}, {left, plot_.y + plot_.height}, {.stroke = "#b8b8b8", .width = 0.7},
                    "cycle");
+      }
       const std::string label = fmt::format("{}", it->first);
       const TextStyle style{.size = 10, .anchor = Anchor::kMiddle, .fill = "#444444"};
       Area area = text_area({(left + right) / 2, plot_.y - 7}, label, style);
       area.x -= 4, area.width += 8;
-      if (it->first >= 0 && area.x >= plot_.x && area.x + area.width <= plot_.x + plot_.width &&
-          above.claim(area))
-        svg_->text({(left + right) / 2, plot_.y - 7}, label, style);
+      if (it->first < 0) continue;
+      const bool room = area.x >= plot_.x && area.x + area.width <= plot_.x + plot_.width && above.claim(area);
+      if (!room && !tags_.on()) continue;
+      svg_->tag_next(tags_.span(it->second, end) + tags_.label(area.width, room));
+      svg_->text({(left + right) / 2, plot_.y - 7}, label, style);
     }
     if (!starts.empty())
       svg_->text({plot_.x - 10, plot_.y - 7}, "cycle",
@@ -147,6 +161,10 @@ class TimingPainter {
       svg_->line({plot_.x, centre}, {plot_.x + plot_.width, centre}, {.stroke = "#e0e0e0", .width = 0.7});
       svg_->text({plot_.x - 10, centre + 4}, lane.label, {.size = 11, .anchor = Anchor::kEnd});
     }
+    if (tags_.on()) {   // of its own: the script draws another
+      svg_->close_group();
+      svg_->open_group("time");
+    }
     draw_time_axis(*svg_, plot_, {in_ms(from_), in_ms(to_)});
     svg_->close_group();
   }
@@ -161,7 +179,11 @@ class TimingPainter {
                                             f.cycle, f.null_frame ? "null frame, " : "", names_.pdu(f.pdu),
                                             f.sequence, f.fragment, names_.node(f.node));
       const Area area{x(f.start), centre - kBox / 2, width, kBox};
-      if (f.null_frame && width > 3) {
+      svg_->tag_next(tags_.span(f.start, f.end) +
+                     (f.pdu == kNoPdu ? "" : tags_.list(names_.sensor_of(f.pdu), f.sequence)));
+      if (f.null_frame && tags_.on()) {
+        svg_->rect(area, {.fill = "#ffffff", .stroke = kGrey, .width = 0.3}, hover, "null");
+      } else if (f.null_frame && width > 3) {
         svg_->rect(area, {.fill = "#ffffff", .stroke = kGrey, .width = 0.5}, hover, "null");
       } else if (f.null_frame) {
         // Side walls of neighbours would fill a narrow box: only its top and bottom then.
@@ -180,6 +202,7 @@ class TimingPainter {
     for (const ChannelMark& mark : marks_) {
       const double centre = y({LaneKey::Kind::kChannel, mark.channel, 0}) + 4;
       const double width = std::max(2.0, x(mark.end) - x(mark.start));
+      svg_->tag_next(mark.missing ? tags_.at(mark.start) : tags_.span(mark.start, mark.end));
       if (mark.missing)
         svg_->marker(Marker::kCross, {x(mark.start) + width / 2, centre}, 9, {.stroke = kVermilion, .width = 1.6}, mark.words,
                      "missing");
@@ -204,10 +227,10 @@ class TimingPainter {
     for (const Transfer& t : transfers_) {
       if (t.lane.kind != LaneKey::Kind::kCan || !visible(t.start, t.end)) continue;
       const std::string colour = pdu_colour(names_, t.pdu);
+      svg_->tag_next(tags_.span(t.start, t.end) + tags_.list(names_.sensor_of(t.pdu), t.sequence));
       svg_->rect({x(t.start), y(t.lane) - kBox / 2, std::max(1.5, x(t.end) - x(t.start)), kBox},
                  {.fill = tint(colour, 0.55), .stroke = colour, .width = 0.9},
-                 fmt::format("{} #{}, {} ms to {} ms", names_.pdu(t.pdu), t.sequence, number(in_ms(t.start)),
-                             number(in_ms(t.end))),
+                 fmt::format("{} #{}{}", names_.pdu(t.pdu), t.sequence, times(t.start, t.end)),
                  "transfer");
     }
   }
@@ -217,34 +240,41 @@ class TimingPainter {
       if (!visible(r.activated, r.end)) continue;
       const double centre = y({LaneKey::Kind::kTask, index_of(r.node), r.task});
       if (r.activated < r.start) {
+        svg_->tag_next(tags_.span(r.activated, r.start));
         svg_->line({x(r.activated), centre}, {x(r.start), centre}, {.stroke = "#666666", .width = 1.5});
+        svg_->tag_next(tags_.at(r.activated));
         svg_->line({x(r.activated), centre - 4}, {x(r.activated), centre + 4},
                    {.stroke = "#666666", .width = 1.0});
       }
       const double width = std::max(1.5, x(r.end) - x(r.start));
+      svg_->tag_next(tags_.span(r.start, r.end));
       svg_->rect(
           {x(r.start), centre - kBox / 2, width, kBox},
           {.fill = r.deadline_met ? "#c9d7e6" : kDeadlineMissed,
            .stroke = r.deadline_met ? "#5b7083" : kBlack,
            .width = r.deadline_met ? 0.6 : 1.6},
-          fmt::format("{}: {}, {} ms to {} ms{}", names_.node(r.node), names_.task(r.node, r.task),
-                      number(in_ms(r.start)), number(in_ms(r.end)), r.deadline_met ? "" : ", deadline missed"),
+          fmt::format("{}: {}{}{}", names_.node(r.node), names_.task(r.node, r.task), times(r.start, r.end),
+                      r.deadline_met ? "" : ", deadline missed"),
           r.deadline_met ? "task" : "task missed");
     }
   }
 
   void instants() {
-    for (const auto& m : data_.measurements)
-      if (visible(m.at, m.at))
-        svg_->marker(
-            Marker::kDownTriangle, {x(m.at), y({LaneKey::Kind::kSensor, index_of(m.id.sensor), 0})}, 10,
-            {.fill = sensor_colour(names_, m.id.sensor), .stroke = "#ffffff", .width = 0.8},
-            fmt::format("{} #{} at {} ms", names_.sensor(m.id.sensor), m.id.sequence, number(in_ms(m.at))),
-            "measured");
-    for (const Way& way : ways_)
-      if (way.dropped && visible(way.last.at, way.last.at))
-        svg_->marker(Marker::kCross, {x(way.last.at), y(way.last.lane)}, 11, {.stroke = kBlack, .width = 2.2},
-                     "dropped", "dropped");
+    for (const auto& m : data_.measurements) {
+      if (!visible(m.at, m.at)) continue;
+      svg_->tag_next(tags_.at(m.at) + tags_.list(m.id.sensor, m.id.sequence));
+      svg_->marker(Marker::kDownTriangle, {x(m.at), y({LaneKey::Kind::kSensor, index_of(m.id.sensor), 0})}, 10,
+                   {.fill = sensor_colour(names_, m.id.sensor), .stroke = "#ffffff", .width = 0.8},
+                   fmt::format("{} #{}{}", names_.sensor(m.id.sensor), m.id.sequence,
+                               tags_.on() ? " is measured" : fmt::format(" at {} ms", number(in_ms(m.at)))),
+                   "measured");
+    }
+    for (const Way& way : ways_) {
+      if (!way.dropped || !visible(way.last.at, way.last.at)) continue;
+      svg_->tag_next(tags_.at(way.last.at) + tags_.list(way.id.sensor, way.id.sequence));
+      svg_->marker(Marker::kCross, {x(way.last.at), y(way.last.lane)}, 11, {.stroke = kBlack, .width = 2.2}, "dropped",
+                   "dropped");
+    }
   }
 
   void draw(const Way& way) {
@@ -255,6 +285,8 @@ class TimingPainter {
                                                   way.out_of_sequence ? ", out of sequence" : "");
     for (const Leg& leg : way.legs) {
       if (!visible(leg.from.at, leg.to.at)) continue;
+      svg_->tag_next(tags_.span(leg.from.at, leg.to.at) + tags_.list(way.id.sensor, way.id.sequence) +
+                     tags_.since(way.legs.front().from.at));
       if (leg.kind == Leg::Kind::kStored) {
         svg_->arrow({x(leg.from.at), y(leg.from.lane)}, {x(leg.to.at), y(leg.to.lane)}, {.stroke = colour},
                     hover, "arrow image");
@@ -285,8 +317,11 @@ class TimingPainter {
   }
 
   // Labels come last and only where nothing is in the way.
-  void label(const std::string& text, const TextStyle& style, std::span<const Point> candidates) {
-    if (const auto p = space_.place(text, style, candidates, plot_)) svg_->text(*p, text, style);
+  void label(const std::string& text, const TextStyle& style, std::span<const Point> candidates, TrueTime at) {
+    const auto p = space_.place(text, style, candidates, plot_);
+    if (!p && !tags_.on()) return;
+    svg_->tag_next(tags_.at(at) + tags_.label(text_width(text, style.size), p.has_value()));
+    svg_->text(p.value_or(candidates.front()), text, style);
   }
 
   void labels() {
@@ -296,7 +331,7 @@ class TimingPainter {
       const double px = x(m.at), py = y({LaneKey::Kind::kSensor, index_of(m.id.sensor), 0});
       const std::string text = fmt::format("{}", m.id.sequence);
       const std::array<Point, 2> at{Point{px + 7, py + 4}, Point{px - 7 - text_width(text, kText), py + 4}};
-      label(text, {.size = kText, .halo = true}, at);
+      label(text, {.size = kText, .halo = true}, at, m.at);
     }
     for (const auto& s : data_.steps) {
       const TimingData::Run* box = nullptr;
@@ -313,7 +348,7 @@ class TimingPainter {
       const std::string full = fmt::format("{} {}", names_.pdu(t.pdu), t.sequence),
                         brief = fmt::format("{}", t.sequence);
       if (t.lane.kind == LaneKey::Kind::kCan) {
-        if (!in_box(full, t.start, t.end, y(t.lane), tint(pdu_colour(names_, t.pdu), 0.55)))
+        if (!in_box(full, t.start, t.end, y(t.lane), tint(pdu_colour(names_, t.pdu), 0.55)) && !tags_.on())
           in_box(brief, t.start, t.end, y(t.lane), tint(pdu_colour(names_, t.pdu), 0.55));
         continue;
       }
@@ -326,21 +361,26 @@ class TimingPainter {
       const double baseline = y(t.lane) + 4 - kBox / 2 - 4;
       const std::array<Point, 1> at{Point{stay_inside(x(t.start)), baseline}};
       const TextStyle style{.size = 9, .halo = true};
-      if (const auto p = space_.place(full, style, at, plot_))
+      if (tags_.on())
+        label(full, style, at, t.start);
+      else if (const auto p = space_.place(full, style, at, plot_))
         svg_->text(*p, full, style);
       else
-        label(brief, style, at);
+        label(brief, style, at, t.start);
     }
     svg_->close_group();
   }
 
   bool in_box(const std::string& text, TrueTime start, TrueTime end, double centre, std::string_view behind) {
     const double left = stay_inside(x(start)), right = stay_inside(x(end));
-    if (right - left < text_width(text, kText) + 5) return false;
+    const bool fits = right - left >= text_width(text, kText) + 5;
+    if (!fits && !tags_.on()) return false;
     const TextStyle style{.size = kText, .anchor = Anchor::kMiddle, .fill = text_colour_on(behind)};
     const std::array<Point, 1> at{Point{(left + right) / 2, centre + 3.5}};
-    const auto p = space_.place(text, style, at, plot_);
-    if (p) svg_->text(*p, text, style);
+    const auto p = fits ? space_.place(text, style, at, plot_) : std::nullopt;
+    if (!p && !tags_.on()) return false;
+    svg_->tag_next(tags_.span(start, end) + tags_.label(text_width(text, kText), p.has_value()));
+    svg_->text(at.front(), text, style);
     return p.has_value();
   }
 
@@ -348,6 +388,7 @@ class TimingPainter {
   const TimingData& data_;
   Duration cycle_;
   TrueTime from_, to_;
+  TimingTags tags_;
   std::vector<Transfer> transfers_;
   std::vector<Way> ways_, images_;
   FaultLanes faults_;
@@ -363,9 +404,9 @@ class TimingPainter {
 
 }  // namespace
 
-std::string paint_timing(const Names& names, const TimingData& data, Duration cycle, TrueTime from,
-                         TrueTime to) {
-  return TimingPainter(names, data, cycle, from, to).picture();
+std::string paint_timing(const Names& names, const TimingData& data, Duration cycle, TrueTime from, TrueTime to,
+                         TimingUse use) {
+  return TimingPainter(names, data, cycle, from, to, use).picture();
 }
 
 }  // namespace ttf::report

@@ -8,14 +8,15 @@
 #include "report/axes.h"
 #include "report/names.h"
 #include "report/timing_data.h"
+#include "report/timing_diagram.h"
 #include "report/timing_ways.h"
 
 namespace ttf::report {
 
 inline constexpr std::string_view kDeadlineMissed = kYellow, kTaskFill = "#c9d7e6";
 
-std::string paint_timing(const Names& names, const TimingData& data, Duration cycle, TrueTime from,
-                         TrueTime to);
+std::string paint_timing(const Names& names, const TimingData& data, Duration cycle, TrueTime from, TrueTime to,
+                         TimingUse use);
 
 // What the picture explains: only what occurs in the window.
 std::vector<LegendEntry> timing_legend(const TimingData& data, const Names& names,

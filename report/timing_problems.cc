@@ -48,10 +48,13 @@ ProblemMarks::ProblemMarks(const TimingData& data, const Names& names, const std
   }
 }
 
-void ProblemMarks::draw(Svg& svg, const std::function<Point(const LaneKey&, TrueTime)>& place) const {
-  for (const Mark& mark : marks_)
+void ProblemMarks::draw(Svg& svg, const std::function<Point(const LaneKey&, TrueTime)>& place,
+                        const TimingTags& tags) const {
+  for (const Mark& mark : marks_) {
+    svg.tag_next(tags.at(mark.at));
     svg.marker(Marker::kDiamond, place(mark.lane, mark.at), 9, {.fill = kVermilion, .stroke = "#ffffff", .width = 0.8},
                mark.words, "problem");
+  }
 }
 
 void ProblemMarks::add_to(std::vector<LegendEntry>& legend) const {

@@ -10,6 +10,7 @@
 #include "report/axes.h"
 #include "report/names.h"
 #include "report/timing_data.h"
+#include "report/timing_tags.h"
 #include "report/timing_ways.h"
 
 namespace ttf::report {
@@ -19,7 +20,7 @@ class ProblemMarks {
   // Those in the window.
   ProblemMarks(const TimingData& data, const Names& names, const std::vector<Lane>& lanes, TrueTime from, TrueTime to);
 
-  void draw(Svg& svg, const std::function<Point(const LaneKey&, TrueTime)>& place) const;
+  void draw(Svg& svg, const std::function<Point(const LaneKey&, TrueTime)>& place, const TimingTags& tags) const;
   void add_to(std::vector<LegendEntry>& legend) const;
 
  private:

@@ -1,0 +1,73 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/commands.h"
+#include "cli/output.h"
+#include "cli/time_window.h"
+#include "core/errors.h"
+#include "report/experiment_report.h"
+#include "report/run_report.h"
+
+namespace ttf::cli {
+namespace {
+
+struct ReportOptions {
+  std::vector<std::string> folders;
+  double from_s = -1.0, to_s = -1.0;
+  std::string out;
+};
+
+std::string html(const ReportOptions& options) {
+  const TimeWindow window = time_window(options.from_s, options.to_s);
+  std::size_t experiments = 0;
+  for (const std::string& folder : options.folders)
+    experiments += report::kind_of_folder(folder) == report::FolderKind::kExperiment;
+  if (experiments == 0) {
+    report::RunReportOptions run;
+    if (options.from_s >= 0.0) run.from = window.from;
+    run.to = window.to;
+    return report::run_report_html(options.folders, run);
+  }
+  if (options.folders.size() > 1)
+    throw InputError({"command line", 0, "folders", options.folders[0],
+                      "must be one experiment, or runs alone: a report of several experiments there is none"});
+  for (const auto& [name, seconds] : {std::pair("--from", options.from_s), std::pair("--to", options.to_s)})
+    if (seconds >= 0.0)
+      throw InputError({"command line", 0, name, fmt::format("{:g} s", seconds), "goes with runs, not with an experiment"});
+  return report::experiment_report_html(options.folders[0]);
+}
+
+int run_report(const ReportOptions& options) {
+  const std::string page = html(options);
+  write_file(options.out, page);
+  fmt::print(stderr, "written to {}: {:.1f} MB\n", options.out, static_cast<double>(page.size()) * 1e-6);
+  return 0;
+}
+
+}  // namespace
+
+void add_report(CLI::App& app, Action& action) {
+  auto options = std::make_shared<ReportOptions>();
+  CLI::App* command = app.add_subcommand("report", "One HTML page of a run, of several side by side, or of an experiment");
+  command->footer(
+      "The page needs no network and nothing beside it.\n"
+      "Examples: ttfusion report out/paper_scenario1 -o drive.html\n"
+      "          ttfusion report out/seed1 out/seed2 out/seed3 -o drives.html\n"
+      "          ttfusion report out/process_noise -o answer.html");
+  command->add_option("folders", options->folders, "What run, launch or experiment left in --out")
+      ->required()->check(kNamed);
+  command
+      ->add_option("--from", options->from_s,
+                   "Start of the timing diagrams, true time in seconds (default: from where the drive is judged)")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--to", options->to_s, "End of the timing diagrams (default: 160 ms later; 2 s later at most)")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("-o,--out", options->out, "The page to write, .html")->required()->check(kNamed);
+  command->callback([options, &action] { action = [options] { return run_report(*options); }; });
+}
+
+}  // namespace ttf::cli

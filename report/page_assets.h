@@ -1,0 +1,13 @@
+// What a page has in it besides its content. Compiled in from report/page/ and from uPlot's package.
+#pragma once
+
+#include <string_view>
+
+namespace ttf::report::assets {
+
+extern const std::string_view kStyle;
+extern const std::string_view kPlotsScript;    // plots, with uPlot
+extern const std::string_view kTimingScript;   // timing diagrams
+extern const std::string_view kUplot, kUplotStyle, kUplotLicence;
+
+}  // namespace ttf::report::assets

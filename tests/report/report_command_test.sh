@@ -1,0 +1,122 @@
+#!/usr/bin/env bash
+# `ttfusion report`: of a run, of logs alone, of several runs, of an experiment; and what is refused.
+#   report_command_test.sh PROGRAM SOURCE_DIR
+set -u
+program=$1
+source=$2
+source "$source/tests/cli/expect.sh"
+cd "$work" || exit 1
+
+# What is in a page that must not be in another one.
+has() { grep -Fq -- "$2" "$1" || fail "$1 does not have '$2'"; }
+lacks() { ! grep -Eq -- "$2" "$1" || fail "$1 has '$2'"; }
+
+for seed in 1 2 3; do
+  expect 0 'written to' run "$source/scenarios/paper_scenario1.yaml" --seed $seed --no-pictures --out "seed$seed"
+done
+expect 0 'written to run.html: [0-9.]+ MB' report seed1 -o run.html
+has run.html 'A car ahead accelerates along the sensor vehicle'
+has run.html 'has the smallest position error here: 0.115 m'
+has run.html 'One drive is one draw of the noise'
+has run.html "ttfusion run scenarios/paper_scenario1.yaml --strategy tt --seed 1"
+has run.html "$(python3 -c 'import json; print(json.load(open("seed1/summary.json"))["strategies"][2]["content_hash"])')"
+# Nothing is fetched by it.
+lacks run.html '(src|href)="(https?:)?//|@import|url\(["'"'"']?http'
+# The same folder makes the same page.
+expect 0 '' report seed1 -o again.html
+cmp run.html again.html || fail "the same folder makes another page"
+# The curves are the run's: their root mean square from where the drive is judged is the summary's figure.
+python3 - <<'END' || fail "the position errors of the page are not those of summary.json"
+import json, math, re, sys
+page = open("run.html", encoding="utf-8").read()
+plots = json.loads(re.search(r'<script type="application/json" id="plots">(.*?)</script>', page, re.S)[1])
+curves = next(plot for plot in plots if plot["heading"] == "Error over time")["views"][0]["curves"]
+summary = json.load(open("seed1/summary.json"))["strategies"]
+assert [c["label"] for c in curves] == [s["strategy"] for s in summary]
+for curve, told in zip(curves, summary):
+    judged = [y for x, y in zip(curve["x"], curve["y"]) if x >= 1.501]
+    rmse = math.sqrt(sum(y * y for y in judged) / len(judged))
+    if len(judged) != told["objects"]["compared"] or abs(rmse - told["rmse_truth"]["position_m"]) > 1e-5:
+        sys.exit(f"{curve['label']}: {len(judged)} {rmse}, {told['rmse_truth']}")
+END
+
+# ---- several runs: paired intervals over their seeds
+expect 0 'written to' report seed1 seed2 seed3 -o runs.html
+has runs.html 'Over 3 runs of paper_scenario1,'
+has runs.html 'means of 3 runs, 95 % intervals'
+has runs.html 'Of 9 drives the first 4 are drawn.'
+
+# ---- logs alone, and a run without logs
+mkdir logs
+cp seed1/tt.mcap logs/
+expect 0 'written to' report logs -o logs.html
+has logs.html 'There is no summary.json'
+expect 0 '' run "$source/scenarios/paper_scenario1.yaml" --strategy tt --no-log --out without
+expect 0 'written to' report without -o without.html
+has without.html 'tt kept no log'
+
+# ---- faults, and another window
+expect 0 '' run "$source/scenarios/faulty_bus.yaml" --strategy tt --no-pictures --out faulty
+expect 0 'written to' report faulty --from 0.5 --to 0.52 -o faulty.html
+has faulty.html 'only 20 ms are drawn, from 0.5 s on'
+has faulty.html 'byzantine_clock'
+
+# ---- an experiment
+cat >small.yaml <<END
+kind: sweep
+name: small
+question: Is it <so>?
+scenario: $source/scenarios/dynamics.yaml
+seed: 3
+replications: 4
+paradigms:
+  adva: {strategy: adva, set: {duration: 700 ms, evaluate_from: 400 ms}}
+  tt: {strategy: tt, set: {duration: 700 ms, evaluate_from: 400 ms}}
+axes:
+  noise: {keys: [world.acceleration_noise], values: [1, 40]}
+measures: [position_rmse_truth, age_fused]
+END
+expect 0 'written to' experiment small.yaml --out small
+expect 0 'written to' report small -o small.html
+has small.html 'Is it &lt;so&gt;?'
+has small.html 'has the smallest position_rmse_truth at '
+has small.html 'root mean square of the position error against the truth'
+has small.html 'ttfusion experiment experiments/small.yaml --replay 0/adva/0 --out one'
+# The commands it shows do what they say.
+expect 0 'written to one' experiment small.yaml --replay 0/adva/0 --out one
+expect 0 'written to' report one -o one.html
+
+# ---- what is refused, in a sentence each
+mkdir nothing
+expect 2 '^error: nothing: is neither a run .* nor an experiment' report nothing -o x.html
+expect 2 '^error: nowhere: must be a folder of results' report nowhere -o x.html
+expect 2 '^error: .*small: must be one experiment, or runs alone' report small seed1 -o x.html
+expect 2 '^error: command line: --from = 1 s: goes with runs' report small --from 1 -o x.html
+expect 2 '^error: .*--out' report seed1
+mkdir damaged
+head -c 1000 small/answer.json >damaged/answer.json
+expect 2 '^error: damaged/answer.json:[0-9]+: must be JSON: it is damaged here, or cut off' report damaged -o x.html
+echo '{"experiment": "x", "question": 3}' >damaged/answer.json
+expect 2 '^error: damaged/answer.json: question = *.*: must be text|^error: damaged/answer.json: question: must be text' report damaged -o x.html
+python3 - <<'END'
+import json
+answer = json.load(open("small/answer.json"))
+del answer["points"][1]["paradigms"]["tt"]["age_fused"]["half_width"]
+json.dump(answer, open("damaged/answer.json", "w"))
+END
+expect 2 'answer.json: points\[1\].paradigms.tt.age_fused.half_width.*: is missing' report damaged -o x.html
+cp small/answer.json damaged/answer.json
+echo nonsense >damaged/results.sqlite
+expect 2 '^error: damaged/results.sqlite' report damaged -o x.html
+mkdir unreadable
+cp seed1/summary.json unreadable/
+echo nonsense >unreadable/tt.mcap
+cp seed1/adva.mcap seed1/buff.mcap unreadable/
+expect 2 '^error: unreadable/tt.mcap: ' report unreadable -o x.html
+echo '[]' >unreadable/summary.json
+expect 2 '^error: unreadable/summary.json: must be the summary of a run' report unreadable -o x.html
+expect 1 '^error: nowhere/x.html: cannot be written: No such file' report seed1 -o nowhere/x.html
+[[ ! -e x.html ]] || fail "a page was written all the same"
+
+echo "$failures failures"
+[[ $failures -eq 0 ]]
