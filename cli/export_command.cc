@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/commands.h"
@@ -10,6 +11,7 @@
 #include "core/counted.h"
 #include "recording/capture_export.h"
 #include "recording/merge.h"
+#include "recording/perfetto_export.h"
 
 namespace ttf::cli {
 namespace {
@@ -28,10 +30,27 @@ std::string converted(const std::string& format, const recording::FrameCollector
   return recording::export_csv(collector, frames, names);
 }
 
+int export_perfetto(const ExportOptions& options, const recording::MergedLogs& run) {
+  OutputFile file(options.out);
+  recording::PerfettoExport trace(recording::LogNames(run.manifest()),
+                                  [&](std::string_view bytes) { file.write(bytes); });
+  run.read(trace);
+  const recording::TraceCounts counts = trace.finish();
+  file.finish();
+  if (options.json)
+    fmt::print("{{\n  \"format\": \"perfetto\",\n  \"slices\": {},\n  \"instants\": {},\n"
+               "  \"counter_values\": {},\n  \"flows\": {}\n}}\n",
+               counts.slices, counts.instants, counts.counters, counts.flows);
+  fmt::print(stderr, "{}, {} and {} of measurements written to {}\n", counted(counts.slices, "slice"),
+             counted(counts.instants, "instant"), counted(counts.flows, "way"), options.out);
+  return 0;
+}
+
 int run_export(const ExportOptions& options) {
   for (const std::string& log : options.logs) refuse_overwriting(log, options.out, "--out");
   const recording::MergedLogs run(options.logs);
   print_warnings(run.warnings());
+  if (options.format == "perfetto") return export_perfetto(options, run);
   recording::FrameCollector collector;
   run.read(collector);
   const recording::LogNames names(run.manifest());
@@ -55,18 +74,18 @@ int run_export(const ExportOptions& options) {
 
 void add_export(CLI::App& app, Action& action) {
   auto options = std::make_shared<ExportOptions>();
-  CLI::App* command = app.add_subcommand("export", "A run's frames for Wireshark, canplayer or a spreadsheet");
+  CLI::App* command = app.add_subcommand("export", "A run for Wireshark, canplayer, ui.perfetto.dev or a spreadsheet");
   command->footer(
-      "The start of the run is 1970-01-01 in pcapng, second 1000000000 in candump, and 0 in csv.\n"
+      "The start of the run is 1970-01-01 in pcapng, second 1000000000 in candump, and 0 in csv and perfetto.\n"
       "The logs of a run's processes are merged.\n"
       "Example: ttfusion export out/drive/tt.mcap --format pcapng -o drive.pcapng");
   command->add_option("logs", options->logs, "Log of a run, or one of each of its processes")->required();
   command
       ->add_option("--format", options->format,
                    "pcapng (FlexRay and CAN, for Wireshark), candump (CAN only, for canplayer), "
-                   "csv (all frames and symbols)")
+                   "csv (all frames and symbols), perfetto (tasks, frames and ways, for ui.perfetto.dev)")
       ->required()
-      ->check(CLI::IsMember({"pcapng", "candump", "csv"}));
+      ->check(CLI::IsMember({"pcapng", "candump", "csv", "perfetto"}));
   command->add_option("-o,--out", options->out, "File to write")->required();
   command->add_flag("--json", options->json, "Counts as JSON on standard output");
   command->callback([options, &action] { action = [options] { return run_export(*options); }; });

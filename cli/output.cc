@@ -10,6 +10,8 @@
 #include <filesystem>
 #include <memory>
 #include <stdexcept>
+#include <system_error>
+#include <utility>
 
 #include "core/errors.h"
 
@@ -27,6 +29,27 @@ void write_file(const std::string& path, std::string_view text) {
   if (file == nullptr || std::fwrite(text.data(), 1, text.size(), file.get()) != text.size()) fail(path);
   // What is still buffered may fail as well.
   if (std::fclose(file.release()) != 0) fail(path);
+}
+
+OutputFile::OutputFile(std::string path) : path_(std::move(path)), file_(std::fopen(path_.c_str(), "wb")) {
+  if (file_ == nullptr) fail(path_);
+}
+
+OutputFile::~OutputFile() {
+  if (file_ == nullptr) return;
+  std::fclose(file_);
+  std::error_code none;
+  if (std::filesystem::is_regular_file(path_, none)) std::filesystem::remove(path_, none);
+}
+
+void OutputFile::write(std::string_view text) {
+  if (std::fwrite(text.data(), 1, text.size(), file_) != text.size()) fail(path_);
+}
+
+void OutputFile::finish() {
+  if (std::fflush(file_) != 0) fail(path_);
+  std::FILE* const whole = std::exchange(file_, nullptr);
+  if (std::fclose(whole) != 0) fail(path_);
 }
 
 void create_folder(const std::string& path) {

@@ -2,6 +2,7 @@
 // code 1.
 #pragma once
 
+#include <cstdio>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,6 +11,21 @@ namespace ttf::cli {
 
 // Writes the whole file. Throws std::runtime_error with path and reason where it cannot.
 void write_file(const std::string& path, std::string_view text);
+
+// A file that is written piece by piece, and is there only if it was finished. Throws as write_file().
+class OutputFile {
+ public:
+  explicit OutputFile(std::string path);
+  ~OutputFile();
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+  void write(std::string_view text);
+  void finish();
+
+ private:
+  std::string path_;
+  std::FILE* file_;
+};
 
 // Throws InputError where `path`, given as `flag`, is the very file that is being read.
 void refuse_overwriting(const std::string& input, const std::string& path, const std::string& flag);

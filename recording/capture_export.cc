@@ -53,19 +53,6 @@ std::string list_of(const LoggedFrame& frame, const LogNames& names) {
   return fmt::format("measurement {}: {}, fragment {}", measurement, names.pdu(frame.pdu), frame.fragment);
 }
 
-struct SymbolName {
-  const char* flag;
-  const char* words;
-};
-SymbolName name_of(std::uint8_t symbol) {
-  switch (symbol) {
-    case records::kSymbolCas: return {"cas", "collision avoidance symbol"};
-    case records::kSymbolWakeup: return {"wakeup", "wake-up pattern"};
-    case records::kSymbolMediaTest: return {"media_test", "media access test symbol"};
-    default: return {"", "symbol"};   // of a damaged log
-  }
-}
-
 std::int64_t bits_of(const LoggedFrame& symbol, const LogNames& names) {
   const std::int64_t bit = names.manifest().bit_ps > 0 ? names.manifest().bit_ps : kUsualBit_ps;
   const double bits = static_cast<double>(symbol.duration_ns) * 1e3 / static_cast<double>(bit);
@@ -74,7 +61,7 @@ std::int64_t bits_of(const LoggedFrame& symbol, const LogNames& names) {
 
 std::string comment_of(const LoggedFrame& frame, const LogNames& names) {
   if (frame.symbol != 0)
-    return fmt::format("{} of {}, {:.1f} us", name_of(frame.symbol).words, names.node(frame.sender),
+    return fmt::format("{} of {}, {:.1f} us", name_of_symbol(frame.symbol).words, names.node(frame.sender),
                        static_cast<double>(frame.duration_ns) * 1e-3);
   const std::string origin = origin_of(frame, names), list = list_of(frame, names);
   return origin + (origin.empty() || list.empty() ? "" : "; ") + list;
@@ -173,7 +160,7 @@ std::string export_csv(const FrameCollector& collector, const std::vector<Logged
   for (const LoggedFrame& frame : frames) {
     if (frame.symbol != 0) {
       out += fmt::format("{},{},{},,,{},symbol,{},,,,,\n", frame.time_ns, kFlexRayName, letter(channel_of(frame)),
-                         quoted(names.node(frame.sender)), name_of(frame.symbol).flag);
+                         quoted(names.node(frame.sender)), name_of_symbol(frame.symbol).flag);
       continue;
     }
     const bool list = frame.pdu != kNoPdu;

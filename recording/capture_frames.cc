@@ -18,12 +18,29 @@ std::string name_or_number(const std::vector<std::string>& names, std::size_t in
 }  // namespace
 
 std::string LogNames::node(NodeId id) const { return name_or_number(manifest_.node_names, index_of(id), "node"); }
+std::string LogNames::task(NodeId node, std::uint8_t task) const {
+  return index_of(node) < manifest_.task_names.size()
+             ? name_or_number(manifest_.task_names[index_of(node)], task, "task")
+             : fmt::format("task {}", task);
+}
+std::string LogNames::sensor(SensorId id) const {
+  return name_or_number(manifest_.sensor_names, index_of(id), "sensor");
+}
 std::string LogNames::pdu(PduId id) const { return name_or_number(manifest_.pdu_names, index_of(id), "pdu"); }
 std::string LogNames::can_bus(std::size_t index) const { return name_or_number(manifest_.can_bus_names, index, "can"); }
 
 std::string LogNames::measurement(const LoggedFrame& frame) const {
   if (frame.null_frame || frame.sensor == kNoSensor) return "";
-  return fmt::format("{} {}", name_or_number(manifest_.sensor_names, index_of(frame.sensor), "sensor"), frame.sequence);
+  return fmt::format("{} {}", sensor(frame.sensor), frame.sequence);
+}
+
+SymbolName name_of_symbol(std::uint8_t symbol) {
+  switch (symbol) {
+    case records::kSymbolCas: return {"cas", "collision avoidance symbol"};
+    case records::kSymbolWakeup: return {"wakeup", "wake-up pattern"};
+    case records::kSymbolMediaTest: return {"media_test", "media access test symbol"};
+    default: return {"", "symbol"};   // of a damaged log
+  }
 }
 
 void FrameCollector::on(const records::SlotFrameSent& record) {

@@ -41,9 +41,11 @@ class LogNames {
   explicit LogNames(LogManifest manifest) : manifest_(std::move(manifest)) {}
 
   std::string node(NodeId id) const;
+  std::string task(NodeId node, std::uint8_t task) const;
   std::string pdu(PduId id) const;
   std::string can_bus(std::size_t index) const;
   std::size_t can_buses() const { return manifest_.can_bus_names.size(); }
+  std::string sensor(SensorId id) const;
   // "laser 12"; empty for a frame that carries nothing of a single measurement.
   std::string measurement(const LoggedFrame& frame) const;
   const LogManifest& manifest() const { return manifest_; }
@@ -51,6 +53,12 @@ class LogNames {
  private:
   LogManifest manifest_;
 };
+
+struct SymbolName {
+  const char* flag;
+  const char* words;
+};
+SymbolName name_of_symbol(std::uint8_t symbol);   // records::kSymbolCas, ...
 
 // Collects frames while a log is read. FlexRay frames are as they were on the channel: what reached nobody is none, and
 // what nobody sent is one. Symbols are as they were sent: no log knows more of them.

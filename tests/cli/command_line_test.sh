@@ -220,6 +220,14 @@ expect 1 'absent/drive.csv: cannot be written' export "$work/a/tt.mcap" --format
 expect 0 '[1-9][0-9]* FlexRay and [1-9][0-9]* CAN frames and 0 symbols' export "$work/a/tt.mcap" --format pcapng -o "$work/drive.pcapng"
 expect 0 '"can_frames": [1-9]' export "$work/a/tt.mcap" --format candump --json -o "$work/drive.log"
 expect 0 'warning: .*cut.mcap' export "$work/cut.mcap" --format csv -o "$work/drive.csv"
+expect 0 '"flows": [1-9]' export "$work/a/tt.mcap" --format perfetto --json -o "$work/drive.pftrace"
+expect 0 'warning: .*cut.mcap' export "$work/cut.mcap" --format perfetto -o "$work/cut.pftrace"
+protoc --decode=ttfusion.perfetto.Trace -I "$source/recording" "$source/recording/perfetto.proto" <"$work/drive.pftrace" |
+  grep -q 'name: "age of the newest measurement when used \[ms\]"' || fail "export --format perfetto leaves no trace"
+expect 1 'absent/x.pftrace: cannot be written' export "$work/a/tt.mcap" --format perfetto -o "$work/absent/x.pftrace"
+if [[ -c /dev/full ]]; then
+  expect 1 '/dev/full: cannot be written: No space left' export "$work/a/tt.mcap" --format perfetto -o /dev/full
+fi
 head -1 "$work/drive.csv" | grep -q '^time_ns,bus,channel,' || fail "export --format csv leaves no header"
 grep -Evq '^\([0-9]{10}\.[0-9]{6}\) [a-z_]+ [0-9A-F]{3}#(#1)?([0-9A-F]{2})*$' "$work/drive.log" &&
   fail "export --format candump leaves a line canplayer does not read"
