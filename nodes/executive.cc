@@ -39,7 +39,12 @@ struct Executive::SensorState {
   bool armed = false;            // host: trigger still due in this cycle
   Duration phase{};              // device, free-running: from power-on to the first measurement
   LocalTime first{};             // likewise: the instant of that
-  std::optional<Microticks> triggered;   // device: measures at the next advance()
+  std::optional<Microticks> due; // device, scheduled or following: measures then, at the first advance() from it on
+  Microticks ready{};            // device that follows: not before this
+  std::optional<std::size_t> after;      // host, followed: the task whose end triggers
+
+  bool runs_freely() const { return is_device && !sensor->scheduled && !sensor->follows(); }
+  bool followed() const { return is_device && sensor->follows(); }
 };
 
 Executive::Executive(const ExecutiveConfig& config, std::vector<std::shared_ptr<Step>> steps,
@@ -95,6 +100,12 @@ Executive::Executive(const ExecutiveConfig& config, std::vector<std::shared_ptr<
         state.phase = sensor.phase ? *sensor.phase : Duration{phase.integer(0, sensor.period.ns - 1)};
       }
     }
+    if (state.is_host && sensor.follows()) {
+      const auto after = std::find_if(node_.tasks.begin(), node_.tasks.end(),
+                                      [&](const schedules::Task& task) { return task.name == sensor.after; });
+      TTF_CHECK(after != node_.tasks.end(), "{} has no task {} for {}", node_.name, sensor.after, sensor.name);
+      state.after = static_cast<std::size_t>(after - node_.tasks.begin());
+    }
     sensors_.push_back(state);
   }
   if (!asleep_) rise(config.power_on);
@@ -124,7 +135,10 @@ Microticks Executive::ticks(Duration duration) const {
 }
 
 void Executive::rise(Microticks now) {
-  for (SensorState& state : sensors_) state.first = config_.oscillator.local_time(now) + state.phase;
+  for (SensorState& state : sensors_) {
+    state.first = config_.oscillator.local_time(now) + state.phase;
+    if (state.followed()) state.due = ticks(state.first - LocalTime{});
+  }
   if (!flexray_ || config_.clock) return;
   waking_ = config_.cold == ColdStart::kWakes;
   if (!waking_) return flexray_->start_cold(now);
@@ -158,8 +172,8 @@ Microticks Executive::next_event() const {
       if (state.armed) next = std::min(next, global->start_of(state.sensor->at.offset));
   }
   for (const SensorState& state : sensors_) {
-    if (state.triggered) next = std::min(next, *state.triggered);
-    if (state.is_device && !state.sensor->scheduled)
+    if (state.due) next = std::min(next, *state.due);
+    if (state.runs_freely())
       next = std::min(next, ticks((state.first - LocalTime{}) + state.sensor->period * state.measured));
   }
   return next;
@@ -169,7 +183,7 @@ Promise Executive::promise() const {
   Promise promise{next_event(), kNever, soonest_end(true), kNever};
   if (flexray_) promise.after_flexray = asleep_ || flexray_->answers_at_once() ? Microticks{} : soonest_end(false);
   for (const SensorState& state : sensors_)
-    if (state.is_device && state.sensor->scheduled) promise.after_trigger = Microticks{};
+    if (state.is_device && !state.runs_freely()) promise.after_trigger = Microticks{};
   return promise;
 }
 
@@ -178,11 +192,11 @@ Microticks Executive::soonest_end(bool on_can) const {
   for (const TaskState& state : tasks_) {
     const schedules::Task& task = *state.task;
     if (task.activation.kind != schedules::ActivationKind::kMessage) continue;
-    const bool activates = std::any_of(task.reads.begin(), task.reads.end(), [&](const schedules::PortBinding& port) {
-      return port.port == task.activation.port && port.can_bus.has_value() == on_can;
+    const bool set_off = std::any_of(task.reads.begin(), task.reads.end(), [&](const schedules::PortBinding& port) {
+      return activates(task, port) && port.can_bus.has_value() == on_can;
     });
     const bool drawn = task.draw == schedules::ExecutionDraw::kUniform;
-    if (activates) soonest = std::min(soonest, ticks(drawn ? task.best_case : task.worst_case));
+    if (set_off) soonest = std::min(soonest, ticks(drawn ? task.best_case : task.worst_case));
   }
   return soonest;
 }
@@ -223,10 +237,11 @@ void Executive::activate_due(Microticks now) {
       state.armed = false;
       lines_.trigger(state.id);
     }
-    const bool by_itself = state.is_device && !state.sensor->scheduled &&
+    const bool by_itself = state.runs_freely() &&
                            ticks((state.first - LocalTime{}) + state.sensor->period * state.measured) <= now;
-    if (by_itself || state.triggered) measure(state, now);
-    state.triggered.reset();
+    const bool due = state.due && *state.due <= now;
+    if (due) state.due.reset();
+    if (by_itself || due) measure(state, now);
   }
   for (std::size_t t = 0; t < tasks_.size(); ++t)
     if (tasks_[t].armed && clock()->start_of(tasks_[t].task->activation.at.offset) <= now) {
@@ -239,13 +254,17 @@ void Executive::measure(SensorState& sensor, Microticks now) {
   tasks_[sensor.task].measurement = sensor.measured;
   lines_.strobe(sensor.id, sensor.measured);
   ++sensor.measured;
+  if (sensor.followed()) {
+    sensor.ready = now + ticks(sensor.sensor->period);
+    sensor.due = now + ticks(sensor.sensor->longest);
+  }
   activate(sensor.task, now);
 }
 
 void Executive::trigger(SensorId sensor, Microticks now) {
   if (asleep_) return;
   for (SensorState& state : sensors_)
-    if (state.id == sensor && state.is_device) state.triggered = now;
+    if (state.id == sensor && state.is_device) state.due = state.followed() ? std::max(now, state.ready) : now;
 }
 
 void Executive::strobe(SensorId sensor, std::uint32_t sequence, Microticks now) {
@@ -304,6 +323,7 @@ void Executive::start_next(Microticks now) {
     context.stamp = state.run.start;
     context.activation = state.activations;
     context.measurement = state.measurement;
+    context.global_time = clock() != nullptr;
     context.inputs = state.inputs;
     context.outputs = state.outputs;
     context.strobes = strobes_;
@@ -337,7 +357,8 @@ void Executive::start_next(Microticks now) {
 }
 
 void Executive::finish(Microticks now) {
-  TaskState& state = tasks_[*running_];
+  const std::size_t ended = *running_;
+  TaskState& state = tasks_[ended];
   running_.reset();
   state.run.end = stamp(now);
   for (std::size_t o = 0; o < state.outputs.size(); ++o) {
@@ -358,6 +379,8 @@ void Executive::finish(Microticks now) {
     if (tasks_[t].task->activation.kind == schedules::ActivationKind::kCompletion &&
         tasks_[t].task->activation.after == state.task->name)
       activate(t, now);
+  for (const SensorState& sensor : sensors_)
+    if (sensor.after == ended && !state.waiting) lines_.trigger(sensor.id);
 }
 
 bus::IncomingList& Executive::incoming(const schedules::PortBinding& binding) {
@@ -412,8 +435,7 @@ void Executive::arrived(PduId pdu, int can_bus, bus::ArrivalEffect effect, std::
         hop(stamp_at, records::Hop::kOverwritten, pdu, *state.unread[i], can_bus);
       }
       state.unread[i] = sequence;
-      const schedules::Activation& activation = state.task->activation;
-      if (activation.kind == schedules::ActivationKind::kMessage && activation.port == binding.port) activate(t, at);
+      if (activates(*state.task, binding)) activate(t, at);
     }
   }
 }

@@ -4,6 +4,9 @@
 // its end. One processor, no preemption; tasks activated while it is busy wait, and an activation that meets a still
 // waiting one of the same task is an overrun, counted.
 //
+// A sensor that follows its host is triggered when the host's task ends, unless that has been activated again already: one
+// list is on its way at a time, also after one was lost and the device has measured by itself.
+//
 // Waiting tasks start in order of their activation. Of those activated at one microtick the one that stands earlier in the
 // file is first, whatever activated them: a message, the end of another task, an instant of the schedule or a sensor.
 //

@@ -112,6 +112,11 @@ FusionStep::FusionStep(const schedules::Cluster& cluster, const schedules::Task&
 }
 
 void FusionStep::run(StepContext& context) {
+  // A list may come, and activate this, before the node has integrated: then no list has an age.
+  if (!context.global_time) {
+    for (Input& input : context.inputs) input.discarded = input.fresh;
+    return;
+  }
   ++host_->step;
   const GlobalTime now = context.stamp.global;
   // Measurements lie behind: up to seven eighths of a round are their age, the rest is for clocks that are ahead of

@@ -1,7 +1,7 @@
 // The fusion node: decodes what its controller received, hands it to a strategy, and writes the real-time image.
 //
 // It knows only bytes from its controller, the schedule and its own clock. Two tasks share one FusionHost: `fusion` at every
-// fusion instant, `image_output` before the image's slots. The image is predicted to the instant at which the feature
+// fusion instant, or whenever lists have arrived (BUFF and ADVA), `image_output` before the image's slots. The image is predicted to the instant at which the feature
 // service will use it, which the schedule says beforehand; predicting never touches the filter state.
 #pragma once
 

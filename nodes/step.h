@@ -84,6 +84,7 @@ class StrobeLatch {
 
 struct StepContext {
   records::Stamp stamp;                    // the task's start on all clocks; true time is for emulators and records
+  bool global_time = true;                 // else the node knows none, and the stamp's is its own clock's
   std::uint32_t activation = 0;            // how many times the task ran before
   std::uint32_t measurement = 0;           // sensor devices: the sequence number of this measurement
   std::span<Input> inputs;                 // in the order of the task's `reads`

@@ -9,13 +9,11 @@
 #include "schedules/can_load.h"
 #include "schedules/responses.h"
 #include "schedules/round.h"
+#include "schedules/sensor_loop.h"
 #include "schedules/slot_groups.h"
 
 namespace ttf::schedules {
 namespace {
-
-// The intermission belongs to a frame's duration, but the list is there before it.
-constexpr std::int64_t kIntermissionBits = 3;
 
 // Until when a list must have been written to be taken for a cycle, certainly or possibly.
 CycleInstant latch(const SlotGroup& group, bool latest) {
@@ -62,6 +60,7 @@ class Builder {
       task = reader(*out, node);
       if (task == nullptr) return {};
       activation(path, node, *task, *out);
+      path.on_arrival = activates(*out, *task);
     }
     if (task == nullptr || path.stages.empty()) return {};
     path.fused = path.stages.size();
@@ -91,8 +90,8 @@ class Builder {
   }
 
   void execution(Path& path, NodeId node, const Task& task) {
-    span(path, fmt::format("{}.{} executes", cluster_.node(node).name, task.name),
-         task.draw == ExecutionDraw::kWorst ? task.worst_case : task.best_case, task.worst_case);
+    span(path, fmt::format("{}.{} executes", cluster_.node(node).name, task.name), shortest_execution(task),
+         task.worst_case);
   }
 
   void transfer(Path& path, const PortBinding& binding) {
@@ -111,9 +110,8 @@ class Builder {
     const CanBus& bus = cluster_.can_buses[*binding.can_bus];
     const auto worst = can_worst_response(cluster_, bus, *message_of(bus, binding.pdu));
     TTF_CHECK(worst.has_value(), "{} is overloaded", bus.name);
-    const Duration intermission{kIntermissionBits * 1'000'000'000 / bus.nominal_bit_rate};
     span(path, fmt::format("{} on {}", layout.name, bus.name),
-         can_best_case(bus, layout.fragment_bytes) - intermission, *worst);
+         can_soonest_arrival(bus, layout.fragment_bytes), *worst);
   }
 
   const CanMessage* message_of(const CanBus& bus, PduId pdu) const {
@@ -200,7 +198,7 @@ class Builder {
   Duration longest_period(const Task& task) const {
     Duration longest{};
     if (task.activation.kind == ActivationKind::kTime) return cluster_.cycle() * task.activation.at.repetition;
-    for (const Sensor& sensor : cluster_.sensors) longest = std::max(longest, sensor.period);
+    for (const Sensor& sensor : cluster_.sensors) longest = std::max(longest, sensor.longest_period());
     return longest * 2;
   }
 
@@ -252,6 +250,8 @@ class Builder {
                            publisher->activation.after == fusing.name;
       if (!follows && publisher->activation.kind != ActivationKind::kTime) return;
       execution(path, id, fusing);
+      // First come, first served: activated while a list is being fused that time had no part in, it waits for that.
+      if (!follows && fusing.activation.kind == ActivationKind::kMessage) path.stages.back().best = {};
       if (!follows) instant(path, fmt::format("{}.{}", node.name, publisher->name), publisher->activation.at);
       queue(path, id, *publisher, {});
     }

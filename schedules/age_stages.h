@@ -32,6 +32,7 @@ struct Path {
   std::size_t available = 0;       // stages until the list is in the fusion node's CNI
   std::size_t fused = 0;           // until the fusing task starts
   std::size_t used = 0;            // until the image's reader starts; 0: there is none
+  bool on_arrival = false;         // the fusing task is activated by this very list
   CycleInstant use{0, 0, {}};      // of that reader; repetition 0 where time does not activate it
 };
 

@@ -53,11 +53,26 @@ class Ages {
     }
   }
 
-  void buffer(AgePath& ages, const std::vector<Release>& releases) {
+  // On arrival: what no sensor's slowest list can precede any more goes with the next list of the sensor whose lists are the
+  // least apart when they come.
+  Duration held_for_arrivals(const std::vector<AgePath>& paths) const {
+    Duration slowest{};
+    std::optional<Duration> apart;
+    for (const AgePath& path : paths) {
+      slowest = std::max(slowest, path.fusion_worst);
+      if (!path_of(cluster_, path.sensor).on_arrival) continue;
+      const Duration one = longest_between(path.sensor) + path.fused_worst - path.fused_best;
+      apart = std::min(apart.value_or(one), one);
+    }
+    return slowest + apart.value_or(Duration{});
+  }
+
+  void buffer(AgePath& ages, const std::vector<Release>& releases, Duration held_for_arrivals) {
     const Path path = path_of(cluster_, ages.sensor);
     const std::size_t gate = path.available;
     std::int64_t fused = 0, used = 0;
     const std::size_t last = std::max(path.used, path.fused);
+    if (path.on_arrival) return buffer(ages, path, held_for_arrivals);
     // Not activated by time: there are no fusion instants to hold a list for.
     if (gate >= path.stages.size() || path.stages[gate].kind != Stage::Kind::kActivation) return;
     for (const Release& release : releases) {
@@ -76,14 +91,40 @@ class Ages {
   }
 
  private:
+  void buffer(AgePath& ages, const Path& path, Duration held) const {
+    const auto with_clocks = [&](Duration sum) {
+      return sum + Duration{clocks_.apart_ns + clocks_.drift_ns(sum.ns)};
+    };
+    ages.buffered_fused_worst = with_clocks(held);
+    if (path.used == 0) return;
+    ages.buffered_use_worst = with_clocks(held + fusion_to_use(path));
+    ages.buffered_newest_worst = ages.buffered_use_worst + until_next_newest(path, ages.sensor);
+  }
+
+  // At worst, whatever the phase.
+  Duration fusion_to_use(const Path& path) const {
+    std::int64_t spans = 0, rest = 0;
+    std::size_t gate = path.fused;
+    for (; gate < path.used && !path.stages[gate].on_grid(true); ++gate) spans += path.stages[gate].worst.ns;
+    if (gate == path.used) return {spans};
+    for (const std::int64_t start : entries(cluster_, path.stages[gate], kFromCycle, true))
+      rest = std::max(rest, walk(cluster_, path, gate, path.used, start, true, true).back() - start);
+    return {spans + rest};
+  }
+
+  // Two measurements of a sensor, in global time.
+  Duration longest_between(SensorId id) const {
+    const Sensor& sensor = cluster_.sensor(id);
+    const Duration period = sensor.longest_period();
+    return period + Duration{sensor.scheduled ? 0 : clocks_.drift_ns(period.ns)};
+  }
+
   // The next measurement is first used at the latest one period and the bound of a first use after this one; the use
   // before that, a use period earlier, is the last that still shows this measurement as the newest.
   Duration until_next_newest(const Path& path, SensorId id) const {
-    const Sensor& sensor = cluster_.sensor(id);
-    const std::int64_t period = sensor.period.ns + (sensor.scheduled ? 0 : clocks_.drift_ns(sensor.period.ns));
     const std::int64_t between_uses =
         path.use.repetition > 0 ? cluster_.cycle().ns * path.use.repetition - clocks_.apart_ns : 0;
-    return {std::max<std::int64_t>(0, period - between_uses)};
+    return {std::max<std::int64_t>(0, longest_between(id).ns - between_uses)};
   }
 
   Extreme extreme(const Path& path, const Sensor& sensor, std::size_t last, bool latest) const {
@@ -156,7 +197,8 @@ std::vector<AgePath> measurement_ages(const Cluster& cluster) {
     if (auto path = ages.of(static_cast<SensorId>(s))) paths.push_back(std::move(*path));
   std::vector<Ages::Release> releases;
   for (const AgePath& path : paths) ages.releases(path.sensor, releases);
-  for (AgePath& path : paths) ages.buffer(path, releases);
+  const Duration held = ages.held_for_arrivals(paths);
+  for (AgePath& path : paths) ages.buffer(path, releases, held);
   return paths;
 }
 

@@ -20,9 +20,9 @@
 //       drift as far as the nodes may, and so does global time against true time. So the bounds hold on any clock.
 //   A3  a measurement is fused as soon as the fusion node has it (ADVA, TT); BUFF's waiting is bounded separately
 //   A4  one processor per node without preemption, first come first served: schedules/responses.h bounds the wait
-//   A5  a free-running sensor has any phase against the cycle, so the wait at the first stage on the cycle's grid is
-//       anything up to its period; from there on the grid is fixed and waits are exact. A scheduled sensor is on the
-//       grid from the start. All 64 cycles are gone through.
+//   A5  a sensor that runs freely, or follows its host, has any phase against the cycle, so the wait at the first stage on
+//       the cycle's grid is anything up to its period; from there on the grid is fixed and waits are exact. A scheduled
+//       sensor is on the grid from the start. All 64 cycles are gone through.
 // The bounds are safe: simulated ages lie between them.
 #pragma once
 
@@ -53,7 +53,8 @@ struct AgePath {
   // The newest measurement of the sensor that an image has in it, at any use of an image, not only the first: until the
   // use before the one at which the next measurement comes in.
   Duration newest_worst{};
-  // With BUFF: held until no older measurement of any sensor can still arrive (schedules/settled.h).
+  // With BUFF: held until no older measurement of any sensor can still arrive (schedules/settled.h), and, where lists activate
+  // the fusing task, the next list comes.
   Duration buffered_fused_worst{}, buffered_use_worst{};
   Duration buffered_newest_worst{};      // the newest one at any use, as newest_worst
   bool reaches_use = false;              // else everything about use is zero

@@ -12,6 +12,7 @@ namespace {
 
 constexpr int kStuffedClassic = 34;      // SOF to the end of the CRC, without data
 constexpr int kUnstuffed = 13;           // CRC delimiter to the end of the intermission
+constexpr std::int64_t kIntermission = 3;   // of these bits
 constexpr int kArbitrationFd = 17;       // SOF, identifier, RRS, IDE, FDF, res, BRS
 constexpr int kStuffedFd = 14;           // of them up to IDE: FDF, res and BRS alternate, so no run goes on
 constexpr int kControlFd = 5;            // ESI, DLC
@@ -55,6 +56,10 @@ Duration can_worst_case(const CanBus& bus, int bytes) {
 }
 
 Duration can_best_case(const CanBus& bus, int bytes) { return can_duration(bus, can_unstuffed_bits(bus, bytes)); }
+
+Duration can_soonest_arrival(const CanBus& bus, int bytes) {
+  return can_best_case(bus, bytes) - Duration{kIntermission * 1'000'000'000 / bus.nominal_bit_rate};
+}
 
 Duration can_list_worst_case(const CanBus& bus, const PduLayout& layout) {
   return can_worst_case(bus, layout.fragment_bytes) * layout.max_fragments();

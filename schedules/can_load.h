@@ -41,6 +41,9 @@ Duration can_duration(const CanBus& bus, CanBits bits);
 Duration can_worst_case(const CanBus& bus, int bytes);   // any data
 Duration can_best_case(const CanBus& bus, int bytes);    // no stuff bits but the fixed ones
 
+// From start of frame to when its receivers have it: can_best_case() without the intermission.
+Duration can_soonest_arrival(const CanBus& bus, int bytes);
+
 // All fragments of a full list of this message.
 Duration can_list_worst_case(const CanBus& bus, const PduLayout& layout);
 

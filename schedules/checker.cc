@@ -243,6 +243,7 @@ std::vector<Finding> check(const Cluster& cluster) {
   check_can(cluster, findings);
   check_tasks(cluster, findings);
   check_flow(cluster, findings);
+  check_loops(cluster, findings);
   return findings.take();
 }
 

@@ -12,6 +12,7 @@
 //   CAN          frames fit, identifiers are unique, worst-case load, responses within periods (schedules/can_load.h)
 //   tasks        no overlap, deadlines with every wait for other tasks, an end before the next activation
 //                (schedules/responses.h)
+//   loops        a sensor that follows its host does so in a closed loop (schedules/sensor_loop.h)
 //   flow         every reader has a writer and the other way round, sensors have their tasks, no list goes in a ring
 #pragma once
 
@@ -61,6 +62,7 @@ void check_tasks(const Cluster& cluster, ClusterFindings& findings);
 // A node whose tasks passed check_tasks(): deadlines with other tasks' turns, and what its lists promise on CANs.
 void check_responses(const Cluster& cluster, NodeId node, ClusterFindings& findings);
 void check_flow(const Cluster& cluster, ClusterFindings& findings);   // readers, writers, sensors
+void check_loops(const Cluster& cluster, ClusterFindings& findings);  // after all others
 
 // gAssumedPrecision = (34 + 20 gClusterDriftDamping) gdMaxMicrotick + 2 gdMaxPropagationDelay, in picoseconds.
 std::int64_t assumed_precision_ps(const GlobalParameters& flexray);

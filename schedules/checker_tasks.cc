@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "schedules/checker.h"
+#include "schedules/sensor_loop.h"
 #include "schedules/slot_groups.h"
 
 namespace ttf::schedules {
@@ -52,15 +53,16 @@ void check_activation(const Cluster& cluster, NodeId id, const Task& task, Clust
       break;
     }
     case ActivationKind::kMessage: {
-      const auto read = std::find_if(task.reads.begin(), task.reads.end(), [&](const PortBinding& binding) {
-        return binding.port == task.activation.port;
-      });
+      const auto read = std::find_if(task.reads.begin(), task.reads.end(),
+                                     [&](const PortBinding& binding) { return activates(task, binding); });
       if (read == task.reads.end()) {
         findings.parameter(path + ".activation.port", task.activation.port, "must be one of the ports the task reads");
         break;
       }
       const Duration period = shortest_period(cluster, *read);
-      if (period > Duration{} && task.worst_case > period)
+      // A sensor that waits for the task's end sends nothing before.
+      const bool waited_for = loop_through(cluster, id, task).has_value();
+      if (period > Duration{} && task.worst_case > period && !waited_for)
         findings.parameter(path + ".worst_case", ms(task.worst_case),
                            fmt::format("must be at most the shortest period of {}, {}", cluster.pdu(read->pdu).name,
                                        ms(period)));

@@ -28,6 +28,10 @@ bool share_a_cycle(const FrameSlot& a, const FrameSlot& b) {
   return a.base_cycle % shorter == b.base_cycle % shorter;
 }
 
+bool activates(const Task& task, const PortBinding& read) {
+  return task.activation.kind == ActivationKind::kMessage && task.activation.port == read.port;
+}
+
 bool continues(const FrameSlot& before, const FrameSlot& frame) {
   return frame.pdu != kNoPdu && frame.pdu == before.pdu && frame.slot == before.slot + 1 &&
          frame.fragment == before.fragment + 1 && frame.sender == before.sender &&

@@ -134,6 +134,9 @@ struct Task {
   int line = 0;
 };
 
+// Whether a list at this port, which the task reads, sets it off.
+bool activates(const Task& task, const PortBinding& read);
+
 struct Node {
   std::string name;
   std::optional<NodeParameters> flexray;   // nothing: not on FlexRay (a sensor device)
@@ -147,7 +150,9 @@ struct Node {
 enum class SensorKind : std::uint8_t { kLaser, kCamera, kRadar };
 
 // When a sensor measures. Free: period on the device's own clock, first instant at `phase` (drawn if absent).
-// Scheduled: at an instant of the host's global time, over a trigger line. In both the host latches its global
+// Scheduled: at an instant of the host's global time, over a trigger line. Following: over the same line, whenever a task of
+// the host has ended (its preprocessing), so as often as that can follow; first like a free one. What is lost on the way would
+// end that: a device which is not triggered measures by itself after `longest`. In all of them the host latches its global
 // time at the device's strobe, which is the measurement's time stamp.
 struct Sensor {
   std::string name;
@@ -155,10 +160,15 @@ struct Sensor {
   NodeId device{};               // the node that emulates it
   NodeId host{};                 // the preprocessing node that triggers it and takes its strobe
   bool scheduled = false;
-  Duration period{};             // free-running
+  Duration period{};             // free-running; following: the shortest that the device can, from one measurement to the next
   std::optional<Duration> phase;
   CycleInstant at{};             // scheduled
+  std::string after;             // following: the task of the host (schedules/sensor_loop.h); else empty
+  Duration longest{};            // following: from one measurement to the next, on the device's own clock
   int line = 0;
+
+  bool follows() const { return !after.empty(); }
+  Duration longest_period() const { return follows() ? longest : period; }
 };
 
 // How the nodes are wired, on either channel alike.

@@ -222,14 +222,24 @@ class Loader {
         "kind", {{"laser", SensorKind::kLaser}, {"camera", SensorKind::kCamera}, {"radar", SensorKind::kRadar}});
     item.device = node(map, "device");
     item.host = node(map, "host");
-    item.scheduled = map.choice<bool>("measurement", {{"free", false}, {"scheduled", true}});
+    enum class Measures : std::uint8_t { kFreely, kScheduled, kFollowing };
+    const auto when = map.choice<Measures>("measurement", {{"free", Measures::kFreely},
+                                                           {"scheduled", Measures::kScheduled},
+                                                           {"completion", Measures::kFollowing}});
+    item.scheduled = when == Measures::kScheduled;
     if (item.scheduled) {
       item.at = load_instant(map);
       item.period = cluster_.cycle() * item.at.repetition;
     } else {
-      item.period = map.duration("period", {Duration::milliseconds(1), kLongest});
+      const bool follows = when == Measures::kFollowing;
+      item.period = map.duration(follows ? "shortest_period" : "period", {Duration::milliseconds(1), kLongest});
+      if (follows) {
+        item.after = map.text("after");
+        item.longest = map.duration("longest_period", {item.period, kLongest});
+      }
       if (map.has("phase")) item.phase = map.duration("phase", {Duration{}, item.period - Duration{1}});
     }
+    for (const char* key : {"after", "longest_period"}) remember(map, key);
     map.finish();
   }
 

@@ -13,6 +13,7 @@
 //             of signals {name, unit, bits, low, high, resolution}, all but name and bits optional
 //   sensors: {NAME: {kind: laser|camera|radar, device, host, measurement: free, period, phase}}   phase is optional
 //         or {NAME: {kind, device, host, measurement: scheduled, base_cycle, repetition, offset}}
+//         or {NAME: {kind, device, host, measurement: completion, after: TASK_OF_HOST, shortest_period, longest_period, phase}}
 //   nodes:  {NAME: {flexray: {pKeySlotId: 1, ...}, drift_ppm, max_drift_ppm, tasks: {NAME: {...}}}}
 //           off FlexRay `microtick` in ns instead of `flexray`; without drift_ppm it is drawn within max_drift_ppm
 //   frames: [{slot, channels: A|B|AB, sender, base_cycle, repetition, pdu, fragments, first_fragment, network_management}]

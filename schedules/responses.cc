@@ -7,6 +7,7 @@
 #include "schedules/can_load.h"
 #include "schedules/clock_bounds.h"
 #include "schedules/round.h"
+#include "schedules/sensor_loop.h"
 #include "schedules/slot_groups.h"
 
 namespace ttf::schedules {
@@ -19,6 +20,17 @@ constexpr int kMostRounds = 10'000;
 struct Arrivals {
   std::int64_t period = 0;
   std::int64_t jitter = 0;
+};
+
+// How a sensor that waits for the task's end activates it.
+struct Following {
+  std::int64_t best = 0, worst = 0;   // execution
+  std::int64_t pause = 0;             // from its end to the next activation at the least
+  std::int64_t round() const { return best + pause; }
+  // The longest executions of activations before the last in a closed window.
+  std::int64_t before_last(std::int64_t window) const {
+    return window < round() ? 0 : static_cast<std::int64_t>(static_cast<Int128>(window) * worst / (worst + pause));
+  }
 };
 
 // This much work more in windows from this length on.
@@ -39,9 +51,16 @@ class NodeTasks {
           if (node_.tasks[other].name == node_.tasks[t].activation.after) before_[t] = other;
     whole_.resize(count);
     arrivals_.resize(count);
+    following_.resize(count);
     for (std::size_t t = 0; t < count; ++t) {
-      whole_[root(t)] += node_.tasks[t].worst_case.ns;
-      if (!before_[t] && !by_time(t)) arrivals_[t] = arrivals(node_.tasks[t]);
+      const Task& task = node_.tasks[t];
+      whole_[root(t)] += task.worst_case.ns;
+      if (before_[t] || by_time(t)) continue;
+      if (const auto loop = loop_through(cluster_, id, task))
+        following_[t] = Following{shortest_execution(task).ns, task.worst_case.ns,
+                                  std::max<std::int64_t>(1, shortest_return(cluster_, *loop).ns)};
+      else
+        arrivals_[t] = arrivals(task);
     }
     round_ = time_of(cluster.flexray, kCycles, Macroticks{0}).ns;
     for (std::size_t t = 0; t < count; ++t)
@@ -89,6 +108,9 @@ class NodeTasks {
       if (const auto& from = arrivals_[t])
         for (std::int64_t at = from->period - from->jitter % from->period; at <= busy; at += from->period)
           steps_.push_back(ahead_[t] + at);
+      // Between its steps the work that follows grows more slowly than the window.
+      if (const auto& following = following_[t])
+        for (std::int64_t at = following->round(); at <= busy; at += following->round()) steps_.push_back(ahead_[t] + at);
     }
     std::sort(steps_.begin(), steps_.end());
     steps_.erase(std::unique(steps_.begin(), steps_.end()), steps_.end());
@@ -116,22 +138,26 @@ class NodeTasks {
   }
 
   std::optional<Arrivals> arrivals(const Task& task) const {
-    if (task.activation.kind == ActivationKind::kSensor) {
-      const Sensor& sensor = cluster_.sensor(task.activation.sensor);
-      // A free-running sensor counts its period on the very oscillator.
-      if (!sensor.scheduled) return Arrivals{std::max<std::int64_t>(1, sensor.period.ns - kGranularity_ns), 0};
-      return Arrivals{own(sensor.period.ns), clock_bounds(cluster_).apart_ns};
-    }
-    for (const PortBinding& binding : task.reads) {
-      if (binding.port != task.activation.port) continue;
-      if (!binding.can_bus) {
-        const auto slots = shortest_slot_gap(cluster_, binding.pdu);
-        if (!slots) return std::nullopt;
-        return Arrivals{own(slots->gap.ns), slots->spread.ns + 2 * clock_bounds(cluster_).apart_ns};
-      }
-      return arrivals(cluster_.can_buses[*binding.can_bus], binding.pdu);
-    }
+    if (task.activation.kind == ActivationKind::kSensor) return measurements(task.activation.sensor);
+    for (const PortBinding& binding : task.reads)
+      if (activates(task, binding))
+        return binding.can_bus ? arrivals(cluster_.can_buses[*binding.can_bus], binding.pdu) : slots(binding.pdu);
     return std::nullopt;
+  }
+
+  Arrivals measurements(SensorId id) const {
+    const Sensor& sensor = cluster_.sensor(id);
+    if (sensor.scheduled) return {own(sensor.period.ns), clock_bounds(cluster_).apart_ns};
+    // A device that is not triggered counts its period on the very oscillator.
+    std::int64_t period = std::max<std::int64_t>(1, sensor.period.ns - kGranularity_ns);
+    if (const auto loop = loop_of(cluster_, id)) period = std::max(period, shortest_round(cluster_, *loop).ns);
+    return {period, 0};
+  }
+
+  std::optional<Arrivals> slots(PduId pdu) const {
+    const auto gap = shortest_slot_gap(cluster_, pdu);
+    if (!gap) return std::nullopt;
+    return Arrivals{own(gap->gap.ns), gap->spread.ns + 2 * clock_bounds(cluster_).apart_ns};
   }
 
   std::optional<Arrivals> arrivals(const CanBus& bus, PduId pdu) const {
@@ -185,6 +211,11 @@ class NodeTasks {
     return list;
   }
 
+  std::int64_t activations(std::size_t task, std::int64_t window) const {
+    const auto& from = arrivals_[task];
+    return from ? (window + from->jitter) / from->period + 1 : 1;
+  }
+
   // No more than twice what is looked into: enough to know that it never ends.
   std::int64_t sporadic(std::int64_t window) const {
     Int128 work = 0;
@@ -193,8 +224,11 @@ class NodeTasks {
       // Whose newest activation was some time ago has none in the last of the window.
       const std::int64_t before = window - ahead_[t];
       if (before < 0) continue;
-      const auto& from = arrivals_[t];
-      work += static_cast<Int128>(whole_[t]) * (from ? (before + from->jitter) / from->period + 1 : 1);
+      if (const auto& following = following_[t])
+        work += whole_[t] + following->before_last(before) +
+                static_cast<Int128>(whole_[t] - following->worst) * (before / following->round());
+      else
+        work += static_cast<Int128>(whole_[t]) * activations(t, before);
     }
     return static_cast<std::int64_t>(std::min<Int128>(work, 2 * kLongest_ns));
   }
@@ -256,8 +290,11 @@ class NodeTasks {
 
   void set_written(std::size_t task, TaskResponse& response) const {
     const Task& what = node_.tasks[task];
-    const Duration best = what.draw == ExecutionDraw::kWorst ? what.worst_case : what.best_case;
-    if (response.gap) response.written = Duration{std::max<std::int64_t>(0, (*response.gap - (response.worst - best)).ns)};
+    const Duration best = shortest_execution(what);
+    if (const auto& following = following_[task])
+      response.written = Duration{following->round()};
+    else if (response.gap)
+      response.written = Duration{std::max<std::int64_t>(0, (*response.gap - (response.worst - best)).ns)};
   }
 
   // From the activation of the chain's first task to the end of this one.
@@ -303,6 +340,7 @@ class NodeTasks {
   std::vector<std::int64_t> ahead_;                    // how long ago its newest activation was, at least
   std::vector<std::int64_t> whole_;                    // of a chain, at its first task
   std::vector<std::optional<Arrivals>> arrivals_;      // of first tasks that messages and sensors activate
+  std::vector<std::optional<Following>> following_;    // of first tasks that a sensor waits for
   std::vector<std::pair<std::int64_t, std::size_t>> instants_;   // of 64 cycles, in global time, and the task
   std::int64_t round_ = 0;
   std::vector<std::int64_t> steps_;                    // see find_steps()

@@ -10,6 +10,8 @@
 //   by time      the exact instants of 64 cycles, at the distances that the node's corrections can shrink them to
 //   by messages  at most floor((a + J) / T) + 1 in a window, T the shortest time between two lists where they are sent and J
 //   and sensors  by how much their way may differ from one to the next
+//   by a sensor  that waits for the task's end (schedules/sensor_loop.h): the next comes R after that end at the soonest, so
+//   that follows the executions between activations in a window are at most a C / (C + R), and one C more; C the worst case
 //   after other  with the task they follow: a chain's work comes at its beginning at the earliest
 // A task that follows another starts its own account when that one ends. What may then be before it was activated since the
 // other's activation; of every task at most one activation is pending, which is what the checker demands of all (an end
@@ -29,7 +31,8 @@ namespace ttf::schedules {
 
 struct TaskResponse {
   Duration worst{};                  // from activation to end
-  std::optional<Duration> gap;       // shortest between two activations; nothing where nothing is known of them
+  // Shortest between two activations; nothing where nothing is known of them, or where the next waits for the task's end.
+  std::optional<Duration> gap;
   std::optional<Duration> written;   // shortest between two ends
 };
 

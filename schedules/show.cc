@@ -149,6 +149,9 @@ std::string show_text(const Cluster& cluster) {
     if (sensor.scheduled)
       when = fmt::format("at {:.3f} ms + n*{:g} ms",
                          in_ms(time_of(g, sensor.at.base_cycle, sensor.at.offset) - GlobalTime{}), in_ms(sensor.period));
+    if (sensor.follows())
+      when = fmt::format("when {} ends, {:g} to {:g} ms after the last time", sensor.after, in_ms(sensor.period),
+                         in_ms(sensor.longest));
     text += fmt::format("  {:<12}{} -> {}: {}\n", sensor.name, cluster.node(sensor.device).name,
                         cluster.node(sensor.host).name, when);
   }

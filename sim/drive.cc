@@ -77,10 +77,20 @@ void check_late(const nodes::Scenario& scenario, const schedules::Cluster& clust
   throw InputError({scenario.file, line, "tracker.late", std::string(name_of(late)), refusal});
 }
 
+void check_fusion(const schedules::Cluster& cluster, fusion::StrategyKind strategy) {
+  if (strategy != fusion::StrategyKind::kTt) return;
+  for (const schedules::Node& node : cluster.nodes)
+    for (const schedules::Task& task : node.tasks)
+      if (task.step == "fusion" && task.activation.kind == schedules::ActivationKind::kMessage)
+        throw InputError({cluster.file, task.line, "nodes." + node.name + ".tasks." + task.name + ".activation", "",
+                          "must be of kind time with strategy tt, which relies on fusion instants that the schedule knows"});
+}
+
 void check_fits(const nodes::Scenario& scenario, const schedules::Cluster& cluster, fusion::StrategyKind strategy,
                 bool recording_given) {
   check_recording(scenario, cluster, recording_given);
   check_late(scenario, cluster, strategy);
+  check_fusion(cluster, strategy);
   const nodes::FaultPlan faults = nodes::resolve(scenario.faults, cluster);
   const nodes::BelievedSchedules believed(faults, cluster);
   if (scenario.startup.cold) (void)nodes::node_starts(scenario.startup, cluster, scenario.seed, 0);
@@ -92,6 +102,7 @@ DriveOutcome run_drive(const DriveConfig& config, records::Sink& out) {
   const nodes::Scenario& scenario = *config.scenario;
   check_recording(scenario, cluster, config.recorded != nullptr);
   check_late(scenario, cluster, config.strategy);
+  check_fusion(cluster, config.strategy);
   std::optional<Share> share;
   if (config.others != nullptr) share.emplace(config.others->self(), out);
   records::Sink& sink = share ? static_cast<records::Sink&>(*share) : out;

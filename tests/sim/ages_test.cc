@@ -2,59 +2,20 @@
 // adverse_ages_test.cc.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <map>
+#include <string>
 
 #include "schedules/ages.h"
+#include "tests/sim/drive_ages.h"
 #include "tests/sim/drive_fixture.h"
 
 namespace ttf {
 namespace {
 
 using fusion::StrategyKind;
+using testing_support::AgeRange;
+using testing_support::Ages;
 using testing_support::Drive;
 using testing_support::kStrategies;
-
-struct Range {
-  Duration best{}, worst{};
-  std::size_t count = 0;
-  void add(Duration age) {
-    best = count == 0 ? age : std::min(best, age);
-    worst = count == 0 ? age : std::max(worst, age);
-    ++count;
-  }
-};
-
-// When fused: of every list. When used: of the newest measurement of each sensor in the used image, at every use.
-struct Ages final : records::Sink {
-  using records::Sink::on;
-  std::map<SensorId, Range> fused, used;
-  std::size_t uses_without_image = 0;
-
-  void on(const records::ListFused& list) override {
-    if (list.disposition != records::Disposition::kFused && list.disposition != records::Disposition::kFusedLate) return;
-    fused[list.id.sensor].add(list.stamp.global - list.measured);
-    measured_[list.id] = list.measured;
-  }
-  void on(const records::ImageWritten& image) override {
-    newest_[image.sequence].assign(image.newest.begin(), image.newest.end());
-  }
-  void on(const records::FeatureUsed& use) override {
-    const auto image = newest_.find(use.image_sequence);
-    if (image == newest_.end()) ++uses_without_image;
-    else
-      for (const MeasurementId& id : image->second) used[id.sensor].add(use.stamp.global - measured_.at(id));
-  }
-  // Drives count their images and measurements from 0 again.
-  void next_drive() {
-    measured_.clear();
-    newest_.clear();
-  }
-
- private:
-  std::map<MeasurementId, GlobalTime> measured_;
-  std::map<std::uint32_t, std::vector<MeasurementId>> newest_;
-};
 
 TEST(Ages, SimulatedAgesLieWithinTheBounds) {
   for (const StrategyKind strategy : kStrategies) {
@@ -71,7 +32,7 @@ TEST(Ages, SimulatedAgesLieWithinTheBounds) {
     ASSERT_EQ(paths.size(), 2u);
     for (const schedules::AgePath& path : paths) {
       SCOPED_TRACE(std::string(nodes::name_of(strategy)) + ", " + drive.cluster.sensor(path.sensor).name);
-      const Range &fused = ages.fused[path.sensor], &used = ages.used[path.sensor];
+      const AgeRange &fused = ages.fused[path.sensor], &used = ages.used[path.sensor];
       EXPECT_GT(fused.count, kDrives * 30);
       EXPECT_GE(fused.best, path.fused_best);
       EXPECT_LE(fused.worst, buffered ? path.buffered_fused_worst : path.fused_worst);
