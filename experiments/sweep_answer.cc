@@ -114,21 +114,44 @@ void find_crossings(const SweepFile& sweep, std::size_t paradigm, std::size_t a,
   }
 }
 
+std::size_t measure_index(const SweepFile& sweep, const std::string& name) {
+  const auto found = std::find(sweep.measures.begin(), sweep.measures.end(), name);
+  return static_cast<std::size_t>(found - sweep.measures.begin());
+}
+
+// At one point: run by run, one measure less the other.
+bool agree(const SweepFile& sweep, const Expectation& expectation, const std::vector<Run>& runs) {
+  const std::size_t paradigm = index_of(sweep, expectation.less), first = sweep.drawn().size();
+  const std::size_t one = measure_index(sweep, expectation.measure), other = measure_index(sweep, expectation.agrees);
+  Moments difference;
+  for (const Run& run : runs)
+    if (run.key.paradigm == paradigm && run.status == results::kDone)
+      difference.add(run.values[first + one] - run.values[first + other]);
+  const Interval interval = interval_of(difference, sweep.confidence);
+  return interval.low() <= 0.0 && interval.high() >= 0.0;   // not where it is no number
+}
+
+bool less(const SweepFile& sweep, const Expectation& expectation, const std::vector<Run>& runs) {
+  Sums sums(sweep, index_of(sweep, expectation.than));
+  for (const Run& run : runs) sums.add(run);
+  const PointAnswer answer = sums.finish(0);
+  return answer.differences[index_of(sweep, expectation.less)][measure_index(sweep, expectation.measure)].below(0.0);
+}
+
 ExpectationAnswer judge(const SweepFile& sweep, const Expectation& expectation, const results::Store& store) {
   ExpectationAnswer answer{expectation.text, true, {}};
-  const std::size_t less = index_of(sweep, expectation.less), than = index_of(sweep, expectation.than);
-  const auto measure = static_cast<std::size_t>(
-      std::find(sweep.measures.begin(), sweep.measures.end(), expectation.measure) - sweep.measures.begin());
   const std::vector<const Axis*> grid = sweep.grid();
-  for (const PointAnswer& point : points_of(sweep, store, than, nullptr)) {
-    const std::vector<const Setting*> settings = sweep.settings_of(point.point);
+  for (std::uint32_t point = 0; point < sweep.points(); ++point) {
+    const std::vector<const Setting*> settings = sweep.settings_of(point);
     bool meant = true;
     for (std::size_t a = 0; a < grid.size(); ++a)
       if (const auto label = expectation.where.find(grid[a]->name); label != expectation.where.end())
         meant = meant && label->second == settings[a]->label;
-    if (!meant || point.differences[less][measure].below(0.0)) continue;
+    if (!meant) continue;
+    const std::vector<Run> runs = store.of_point(point);
+    if (expectation.agrees.empty() ? less(sweep, expectation, runs) : agree(sweep, expectation, runs)) continue;
     answer.holds = false;
-    answer.where_not.push_back(sweep.label_of(point.point));
+    answer.where_not.push_back(sweep.label_of(point));
   }
   return answer;
 }

@@ -226,18 +226,29 @@ class Reader {
     }
   }
 
+  std::string measure(YamlMap& map, std::string_view key) {
+    std::string name = map.text(key);
+    if (std::find(file_.measures.begin(), file_.measures.end(), name) == file_.measures.end())
+      map.fail(key, "must be one of `measures`");
+    return name;
+  }
+
   void read_expectations() {
     for (YamlMap& map : root_.maps_if("expect")) {
       Expectation expectation;
-      expectation.measure = map.text("measure");
-      if (std::find(file_.measures.begin(), file_.measures.end(), expectation.measure) == file_.measures.end())
-        map.fail("measure", "must be one of `measures`");
-      const std::size_t less = paradigm(map, "less"), than = paradigm(map, "than");
+      expectation.measure = measure(map, "measure");
+      const bool agreement = map.has("agrees");
+      if (agreement) expectation.agrees = measure(map, "agrees");
+      const std::size_t less = paradigm(map, agreement ? "of" : "less");
+      const std::size_t than = agreement ? less : paradigm(map, "than");
       if (file_.paradigms.empty()) continue;
-      if (less == than) map.fail("than", "must be another than `less`");
+      if (!agreement && less == than) map.fail("than", "must be another than `less`");
+      if (agreement && expectation.agrees == expectation.measure) map.fail("agrees", "must be another than `measure`");
       expectation.less = file_.paradigms[less].name;
-      expectation.than = file_.paradigms[than].name;
-      expectation.text = fmt::format("{} of {} less than of {}", expectation.measure, expectation.less, expectation.than);
+      if (!agreement) expectation.than = file_.paradigms[than].name;
+      expectation.text =
+          agreement ? fmt::format("{} of {} agrees with {}", expectation.measure, expectation.less, expectation.agrees)
+                    : fmt::format("{} of {} less than of {}", expectation.measure, expectation.less, expectation.than);
       if (map.has("where"))
         for (const auto& [name, label] : map.named_texts("where")) {
           const auto axis = std::find_if(file_.axes.begin(), file_.axes.end(),

@@ -20,12 +20,13 @@
 //   stop: {half_width: 0.002, batch: 50}           a point has enough when the first measure's differences are that sure
 //   expect:                                        what must come out, or the command exits with 1
 //     - {measure: position_rmse_truth, less: time_triggered, than: event_triggered, where: {noise: 2}}
+//     - {measure: position_mse_truth, agrees: position_mse_expected, of: event_triggered}   within the interval
 //
-// A key leads to a scalar of the scenario that is written there, "world.objects[0].speed"; of the paradigm's cluster where it
-// begins with "cluster."; each is set in one place only. The values of an axis with several keys go to all of them.
-// `scenario`, `cluster` and `faults` are keys, too, whose values are files: another scenario, another cluster, and a plan
-// of what goes wrong, {faults: [...]}, for a scenario that has none of its own. Behind a paradigm's name and a slash a key
-// is that paradigm's only, "time_triggered/cluster.sensors.laser.repetition".
+// A key leads to a scalar of the scenario that is written there, "world.objects[0].speed"; of the paradigm's cluster
+// where it begins with "cluster."; each is set in one place only. The values of an axis with several keys go to all of
+// them. `scenario`, `cluster` and `faults` are keys, too, whose values are files: another scenario, another cluster,
+// and a plan of what goes wrong, {faults: [...]}, for a scenario that has none of its own. Behind a paradigm's name and
+// a slash a key is that paradigm's only, "time_triggered/cluster.sensors.laser.repetition".
 #pragma once
 
 #include <cstdint>
@@ -80,7 +81,9 @@ struct StopRule {
 };
 
 struct Expectation {
-  std::string measure, less, than;
+  // Of paradigm `less` the measure is less than of paradigm `than`; or, where there is none, of paradigm `less` it
+  // agrees with the measure `agrees`: nothing is known against their being the same on the average.
+  std::string measure, less, than, agrees;
   std::map<std::string, std::string> where;     // axis, label; of axes that are not named: everywhere
   std::string text;
 };

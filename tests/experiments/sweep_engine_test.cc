@@ -143,6 +143,28 @@ TEST_F(SweepEngine, DifferencesArePaired) {
   EXPECT_THAT(text, testing::HasSubstr("They cross at noise 29.57."));
 }
 
+TEST_F(SweepEngine, MeasuresMayAgree) {
+  const SweepFile sweep = small_sweep(3, "expect: [{measure: position_rmse_truth, agrees: age_fused, of: adva}, "
+                                         "{measure: age_fused, agrees: position_rmse_truth, of: tt, "
+                                         "where: {noise: 1}}, "
+                                         "{measure: age_fused, agrees: position_rmse_truth, of: tt}]\n");
+  const SweepDrives drives(sweep);
+  results::Store made = store(drives, "made");
+  for (std::uint32_t point = 0; point < 2; ++point)
+    for (std::uint32_t r = 0; r < 3; ++r) {
+      const double off = 0.1 * (static_cast<double>(r) - 1.0);   // not on the average
+      made.add({{{point, r, 0}, results::kDone, {5.0 + r, 5.0 + r + off}},
+                {{point, r, 1}, results::kDone, {5.0 + r, 5.0 + r + off + (point == 1 ? 1.0 : 0.0)}}});
+    }
+  const SweepAnswer answer = answer_of(sweep, made);
+  ASSERT_EQ(answer.expectations.size(), 3u);
+  EXPECT_TRUE(answer.expectations[0].holds);
+  EXPECT_TRUE(answer.expectations[1].holds);
+  EXPECT_FALSE(answer.expectations[2].holds);
+  EXPECT_THAT(answer.expectations[2].where_not, testing::ElementsAre("noise 40"));
+  EXPECT_EQ(answer.expectations[0].text, "position_rmse_truth of adva agrees with age_fused");
+}
+
 // Where two are exactly alike, the sides differ by what is behind it.
 TEST_F(SweepEngine, ACrossingMayBeAtAPoint) {
   std::string text = sweep_text(3);

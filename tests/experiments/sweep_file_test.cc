@@ -70,6 +70,11 @@ TEST(SweepFile, WhatIsWrongIsToldWithItsLine) {
   EXPECT_THAT(refusal(kHead + axes + "measures: [speed]\n"), HasSubstr("must be some of position_rmse_truth"));
   EXPECT_THAT(refusal(kHead + axes + "compare: {baseline: b}\n"), HasSubstr("must be one of the paradigms"));
   EXPECT_THAT(refusal(kHead + axes + "expect: [{measure: nees, less: a, than: a}]\n"), HasSubstr("another than `less`"));
+  EXPECT_THAT(refusal(kHead + axes + "expect: [{measure: nees, agrees: speed, of: a}]\n"),
+              HasSubstr("one of `measures`"));
+  EXPECT_THAT(refusal(kHead + axes + "expect: [{measure: nees, agrees: nees, of: a}]\n"),
+              HasSubstr("another than `measure`"));
+  EXPECT_THAT(refusal(kHead + axes + "expect: [{measure: nees, agrees: missed, less: a}]\n"), HasSubstr("of"));
   EXPECT_THAT(refusal(kHead + axes + "expect: [{measure: nees, less: a, than: t, where: {one: 3}}]\n"),
               HasSubstr("not one: 3"));
   EXPECT_THAT(refusal(kHead + axes + "colour: red\n"), HasSubstr("colour"));
