@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cli/commands.h"
+#include "cli/export_gnuplot.h"
 #include "cli/output.h"
 #include "core/counted.h"
 #include "recording/capture_export.h"
@@ -46,7 +47,20 @@ int export_perfetto(const ExportOptions& options, const recording::MergedLogs& r
   return 0;
 }
 
+int export_for_papers(const ExportOptions& options) {
+  const std::vector<std::string> files = export_gnuplot(options.logs, options.out);
+  if (options.json) {
+    fmt::print("{{\n  \"format\": \"gnuplot\",\n  \"files\": [");
+    for (std::size_t f = 0; f < files.size(); ++f) fmt::print("{}\"{}\"", f == 0 ? "" : ", ", files[f]);
+    fmt::print("]\n}}\n");
+  }
+  fmt::print(stderr, "{} written to {}: `gnuplot NAME.gp` there draws NAME.pdf and NAME.png\n",
+             counted(files.size(), "file"), options.out);
+  return 0;
+}
+
 int run_export(const ExportOptions& options) {
+  if (options.format == "gnuplot") return export_for_papers(options);
   for (const std::string& log : options.logs) refuse_overwriting(log, options.out, "--out");
   const recording::MergedLogs run(options.logs);
   print_warnings(run.warnings());
@@ -74,19 +88,26 @@ int run_export(const ExportOptions& options) {
 
 void add_export(CLI::App& app, Action& action) {
   auto options = std::make_shared<ExportOptions>();
-  CLI::App* command = app.add_subcommand("export", "A run for Wireshark, canplayer, ui.perfetto.dev or a spreadsheet");
+  CLI::App* command =
+      app.add_subcommand("export", "A run for Wireshark, canplayer, ui.perfetto.dev, a spreadsheet or a paper");
   command->footer(
       "The start of the run is 1970-01-01 in pcapng, second 1000000000 in candump, and 0 in csv and perfetto.\n"
       "The logs of a run's processes are merged.\n"
-      "Example: ttfusion export out/drive/tt.mcap --format pcapng -o drive.pcapng");
-  command->add_option("logs", options->logs, "Log of a run, or one of each of its processes")->required();
+      "Example: ttfusion export out/drive/tt.mcap --format pcapng -o drive.pcapng\n"
+      "Example: ttfusion export out/noise --format gnuplot -o figures");
+  command
+      ->add_option("logs", options->logs,
+                   "Log of a run, or one of each of its processes; for gnuplot also of several runs, folders of logs or "
+                   "an experiment's folder")
+      ->required();
   command
       ->add_option("--format", options->format,
                    "pcapng (FlexRay and CAN, for Wireshark), candump (CAN only, for canplayer), "
-                   "csv (all frames and symbols), perfetto (tasks, frames and ways, for ui.perfetto.dev)")
+                   "csv (all frames and symbols), perfetto (tasks, frames and ways, for ui.perfetto.dev), "
+                   "gnuplot (tables and scripts for papers, into a folder)")
       ->required()
-      ->check(CLI::IsMember({"pcapng", "candump", "csv", "perfetto"}));
-  command->add_option("-o,--out", options->out, "File to write")->required();
+      ->check(CLI::IsMember({"pcapng", "candump", "csv", "perfetto", "gnuplot"}));
+  command->add_option("-o,--out", options->out, "File to write; for gnuplot the folder")->required();
   command->add_flag("--json", options->json, "Counts as JSON on standard output");
   command->callback([options, &action] { action = [options] { return run_export(*options); }; });
 }

@@ -143,4 +143,4 @@ std::vector<TraceFlow> MeasurementFlows::take(const TraceMark& mark) {
   return flows;
 }
 
-}   // namespace ttf::recording
+}  // namespace ttf::recording

@@ -107,4 +107,4 @@ class MeasurementFlows {
   std::uint64_t flow_ids_ = 0;
 };
 
-}   // namespace ttf::recording
+}  // namespace ttf::recording

@@ -74,7 +74,7 @@ const char* words_of_problem(std::uint8_t what) {
 
 std::int64_t whole(std::uint64_t number) { return static_cast<std::int64_t>(number); }
 
-}   // namespace
+}  // namespace
 
 PerfettoExport::PerfettoExport(LogNames names, TraceTimeline::Write write)
     : names_(std::move(names)),
@@ -331,4 +331,4 @@ void PerfettoExport::on(const records::TimingProblem& r) {
   node_instant(r.stamp.node, "timing problems", r.stamp.true_time, words_of_problem(r.what), std::move(notes));
 }
 
-}   // namespace ttf::recording
+}  // namespace ttf::recording

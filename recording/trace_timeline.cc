@@ -27,7 +27,7 @@ std::string as_packet(pb::TracePacket& packet) {
   return bytes;
 }
 
-}   // namespace
+}  // namespace
 
 std::uint64_t TraceTimeline::group_track(const std::string& group) {
   const auto [entry, first] = groups_.try_emplace(group, tracks_ + 1);
@@ -174,4 +174,4 @@ void TraceTimeline::write(const Place& place, const Event& event) {
   write_(as_packet(packet));
 }
 
-}   // namespace ttf::recording
+}  // namespace ttf::recording

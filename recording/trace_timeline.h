@@ -102,4 +102,4 @@ class TraceTimeline {
   TraceCounts counts_;
 };
 
-}   // namespace ttf::recording
+}  // namespace ttf::recording

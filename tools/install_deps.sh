@@ -18,6 +18,7 @@ packages=(
 programs=(
   node:nodejs npm:npm   # the log's official reader
   tshark:tshark         # captures, as Wireshark sees them
+  gnuplot:gnuplot-nox   # the pictures of exported scripts
 )
 # The slower gates (.ci/run) also need a second compiler and the fuzzer's runtime, what counts instructions, and the test bed:
 # a kernel's source, what it is built with, and strangers for its CANs.

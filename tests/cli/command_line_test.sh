@@ -295,7 +295,7 @@ for kind in timing startup position plane; do
   expect 0 '' diagram "$work"/nodes/node{3,0,4,2,1}.mcap --kind $kind --from 1.5 --to 1.6 -o "$work/of_many.svg"
   cmp -s "$work/of_one.svg" "$work/of_many.svg" || fail "the $kind diagram of a run's five logs is not that of its one log"
 done
-for format in pcapng candump csv; do
+for format in pcapng candump csv perfetto; do
   expect 0 '' export "$work/a/tt.mcap" --format $format -o "$work/of_one"
   expect 0 '' export "$work"/nodes/*.mcap --format $format -o "$work/of_many"
   cmp -s "$work/of_one" "$work/of_many" || fail "the $format export of a run's five logs is not that of its one log"

@@ -110,5 +110,5 @@ TEST(PerfettoDrives, AFaultyDriveIsASoundTraceAndTheSameEachTime) {
   EXPECT_EQ(drive.bytes, exported("scenarios/faulty_bus.yaml", fusion::StrategyKind::kTt).bytes);
 }
 
-}   // namespace
-}   // namespace ttf::recording
+}  // namespace
+}  // namespace ttf::recording

@@ -248,5 +248,5 @@ TEST(PerfettoExport, RecordsNoRunCanHaveStillMakeATrace) {
   EXPECT_GT(trace.slices.size(), 500u);
 }
 
-}   // namespace
-}   // namespace ttf::recording
+}  // namespace
+}  // namespace ttf::recording

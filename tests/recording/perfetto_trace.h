@@ -127,4 +127,4 @@ struct PerfettoTrace {
   std::uint64_t now_ = 0;
 };
 
-}   // namespace ttf::recording
+}  // namespace ttf::recording

@@ -1,0 +1,87 @@
+#include "report/experiment_summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+
+#include "core/errors.h"
+#include "recording/csv.h"
+
+namespace ttf::report {
+namespace {
+
+constexpr std::size_t kValueColumns = 7;
+constexpr const char* kNameOfAFile = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
+
+}  // namespace
+
+// "42 ms": the number, and what is behind it.
+std::optional<std::pair<double, std::string>> number_with_unit(const std::string& label) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(label.data(), label.data() + label.size(), value);
+  if (error != std::errc{} || !std::isfinite(value)) return std::nullopt;
+  std::string unit(end, label.data() + label.size());
+  if (!unit.empty() && unit.front() != ' ') return std::nullopt;
+  if (!unit.empty()) unit.erase(0, 1);
+  return std::pair(value, unit);
+}
+
+// Of a list of names, where `name` is; it is added where it is new.
+std::size_t place_in(std::vector<std::string>& names, const std::string& name) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+  names.push_back(name);
+  return names.size() - 1;
+}
+
+ExperimentSummary read_summary(std::string_view text, const std::string& file) {
+  const std::vector<std::string> values{
+      "paradigm", "measure", "count", "mean", "half_width", "difference", "difference_half_width"};
+  recording::CsvLines lines(text);
+  const auto refuse = [&](const std::string& why) -> InputError {
+    return InputError({file, lines.line(), "", "", why});
+  };
+  const bool head = lines.next() && lines.broken().empty();
+  const std::vector<std::string> names = head ? lines.fields() : std::vector<std::string>{};
+  if (names.size() < 1 + kValueColumns || names[0] != "point" ||
+      !std::equal(values.begin(), values.end(), names.end() - static_cast<std::ptrdiff_t>(kValueColumns)))
+    throw refuse("must be the summary.csv of an experiment: point, its axes, paradigm, measure, count, mean, ...");
+  ExperimentSummary summary;
+  summary.axes.assign(names.begin() + 1, names.end() - static_cast<std::ptrdiff_t>(kValueColumns));
+  std::map<std::string, std::size_t> places;
+  while (lines.next()) {
+    const std::vector<std::string>& row = lines.fields();
+    if (!lines.broken().empty()) throw refuse(std::string(lines.broken()));
+    if (row.size() != names.size()) throw refuse(fmt::format("must have {} fields", names.size()));
+    const std::size_t first = 1 + summary.axes.size();
+    const auto value = [&](std::size_t column) {
+      const std::string& field = row[first + column];
+      if (field.empty()) return kAbsent;
+      const auto number = number_with_unit(field);
+      if (!number || !number->second.empty())
+        throw InputError({file, lines.line(), values[column], field, "must be a number or empty"});
+      return number->first;
+    };
+    const auto [known, added] = places.try_emplace(row[0], summary.points.size());
+    if (added) summary.points.push_back({{row.begin() + 1, row.begin() + static_cast<std::ptrdiff_t>(first)}, {}});
+    SummaryPoint& point = summary.points[known->second];
+    if (row[first + 1].empty() || row[first + 1].find_first_not_of(kNameOfAFile) != std::string::npos)
+      throw InputError({file, lines.line(), "measure", row[first + 1], "must be letters, digits and underscores"});
+    const std::size_t paradigm = place_in(summary.paradigms, row[first]),
+                      measure = place_in(summary.measures, row[first + 1]);
+    point.cells.resize(std::max(point.cells.size(), measure + 1));
+    point.cells[measure].resize(std::max(point.cells[measure].size(), paradigm + 1));
+    point.cells[measure][paradigm] = {value(3), value(4), value(5), value(6)};
+  }
+  if (summary.points.empty()) throw refuse("must have a row: the experiment has no result yet");
+  for (SummaryPoint& point : summary.points) {
+    point.cells.resize(summary.measures.size());
+    for (auto& cells : point.cells) cells.resize(summary.paradigms.size());
+  }
+  return summary;
+}
+
+}  // namespace ttf::report
