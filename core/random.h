@@ -31,6 +31,7 @@ enum class Purpose : std::uint16_t {
   kArrival = 14,
   kSensorBias = 15,
   kSweep = 16,
+  kOtherTraffic = 17,
 };
 
 struct StreamKey {

@@ -34,6 +34,7 @@ struct Executive::SensorState {
   SensorId id{};
   const schedules::Sensor* sensor = nullptr;
   bool is_device = false, is_host = false;
+  bool runs_freely = false, follows = false;   // device
   std::size_t task = 0;          // the device's measuring task
   std::uint32_t measured = 0;    // device: measurements so far
   bool armed = false;            // host: trigger still due in this cycle
@@ -41,10 +42,7 @@ struct Executive::SensorState {
   LocalTime first{};             // likewise: the instant of that
   std::optional<Microticks> due; // device, scheduled or following: measures then, at the first advance() from it on
   Microticks ready{};            // device that follows: not before this
-  std::optional<std::size_t> after;      // host, followed: the task whose end triggers
-
-  bool runs_freely() const { return is_device && !sensor->scheduled && !sensor->follows(); }
-  bool followed() const { return is_device && sensor->follows(); }
+  std::optional<std::size_t> after;      // host, of one that follows: the task whose end triggers
 };
 
 Executive::Executive(const ExecutiveConfig& config, std::vector<std::shared_ptr<Step>> steps,
@@ -89,6 +87,8 @@ Executive::Executive(const ExecutiveConfig& config, std::vector<std::shared_ptr<
     state.is_device = sensor.device == config.node;
     state.is_host = sensor.host == config.node;
     if (!state.is_device && !state.is_host) continue;
+    state.follows = state.is_device && sensor.follows();
+    state.runs_freely = state.is_device && !sensor.scheduled && !sensor.follows();
     if (state.is_device) {
       const auto measuring = std::find_if(node_.tasks.begin(), node_.tasks.end(), [&](const schedules::Task& task) {
         return task.activation.kind == schedules::ActivationKind::kSensor && task.activation.sensor == state.id;
@@ -137,7 +137,7 @@ Microticks Executive::ticks(Duration duration) const {
 void Executive::rise(Microticks now) {
   for (SensorState& state : sensors_) {
     state.first = config_.oscillator.local_time(now) + state.phase;
-    if (state.followed()) state.due = ticks(state.first - LocalTime{});
+    if (state.follows) state.due = ticks(state.first - LocalTime{});
   }
   if (!flexray_ || config_.clock) return;
   waking_ = config_.cold == ColdStart::kWakes;
@@ -173,7 +173,7 @@ Microticks Executive::next_event() const {
   }
   for (const SensorState& state : sensors_) {
     if (state.due) next = std::min(next, *state.due);
-    if (state.runs_freely())
+    if (state.runs_freely)
       next = std::min(next, ticks((state.first - LocalTime{}) + state.sensor->period * state.measured));
   }
   return next;
@@ -183,7 +183,7 @@ Promise Executive::promise() const {
   Promise promise{next_event(), kNever, soonest_end(true), kNever};
   if (flexray_) promise.after_flexray = asleep_ || flexray_->answers_at_once() ? Microticks{} : soonest_end(false);
   for (const SensorState& state : sensors_)
-    if (state.is_device && !state.runs_freely()) promise.after_trigger = Microticks{};
+    if (state.is_device && !state.runs_freely) promise.after_trigger = Microticks{};
   return promise;
 }
 
@@ -237,7 +237,7 @@ void Executive::activate_due(Microticks now) {
       state.armed = false;
       lines_.trigger(state.id);
     }
-    const bool by_itself = state.runs_freely() &&
+    const bool by_itself = state.runs_freely &&
                            ticks((state.first - LocalTime{}) + state.sensor->period * state.measured) <= now;
     const bool due = state.due && *state.due <= now;
     if (due) state.due.reset();
@@ -254,7 +254,7 @@ void Executive::measure(SensorState& sensor, Microticks now) {
   tasks_[sensor.task].measurement = sensor.measured;
   lines_.strobe(sensor.id, sensor.measured);
   ++sensor.measured;
-  if (sensor.followed()) {
+  if (sensor.follows) {
     sensor.ready = now + ticks(sensor.sensor->period);
     sensor.due = now + ticks(sensor.sensor->longest);
   }
@@ -264,7 +264,7 @@ void Executive::measure(SensorState& sensor, Microticks now) {
 void Executive::trigger(SensorId sensor, Microticks now) {
   if (asleep_) return;
   for (SensorState& state : sensors_)
-    if (state.id == sensor && state.is_device) state.due = state.followed() ? std::max(now, state.ready) : now;
+    if (state.id == sensor && state.is_device) state.due = state.follows ? std::max(now, state.ready) : now;
 }
 
 void Executive::strobe(SensorId sensor, std::uint32_t sequence, Microticks now) {

@@ -1,8 +1,9 @@
 // The fusion node: decodes what its controller received, hands it to a strategy, and writes the real-time image.
 //
-// It knows only bytes from its controller, the schedule and its own clock. Two tasks share one FusionHost: `fusion` at every
-// fusion instant, or whenever lists have arrived (BUFF and ADVA), `image_output` before the image's slots. The image is predicted to the instant at which the feature
-// service will use it, which the schedule says beforehand; predicting never touches the filter state.
+// It knows only bytes from its controller, the schedule and its own clock. Its tasks share one FusionHost: `fusion` at every
+// fusion instant, or one of them for each sensor's list whenever that arrives (BUFF and ADVA), `image_output` before the
+// image's slots. The image is predicted to the instant at which the feature service will use it, which the schedule says
+// beforehand; predicting never touches the filter state.
 #pragma once
 
 #include <cstdint>

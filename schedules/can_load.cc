@@ -79,8 +79,8 @@ std::optional<Duration> can_worst_response(const Cluster& cluster, const CanBus&
   for (const CanMessage& other : bus.messages)
     if (other.identifier > message.identifier)
       blocking = std::max(blocking, can_worst_case(bus, cluster.pdu(other.pdu).fragment_bytes));
-  // Traffic that is not described may be of any priority: a longest frame of it may have just begun.
-  if (bus.other_load > 0.0) blocking = std::max(blocking, can_worst_case(bus, bus.flexible_data_rate ? 64 : 8));
+  // Traffic that is not described may be of any priority: as if it had the highest.
+  if (bus.other_load > 0.0) blocking += can_worst_case(bus, bus.flexible_data_rate ? 64 : 8);
   fixed += blocking;
   // Davis et al., equation 3, iterated to its fixed point from below; it ends because the load is below one.
   Duration response = fixed;

@@ -52,7 +52,8 @@ double can_worst_load(const Cluster& cluster, const CanBus& bus);
 
 // From the instant a full list of `message` is queued to the end of its last frame: one frame of lower priority that has
 // just begun, and every list of higher priority (lower identifier) at its shortest period; the bus' other load
-// stretches it as if it had the highest priority. Nothing where that never ends.
+// stretches it as if it had the highest priority, and a longest frame of it comes beyond its share. Nothing where that never
+// ends.
 std::optional<Duration> can_worst_response(const Cluster& cluster, const CanBus& bus, const CanMessage& message);
 
 }  // namespace ttf::schedules

@@ -16,7 +16,7 @@ void check_loops(const Cluster& cluster, ClusterFindings& findings) {
     if (!loop || !loop->raw->can_bus) {
       findings.parameter(path + ".after", sensor.after,
                          fmt::format("must be a task of {} that a list over a CAN from the measuring task of {} activates, and "
-                                     "nothing else does",
+                                     "that no other task follows",
                                      cluster.node(sensor.host).name, cluster.node(sensor.device).name));
       continue;
     }

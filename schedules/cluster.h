@@ -88,7 +88,7 @@ struct CanBus {
   bool flexible_data_rate = false;      // CAN FD with bit-rate switching
   std::int64_t nominal_bit_rate = 0;    // bit/s
   std::int64_t data_bit_rate = 0;       // bit/s, equal to nominal for classic CAN
-  double other_load = 0.0;              // share of the bus other traffic takes, for the checker
+  double other_load = 0.0;              // share of the bus that other traffic takes (sim/can_medium.h)
   std::vector<CanMessage> messages;
   int line = 0;
 };
@@ -160,7 +160,7 @@ struct Sensor {
   NodeId device{};               // the node that emulates it
   NodeId host{};                 // the preprocessing node that triggers it and takes its strobe
   bool scheduled = false;
-  Duration period{};             // free-running; following: the shortest that the device can, from one measurement to the next
+  Duration period{};             // free-running; following: the shortest from one measurement to the next that the device can
   std::optional<Duration> phase;
   CycleInstant at{};             // scheduled
   std::string after;             // following: the task of the host (schedules/sensor_loop.h); else empty

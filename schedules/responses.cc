@@ -108,9 +108,8 @@ class NodeTasks {
       if (const auto& from = arrivals_[t])
         for (std::int64_t at = from->period - from->jitter % from->period; at <= busy; at += from->period)
           steps_.push_back(ahead_[t] + at);
-      // Between its steps the work that follows grows more slowly than the window.
-      if (const auto& following = following_[t])
-        for (std::int64_t at = following->round(); at <= busy; at += following->round()) steps_.push_back(ahead_[t] + at);
+      // Behind its step its work grows more slowly than the window.
+      if (const auto& following = following_[t]) steps_.push_back(ahead_[t] + following->round());
     }
     std::sort(steps_.begin(), steps_.end());
     steps_.erase(std::unique(steps_.begin(), steps_.end()), steps_.end());
@@ -225,8 +224,7 @@ class NodeTasks {
       const std::int64_t before = window - ahead_[t];
       if (before < 0) continue;
       if (const auto& following = following_[t])
-        work += whole_[t] + following->before_last(before) +
-                static_cast<Int128>(whole_[t] - following->worst) * (before / following->round());
+        work += whole_[t] + following->before_last(before);
       else
         work += static_cast<Int128>(whole_[t]) * activations(t, before);
     }

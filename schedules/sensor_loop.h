@@ -2,8 +2,8 @@
 //
 //   device:  measuring ==> raw list =(CAN or FlexRay)=> host:  after =====> trigger -> device, not before `period` is over
 //
-// The ends of a loop are the device's measuring task and the task `after` that its raw list activates on the host; a host
-// triggers where that task ends and no newer list waits for it already, so that there is one list in the loop. In it a
+// The ends of a loop are the device's measuring task and the task `after` that its raw list activates on the host, and that
+// no other task follows; a host triggers where that task ends and no newer list waits for it already, so that there is one list in the loop. In it a
 // measurement comes at least
 //   best(measuring) + shortest transfer + best(after)
 // after the one before, however fast the device could, and the host's task never meets its own next activation: that is the

@@ -124,7 +124,8 @@ ClusterSimulation::ClusterSimulation(const SimulationConfig& config, records::Si
     std::vector<NodeId> members;
     for (std::size_t n = 0; n < cluster_.nodes.size(); ++n)
       if (is_on_can(cluster_.nodes[n], b)) members.push_back(static_cast<NodeId>(n));
-    cans_.push_back(std::make_unique<CanMedium>(cluster_, b, members, queue_, pool_, *can_log_));
+    cans_.push_back(std::make_unique<CanMedium>(cluster_, b, members, queue_, pool_, *can_log_, config_.seed,
+                                                config_.replication));
   }
   for (std::size_t n = 0; n < cluster_.nodes.size(); ++n) {
     const schedules::Node& node = cluster_.nodes[n];

@@ -46,7 +46,8 @@ void check_recording(const nodes::Scenario& scenario, const schedules::Cluster& 
 // Whether that strategy can take late lists of this cluster in as the scenario says (tracker.late). Throws InputError;
 // run_drive() asks it, too.
 void check_late(const nodes::Scenario& scenario, const schedules::Cluster& cluster, fusion::StrategyKind strategy);
-// Whether that strategy can fuse when the cluster has it fuse: TT at instants only. Throws InputError; run_drive() asks it, too.
+// Whether that strategy can fuse when the cluster has it fuse: TT not when lists arrive. Throws InputError; run_drive()
+// asks it, too.
 void check_fusion(const schedules::Cluster& cluster, fusion::StrategyKind strategy);
 // The same of all that a scenario says of its cluster's nodes, and of the recording: faults, start-up, late lists.
 // Throws InputError, so that nothing has to be begun to find it out.

@@ -91,6 +91,10 @@ TEST(CanResponse, BlockingAndHigherPriorities) {
   EXPECT_EQ(can_worst_response(cluster, bus, bus.messages[0]), Duration::microseconds(270));   // one below, itself
   EXPECT_EQ(can_worst_response(cluster, bus, bus.messages[1]), Duration::microseconds(405));   // all three
   EXPECT_EQ(can_worst_response(cluster, bus, bus.messages[2]), Duration::microseconds(405));   // two above, itself
+  // Half of the bus is others': a longest frame of them too, and all at half the speed.
+  bus.other_load = 0.5;
+  EXPECT_EQ(can_worst_response(cluster, bus, bus.messages[0]), Duration::microseconds(810));
+  bus.other_load = 0.0;
   // Short periods: the highest comes every 200 us. 405 us see it three times, 675 us four times, 810 us five times,
   // and 945 us are not more than five.
   bus.messages[0].shortest_period = Duration::microseconds(200);

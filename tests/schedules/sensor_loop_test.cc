@@ -55,6 +55,11 @@ TEST(Mutations, OfFollowingSensors) {
       {"after_another_list", "host: camera_pre, measurement: completion, after: preprocess",
        "host: laser_pre, measurement: completion, after: preprocess",
        {"host: laser_pre, measurement: completion", "sensors.camera.after", "preprocess", "from the measuring task of camera"}},
+      {"after_followed", "(camera_pre:[^~]*?)(  gateway:)",
+       "$1      more:\n        step: gateway\n        activation: {kind: completion, after: preprocess}\n"
+       "        best_case: 1 ms\n        worst_case: 1 ms\n        draw: uniform\n        deadline: 9 ms\n$2",
+       {"measurement: completion, after: preprocess, shortest_period: 16 ms", "sensors.camera.after", "preprocess",
+        "that no other task follows"}},
       {"longest_too_short", "longest_period: 33 ms", "longest_period: 31 ms",
        {"longest_period: 31 ms", "sensors.camera.longest_period", "31 ms", "must be at least 31.9"}},
       {"longest_below_shortest", "longest_period: 33 ms", "longest_period: 15 ms",

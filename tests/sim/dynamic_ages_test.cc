@@ -24,10 +24,12 @@ struct FusedAges final : records::Sink {
   }
 };
 
-TEST(DynamicAges, ListsInTheDynamicSegmentAreFusedWithinTheirBounds) {
+class DynamicLists : public testing::TestWithParam<const char*> {};
+
+TEST_P(DynamicLists, AreFusedWithinTheirBounds) {
   for (const StrategyKind strategy : {StrategyKind::kBuff, StrategyKind::kAdva}) {
     testing_support::Drive drive("scenarios/paper_scenario1.yaml", strategy);
-    drive.cluster = schedules::load_checked_cluster(testing_support::shipped("schedules/flexray_demo.yaml"));
+    drive.cluster = schedules::load_checked_cluster(testing_support::shipped(GetParam()));
     FusedAges fused;
     constexpr std::uint64_t kDrives = 15;
     for (std::uint64_t seed = 1; seed <= kDrives; ++seed) drive.run(fused, seed);
@@ -46,6 +48,10 @@ TEST(DynamicAges, ListsInTheDynamicSegmentAreFusedWithinTheirBounds) {
     }
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Clusters, DynamicLists,
+                         testing::Values("schedules/flexray_demo.yaml", "schedules/paper_dynamic.yaml"),
+                         [](const auto& name) { return name.index == 0 ? "Demo" : "Paper"; });
 
 struct Problems final : records::Sink {
   using records::Sink::on;

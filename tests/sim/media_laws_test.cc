@@ -118,7 +118,7 @@ class SimulatedCanBench final : public CanBench {
   sim::MediumQueue queue_{kRoom};
   sim::FramePool pool_{kRoom};
   Reported reported_;
-  sim::CanMedium medium_{cluster_, 0, kMembers, queue_, pool_, reported_};
+  sim::CanMedium medium_{cluster_, 0, kMembers, queue_, pool_, reported_, 1, 0};
   TrueTime now_{1'000};
   std::vector<std::unique_ptr<Port>> ports_;
   std::vector<CanReached> reached_;
