@@ -24,7 +24,7 @@ namespace ttf::report {
 namespace {
 
 constexpr Duration kDiagram = Duration::milliseconds(160), kLongestDiagram = Duration::milliseconds(2000);
-constexpr std::size_t kMostDiagrams = 4;   // half a megabyte each
+constexpr std::size_t kMostDiagrams = 6;   // half a megabyte each
 
 // What the scenario in the log says of itself.
 struct ScenarioWords {

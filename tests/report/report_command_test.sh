@@ -44,7 +44,13 @@ END
 expect 0 'written to' report seed1 seed2 seed3 -o runs.html
 has runs.html 'Over 3 runs of paper_scenario1,'
 has runs.html 'means of 3 runs, 95 % intervals'
-has runs.html 'Of 9 drives the first 4 are drawn.'
+has runs.html 'Of 9 drives the first 6 are drawn.'
+
+# ---- two scenarios: an answer each
+expect 0 '' run "$source/scenarios/paper_scenario2.yaml" --no-pictures --out other
+expect 0 'written to' report seed1 other -o scenarios.html
+has scenarios.html 'paper_scenario1: seed1 buff has the smallest position error here: 0.115 m'
+has scenarios.html 'paper_scenario2: other '
 
 # ---- logs alone, and a run without logs
 mkdir logs
