@@ -120,8 +120,10 @@ std::string single_answer(const std::vector<ToldDrive>& drives) {
   if (ranked.size() == 1)
     return fmt::format("{} is off by {} m in position (root mean square against the truth, when the image is used).",
                        ranked[0].label, brief(ranked[0].error));
-  std::string text = fmt::format("{} has the smallest position error here: {} m (root mean square against the truth, when "
-                                 "the image is used); ", ranked[0].label, brief(ranked[0].error));
+  std::string text = fmt::format(
+      "{} has the smallest position error here: {} m (root mean square against the truth, when "
+      "the image is used); ",
+      ranked[0].label, brief(ranked[0].error));
   for (std::size_t i = 1; i < ranked.size(); ++i)
     text += fmt::format("{}{} {} m{}", i > 1 ? ", " : "", ranked[i].label, brief(ranked[i].error),
                         percent_more(ranked[i].error, ranked[0].error));
@@ -158,8 +160,8 @@ void remark_on(const ToldDrive& told, bool ordinary, std::vector<std::string>& m
                                drive.label, *mean, *worst));
   if (const auto nees = at("/nees/mean"), low = at("/nees/band_95/0"), high = at("/nees/band_95/1");
       ordinary && nees && low && high && (*nees < *low || *nees > *high))
-    more.push_back(fmt::format("{}: its filter is {} than it believes: NEES {:.2f}, outside {:.2f}..{:.2f}.", drive.label,
-                               *nees < *low ? "better" : "worse", *nees, *low, *high));
+    more.push_back(fmt::format("{}: its filter is {} than it believes: NEES {:.2f}, outside {:.2f}..{:.2f}.",
+                               drive.label, *nees < *low ? "better" : "worse", *nees, *low, *high));
   for (const auto& [pointer, what] : kTroubles)
     if (const auto count = at(pointer); count && *count > 0.0)
       more.push_back(fmt::format("{}: {}.", drive.label, counted(static_cast<std::uint64_t>(*count), what)));
@@ -249,8 +251,9 @@ RunAnswer run_answer(const std::vector<ToldDrive>& drives) {
     }
   }
   if (single)
-    answer.more.push_back("One drive is one draw of the noise, so none of its differences is certain by it: an interval takes "
-                          "several runs with other seeds in one report, or an experiment.");
+    answer.more.push_back(
+        "One drive is one draw of the noise, so none of its differences is certain by it: an interval takes "
+        "several runs with other seeds in one report, or an experiment.");
   for (const ToldDrive& told : drives) remark_on(told, drives.size() <= kMostRemarked, answer.more);
   return answer;
 }

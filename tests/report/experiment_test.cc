@@ -65,8 +65,9 @@ TEST_F(ExperimentReport, TheAnswerIsTheRunsOwn) {
   const ExperimentFolder folder = read_experiment_folder(folder_);
   EXPECT_EQ(experiment_answer(folder), "tt has the smallest error at all 2 points, for certain at 1.");
   const std::string html = experiment_report_html(folder_);
-  for (const char* words : {"Is &lt;it&gt; so?", "a sentence.", "Expected: tt less than adva. It does not hold for certain at noise 40 m",
-                            "text &lt;&amp;&gt;", "+0.500 undecided", "--replay 0/adva/0"})
+  for (const char* words :
+       {"Is &lt;it&gt; so?", "a sentence.", "Expected: tt less than adva. It does not hold for certain at noise 40 m",
+        "text &lt;&amp;&gt;", "+0.500 undecided", "--replay 0/adva/0"})
     EXPECT_NE(html.find(words), std::string::npos) << words;
 }
 

@@ -37,8 +37,14 @@ TEST(Page, NothingOfANameIsMarkup) {
 
 TEST(Page, ItsDataComeBackAsTheyWere) {
   Page page("", "");
-  page.plot({"heading", "", "t", Plot::Kind::kSteps, true, true,
-             {{"view", "y", {{"</script>", 3, {1, 2.5, 3}, {0.123456789, std::nan(""), 1e-9}, {0, 0, 0}, {1, 1, 1}}}}}});
+  page.plot(
+      {"heading",
+       "",
+       "t",
+       Plot::Kind::kSteps,
+       true,
+       true,
+       {{"view", "y", {{"</script>", 3, {1, 2.5, 3}, {0.123456789, std::nan(""), 1e-9}, {0, 0, 0}, {1, 1, 1}}}}}});
   const std::string html = page.html();
   const std::string mark = "id=\"plots\">";
   const std::size_t at = html.find(mark) + mark.size();
@@ -63,7 +69,8 @@ TEST(Page, BytesThatAreNoTextDoNotStopIt) {
 
 TEST(Page, FiguresStandOnTheRightAndWordsOnTheLeft) {
   Page page("", "");
-  page.table({"", {"name", "figure", "word"}, {{"a", "0.5 ± 0.1", "one"}, {"b", "-", "2 of them"}, {"  c", "+3 less", "-"}}});
+  page.table(
+      {"", {"name", "figure", "word"}, {{"a", "0.5 ± 0.1", "one"}, {"b", "-", "2 of them"}, {"  c", "+3 less", "-"}}});
   const std::string html = page.html();
   EXPECT_EQ(count(html, "<td class=\"n\">"), 3u);
   EXPECT_EQ(count(html, "<th scope=\"row\" class=\"part\">  c</th>"), 1u);
@@ -75,7 +82,8 @@ TEST(Page, PicturesInItShareNoIds) {
   page.picture(svg, "one");
   page.picture(svg, "two");
   const std::string html = page.html();
-  for (const char* id : {"\"p0-clip0\"", "\"p1-clip0\"", "url(#p0-clip0)", "url(#p1-clip0)"}) EXPECT_EQ(count(html, id), 1u) << id;
+  for (const char* id : {"\"p0-clip0\"", "\"p1-clip0\"", "url(#p0-clip0)", "url(#p1-clip0)"})
+    EXPECT_EQ(count(html, id), 1u) << id;
   EXPECT_EQ(count(html, "<?xml"), 0u);
 }
 

@@ -103,7 +103,7 @@ mkdir damaged
 head -c 1000 small/answer.json >damaged/answer.json
 expect 2 '^error: damaged/answer.json:[0-9]+: must be JSON: it is damaged here, or cut off' report damaged -o x.html
 echo '{"experiment": "x", "question": 3}' >damaged/answer.json
-expect 2 '^error: damaged/answer.json: question = *.*: must be text|^error: damaged/answer.json: question: must be text' report damaged -o x.html
+expect 2 '^error: damaged/answer.json: question: must be text' report damaged -o x.html
 python3 - <<'END'
 import json
 answer = json.load(open("small/answer.json"))

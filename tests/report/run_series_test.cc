@@ -23,8 +23,8 @@ records::TruthState truth(std::int64_t us, int object, double x, double y, int n
   return state;
 }
 
-void use(RunSeriesSink& sink, std::int64_t us, std::vector<std::pair<double, double>> positions, std::uint32_t image = 0,
-         bool stale = false) {
+void use(RunSeriesSink& sink, std::int64_t us, std::vector<std::pair<double, double>> positions,
+         std::uint32_t image = 0, bool stale = false) {
   std::vector<records::FeatureObject> objects;
   for (const auto& [x, y] : positions) {
     records::FeatureObject& object = objects.emplace_back();
