@@ -112,9 +112,12 @@ std::string single_answer(const std::vector<ToldDrive>& drives) {
     double error;
     std::string label;
   };
+  const bool one_folder = std::ranges::all_of(
+      drives, [&](const ToldDrive& told) { return told.drive->folder == drives.front().drive->folder; });
   std::vector<Ranked> ranked;
   for (const ToldDrive& told : drives)
-    if (const double error = position_rmse(told); std::isfinite(error)) ranked.push_back({error, told.drive->label});
+    if (const double error = position_rmse(told); std::isfinite(error))
+      ranked.push_back({error, one_folder ? told.drive->strategy : told.drive->label});
   if (ranked.empty()) return "No position was compared with the truth.";
   std::ranges::stable_sort(ranked, {}, &Ranked::error);
   if (ranked.size() == 1)
