@@ -37,7 +37,8 @@ std::string html(const ReportOptions& options) {
                       "must be one experiment, or runs alone: a report of several experiments there is none"});
   for (const auto& [name, seconds] : {std::pair("--from", options.from_s), std::pair("--to", options.to_s)})
     if (seconds >= 0.0)
-      throw InputError({"command line", 0, name, fmt::format("{:g} s", seconds), "goes with runs, not with an experiment"});
+      throw InputError(
+          {"command line", 0, name, fmt::format("{:g} s", seconds), "goes with runs, not with an experiment"});
   return report::experiment_report_html(options.folders[0]);
 }
 
@@ -52,7 +53,8 @@ int run_report(const ReportOptions& options) {
 
 void add_report(CLI::App& app, Action& action) {
   auto options = std::make_shared<ReportOptions>();
-  CLI::App* command = app.add_subcommand("report", "One HTML page of a run, of several side by side, or of an experiment");
+  CLI::App* command =
+      app.add_subcommand("report", "One HTML page of a run, of several side by side, or of an experiment");
   command->footer(
       "The page needs no network and nothing beside it.\n"
       "Examples: ttfusion report out/paper_scenario1 -o drive.html\n"

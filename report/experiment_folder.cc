@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 
 #include "core/errors.h"
 #include "report/run_folder.h"
@@ -85,7 +86,8 @@ void read_points(const AnswerReader& reader, const Json& json, ExperimentFolder&
     if (p == 0) {
       if (points[p].contains("axes")) folder.axes = keys_of(reader.object(points[p], place, "axes"));
       folder.paradigms = keys_of(paradigms);
-      for (const std::string& name : keys_of(reader.object(paradigms, place + "paradigms.", folder.paradigms[0].c_str())))
+      for (const std::string& name :
+           keys_of(reader.object(paradigms, place + "paradigms.", folder.paradigms[0].c_str())))
         folder.measures.push_back({name, "", ""});
     }
     ExperimentPoint& point = folder.points.emplace_back();
@@ -149,7 +151,8 @@ ExperimentFolder read_experiment_folder(const std::string& path) {
   const Json& expectations = reader.list(json, "expectations");
   for (std::size_t e = 0; e < expectations.size(); ++e) {
     const std::string place = fmt::format("expectations[{}].", e);
-    ExperimentExpectation one{reader.text(expectations[e], place, "expected"), reader.yes(expectations[e], place, "holds"), {}};
+    ExperimentExpectation one{
+        reader.text(expectations[e], place, "expected"), reader.yes(expectations[e], place, "holds"), {}};
     for (const Json& where : reader.list(expectations[e], "where_not"))
       one.where_not.push_back(where.is_string() ? where.get<std::string>() : where.dump());
     folder.expectations.push_back(std::move(one));

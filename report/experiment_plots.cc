@@ -58,11 +58,16 @@ std::string others_of(const ExperimentFolder& folder, const ExperimentPoint& poi
 
 Plot plot_over_axis(const ExperimentFolder& folder, bool differences) {
   const XAxis x = x_axis(folder);
-  Plot plot{differences ? "Differences from " + folder.baseline : "Means",
-            fmt::format("With {:g} % intervals{}.", 100.0 * folder.confidence,
-                        differences ? "; differences are paired, replication by replication: below 0 is less than the baseline"
-                                    : ""),
-            x.name, x.axis ? Plot::Kind::kLines : Plot::Kind::kPoints, x.logarithmic, differences, {}};
+  Plot plot{
+      differences ? "Differences from " + folder.baseline : "Means",
+      fmt::format(
+          "With {:g} % intervals{}.", 100.0 * folder.confidence,
+          differences ? "; differences are paired, replication by replication: below 0 is less than the baseline" : ""),
+      x.name,
+      x.axis ? Plot::Kind::kLines : Plot::Kind::kPoints,
+      x.logarithmic,
+      differences,
+      {}};
   std::vector<std::string> combinations;
   std::map<std::string, std::vector<const ExperimentPoint*>> points;
   for (const ExperimentPoint& point : folder.points) {
@@ -76,7 +81,8 @@ Plot plot_over_axis(const ExperimentFolder& folder, bool differences) {
   for (std::size_t m = 0; m < folder.measures.size(); ++m)
     for (const std::string& others : combinations) {
       if (plot.views.size() >= kMostViews) return plot;
-      PlotView view{folder.measures[m].name + (others.empty() ? "" : ", " + others), folder.measures[m].with_unit(), {}};
+      PlotView view{
+          folder.measures[m].name + (others.empty() ? "" : ", " + others), folder.measures[m].with_unit(), {}};
       for (std::size_t p = 0; p < folder.paradigms.size(); ++p) {
         Curve curve{folder.paradigms[p], static_cast<int>(p), {}, {}, {}, {}};
         for (const ExperimentPoint* point : points.at(others)) {
@@ -101,8 +107,13 @@ Plot means_plot(const ExperimentFolder& folder) { return plot_over_axis(folder, 
 Plot differences_plot(const ExperimentFolder& folder) { return plot_over_axis(folder, true); }
 
 Plot replications_plot(const ExperimentFolder& folder) {
-  Plot plot{"Distributions over the replications", "Shares of a point's runs, a drive each.", "value", Plot::Kind::kSteps,
-            false, false, {}};
+  Plot plot{"Distributions over the replications",
+            "Shares of a point's runs, a drive each.",
+            "value",
+            Plot::Kind::kSteps,
+            false,
+            false,
+            {}};
   if (!folder.store) return plot;
   // Of many points some, evenly.
   const std::size_t shown = std::clamp(kMostViews / folder.measures.size(), std::size_t{1}, folder.points.size());
@@ -125,11 +136,12 @@ Plot replications_plot(const ExperimentFolder& folder) {
         if (run.status == results::kDone && run.key.paradigm < values.size())
           values[run.key.paradigm].values.push_back(run.values[column]);
       std::vector<std::string> settings;
-      for (std::size_t a = 0; a < folder.axes.size(); ++a) settings.push_back(folder.axes[a] + " " + points[s]->settings[a]);
+      for (std::size_t a = 0; a < folder.axes.size(); ++a)
+        settings.push_back(folder.axes[a] + " " + points[s]->settings[a]);
       std::vector<Curve> curves = histogram(values, 30);
       if (curves.empty()) continue;
-      plot.views.push_back({measure.with_unit() + (settings.empty() ? "" : ", " + joined(settings)), "share of runs [%]",
-                            std::move(curves)});
+      plot.views.push_back({measure.with_unit() + (settings.empty() ? "" : ", " + joined(settings)),
+                            "share of runs [%]", std::move(curves)});
     }
   }
   return plot;

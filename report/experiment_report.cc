@@ -41,7 +41,8 @@ std::optional<Least> least_at(const ExperimentFolder& folder, const ExperimentPo
   std::optional<Least> least;
   for (std::size_t p = 0; p < folder.paradigms.size(); ++p) {
     const double mean = point.estimates[p][0].mean.mean;
-    if (std::isfinite(mean) && (!least || mean < point.estimates[least->paradigm][0].mean.mean)) least = Least{p, false};
+    if (std::isfinite(mean) && (!least || mean < point.estimates[least->paradigm][0].mean.mean))
+      least = Least{p, false};
   }
   if (!least || !folder.store) return least;
   const auto& columns = folder.store->head().measures;
@@ -111,10 +112,12 @@ std::vector<std::string> sentences(const ExperimentFolder& folder) {
   for (const ExperimentCrossing& crossing : folder.crossings) {
     certain = certain || crossing.certain;
     if (!crossing.certain)
-      all.push_back(fmt::format("{} and {} may cross at {} {}{}: that is not certain.", crossing.paradigm, folder.baseline,
-                                crossing.axis, brief(crossing.at), crossing.others.empty() ? "" : ", with " + crossing.others));
+      all.push_back(fmt::format("{} and {} may cross at {} {}{}: that is not certain.", crossing.paradigm,
+                                folder.baseline, crossing.axis, brief(crossing.at),
+                                crossing.others.empty() ? "" : ", with " + crossing.others));
   }
-  if (!certain && !folder.axes.empty()) all.push_back("Along no axis a paradigm crosses " + folder.baseline + " for certain.");
+  if (!certain && !folder.axes.empty())
+    all.push_back("Along no axis a paradigm crosses " + folder.baseline + " for certain.");
   for (const ExperimentExpectation& one : folder.expectations)
     all.push_back(fmt::format("Expected: {}. It {}.", one.expected,
                               one.holds ? "holds" : "does not hold for certain at " + joined(one.where_not)));
@@ -124,8 +127,10 @@ std::vector<std::string> sentences(const ExperimentFolder& folder) {
 
 void failures(Page& page, const ExperimentFolder& folder) {
   if (!folder.store || folder.failed == 0) return;
-  PageTable table{"Each is driven again, alone, by `ttfusion experiment FILE --replay` with what stands in the first column",
-                  {"point/paradigm/replication", "what went wrong"}, {}};
+  PageTable table{
+      "Each is driven again, alone, by `ttfusion experiment FILE --replay` with what stands in the first column",
+      {"point/paradigm/replication", "what went wrong"},
+      {}};
   std::uint64_t more = 0;
   folder.store->for_each([&](const results::Run& run) {
     if (run.status == results::kDone) return;
@@ -150,10 +155,13 @@ void how_made(Page& page, const ExperimentFolder& folder) {
     return;
   }
   const results::StoreHead& head = folder.store->head();
-  page.facts({{"version", head.version}, {"identity of all inputs", head.identity}, {"seed", std::to_string(folder.seed)},
+  page.facts({{"version", head.version},
+              {"identity of all inputs", head.identity},
+              {"seed", std::to_string(folder.seed)},
               {"rows in results.sqlite", std::to_string(folder.store->count())}});
-  page.paragraph("The whole of it again, and one run with its log and a report of its own. The experiment's file, which is "
-                 "below, may be in another folder than experiments/:");
+  page.paragraph(
+      "The whole of it again, and one run with its log and a report of its own. The experiment's file, which is "
+      "below, may be in another folder than experiments/:");
   page.command(fmt::format("ttfusion experiment {0} --out again\nttfusion experiment {0} --replay {1} --out one\n"
                            "ttfusion report one -o one.html\n",
                            file, shell_word(fmt::format("0/{}/0", folder.paradigms.front()))));
@@ -184,8 +192,9 @@ std::string experiment_answer(const ExperimentFolder& folder) {
                              : certain[p] == least[p]   ? ", for certain"
                              : certain[p] == 0          ? ", not for certain"
                                                         : fmt::format(", for certain at {}", certain[p]);
-    text += text.empty() ? fmt::format("{} has the smallest {}{}{}", folder.paradigms[p], folder.measures[0].name, points, sure)
-                         : fmt::format("; {}{}{}", folder.paradigms[p], points, sure);
+    text += text.empty()
+                ? fmt::format("{} has the smallest {}{}{}", folder.paradigms[p], folder.measures[0].name, points, sure)
+                : fmt::format("; {}{}{}", folder.paradigms[p], points, sure);
   }
   if (folder.points.size() == 1) {
     const results::Interval& mean = folder.points[0].estimates[order[0]][0].mean;
@@ -202,7 +211,8 @@ std::string experiment_report_html(const std::string& path) {
   page.lead(folder.question);
   std::vector<std::string> axes;
   for (std::size_t a = 0; a < folder.axes.size(); ++a)
-    axes.push_back(fmt::format("{} ({} to {})", folder.axes[a], folder.points.front().settings[a], folder.points.back().settings[a]));
+    axes.push_back(fmt::format("{} ({} to {})", folder.axes[a], folder.points.front().settings[a],
+                               folder.points.back().settings[a]));
   page.facts({{"paradigms", joined(folder.paradigms)}, {"baseline", folder.baseline},
               {"axes", axes.empty() ? "none" : joined(axes)}, {"points", std::to_string(folder.points.size())},
               {"runs", fmt::format("{}, of which {} failed", folder.runs, folder.failed)},

@@ -16,14 +16,16 @@ using Json = nlohmann::ordered_json;
 
 // "12.5", "-", "0.11 ± 0.02", "+3 less", "36 / 0 / 0": to be aligned right.
 bool is_figure(std::string_view cell) {
-  return cell.empty() || cell == "-" || (cell.find_first_of("0123456789") <= 1 && cell.find_first_of("_:") == cell.npos);
+  return cell.empty() || cell == "-" ||
+         (cell.find_first_of("0123456789") <= 1 && cell.find_first_of("_:") == cell.npos);
 }
 
 // Seven digits are more than anybody sees in a plot.
 Json numbers(const std::vector<double>& values) {
   Json out = Json::array();
   for (const double value : values)
-    out.push_back(std::isfinite(value) ? Json(std::strtod(fmt::format("{:.7g}", value).c_str(), nullptr)) : Json(nullptr));
+    out.push_back(std::isfinite(value) ? Json(std::strtod(fmt::format("{:.7g}", value).c_str(), nullptr))
+                                       : Json(nullptr));
   return out;
 }
 
@@ -103,7 +105,8 @@ void Page::table(const PageTable& table) {
   if (!table.caption.empty()) body_ += fmt::format("<caption>{}</caption>", escape(table.caption));
   body_ += "<thead><tr>";
   for (std::size_t c = 0; c < table.header.size(); ++c)
-    body_ += fmt::format("<th scope=\"col\"{}>{}</th>", c > 0 && figures[c] ? " class=\"n\"" : "", escape(table.header[c]));
+    body_ +=
+        fmt::format("<th scope=\"col\"{}>{}</th>", c > 0 && figures[c] ? " class=\"n\"" : "", escape(table.header[c]));
   body_ += "</tr></thead>\n<tbody>\n";
   for (const auto& row : table.rows) {
     body_ += "<tr>";
@@ -138,9 +141,10 @@ void Page::plot(const Plot& plot) {
 }
 
 void Page::picture(std::string_view svg, std::string_view caption) {
-  body_ += fmt::format("<figure class=\"picture\"><div class=\"paper\" tabindex=\"0\" role=\"img\" aria-label=\"{0}\">{1}"
-                       "</div><figcaption>{0}</figcaption></figure>\n",
-                       escape(caption), inlined(svg, fmt::format("p{}-", pictures_++)));
+  body_ += fmt::format(
+      "<figure class=\"picture\"><div class=\"paper\" tabindex=\"0\" role=\"img\" aria-label=\"{0}\">{1}"
+      "</div><figcaption>{0}</figcaption></figure>\n",
+      escape(caption), inlined(svg, fmt::format("p{}-", pictures_++)));
 }
 
 void Page::diagrams(const std::vector<PageDiagram>& diagrams, std::string_view caption) {
@@ -172,7 +176,8 @@ std::string Page::html() const {
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">"
       "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; "
       "script-src 'unsafe-inline'; img-src data:\">"
-      "<meta name=\"color-scheme\" content=\"light dark\"><link rel=\"icon\" href=\"data:,\"><title>{}</title>\n<style>",
+      "<meta name=\"color-scheme\" content=\"light dark\"><link rel=\"icon\" "
+      "href=\"data:,\"><title>{}</title>\n<style>",
       escape(title_));
   out += assets::kUplotStyle;
   out += assets::kStyle;

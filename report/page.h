@@ -4,9 +4,11 @@
 // All text is escaped here: names come from files.
 #pragma once
 
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace ttf::report {

@@ -78,7 +78,8 @@ FolderKind kind_of_folder(const std::string& path) {
   if (!fs::is_directory(path, none)) throw InputError({path, 0, "", "", "must be a folder of results"});
   if (fs::exists(path + "/answer.json", none)) return FolderKind::kExperiment;
   if (fs::exists(path + "/summary.json", none) || !logs_in(path).empty()) return FolderKind::kRun;
-  throw InputError({path, 0, "", "", "is neither a run (no summary.json, no *.mcap) nor an experiment (no answer.json)"});
+  throw InputError(
+      {path, 0, "", "", "is neither a run (no summary.json, no *.mcap) nor an experiment (no answer.json)"});
 }
 
 RunFolder read_run_folder(const std::string& path) {

@@ -24,7 +24,7 @@ namespace ttf::report {
 namespace {
 
 constexpr Duration kDiagram = Duration::milliseconds(160), kLongestDiagram = Duration::milliseconds(2000);
-constexpr std::size_t kMostDiagrams = 4;   // half a megabyte each
+constexpr std::size_t kMostDiagrams = 6;   // half a megabyte each
 
 // What the scenario in the log says of itself.
 struct ScenarioWords {
@@ -41,7 +41,8 @@ ScenarioWords scenario_in(const recording::MergedLogs& log) {
       YamlMap root = StrictYaml::parse(attachment.bytes, attachment.name).root(findings);
       if (!root.has("world") && !root.has("evaluate_from")) continue;
       words.description = root.text_or("description", "");
-      const Duration from = root.duration_or("evaluate_from", Duration{}, {Duration{}, Duration::milliseconds(100'000'000)});
+      const Duration from =
+          root.duration_or("evaluate_from", Duration{}, {Duration{}, Duration::milliseconds(100'000'000)});
       words.judged_from = TrueTime{from.ns};
       words.file = attachment.name;
       words.text = attachment.bytes;
@@ -81,7 +82,8 @@ void asked(Page& page, const std::vector<RunFolder>& folders, const std::vector<
     std::vector<std::pair<std::string, std::string>> facts{{"folder", folder.path}, {"scenario", first.scenario},
                                                            {"seed", std::to_string(first.seed)},
                                                            {"strategies", joined(strategies)}};
-    if (const auto duration = folder.summary.find("duration_s"); duration != folder.summary.end() && duration->is_number())
+    if (const auto duration = folder.summary.find("duration_s");
+        duration != folder.summary.end() && duration->is_number())
       facts.emplace_back("duration", fmt::format("{:g} s", duration->get<double>()));
     page.facts(facts);
   }
@@ -118,8 +120,9 @@ void timing(Page& page, const std::vector<ToldDrive>& drives, const RunReportOpt
   if (diagrams.empty()) return;
   page.section("Timing: slots, tasks and every measurement's way");
   if (logs > kMostDiagrams) window += fmt::format("Of {} drives the first {} are drawn. ", logs, kMostDiagrams);
-  page.diagrams(diagrams, window + "Arrows follow each measurement; point at a slot, a task or an arrow to see whose it is, "
-                                   "its times and ages.");
+  page.diagrams(diagrams, window +
+                              "Arrows follow each measurement; point at a slot, a task or an arrow to see whose it is, "
+                              "its times and ages.");
 }
 
 void time_base(Page& page, const std::vector<ToldDrive>& drives) {
@@ -180,28 +183,33 @@ void pictures(Page& page, const std::vector<ToldDrive>& drives) {
 
 void made(Page& page, const std::vector<ToldDrive>& drives) {
   page.section("How it was made");
-  PageTable table{"What each log says of itself", {"", "version", "seed", "strategy", "cluster", "content hash", "hashes of its inputs"}, {}};
+  PageTable table{"What each log says of itself",
+                  {"", "version", "seed", "strategy", "cluster", "content hash", "hashes of its inputs"},
+                  {}};
   std::set<std::string> commands, texts;
   std::vector<std::string> order;
   for (const ToldDrive& told : drives) {
     if (!told.drive->log) continue;
     const recording::LogManifest& manifest = told.drive->log->manifest();
     std::string hashes;
-    for (const auto& [what, hash] : manifest.hashes) hashes += fmt::format("{}{} {}", hashes.empty() ? "" : ", ", what, hash);
+    for (const auto& [what, hash] : manifest.hashes)
+      hashes += fmt::format("{}{} {}", hashes.empty() ? "" : ", ", what, hash);
     table.rows.push_back({told.drive->label, manifest.version, std::to_string(manifest.seed), manifest.strategy,
                           manifest.cluster_name, recording::ContentHash::text(told.drive->log->content_hash().value()),
                           hashes});
     const ScenarioWords words = scenario_in(*told.drive->log);
-    std::string command = fmt::format("ttfusion {} {} --strategy {} --seed {}", manifest.clock.empty() ? "run" : "launch",
-                                      shell_word("scenarios/" + (words.file.empty() ? manifest.scenario_name + ".yaml" : words.file)),
-                                      shell_word(manifest.strategy), manifest.seed);
+    std::string command =
+        fmt::format("ttfusion {} {} --strategy {} --seed {}", manifest.clock.empty() ? "run" : "launch",
+                    shell_word("scenarios/" + (words.file.empty() ? manifest.scenario_name + ".yaml" : words.file)),
+                    shell_word(manifest.strategy), manifest.seed);
     if (!manifest.recording_name.empty()) command += " --input " + shell_word(manifest.recording_name);
     if (commands.insert(command).second) order.push_back(command);
   }
   if (!table.rows.empty()) page.table(table);
   if (!order.empty()) {
-    page.paragraph("In virtual time the same version, inputs and seed give the same content hash. Where the scenario is in "
-                   "another folder than scenarios/, say so:");
+    page.paragraph(
+        "In virtual time the same version, inputs and seed give the same content hash. Where the scenario is in "
+        "another folder than scenarios/, say so:");
     std::string all;
     for (const std::string& command : order) all += command + '\n';
     page.command(all);

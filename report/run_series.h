@@ -1,5 +1,5 @@
-// What a drive's records come to over time and as distributions, for the report's plots and tables: errors where the feature
-// service used an image, ages of measurements, precision, corrections, problems, faults.
+// What a drive's records come to over time and as distributions, for the report's plots and tables: errors where the
+// feature service used an image, ages of measurements, precision, corrections, problems, faults.
 //
 // A sink; uses and truths are put together as experiments/measures.h does it: an image's objects and true ones no
 // further apart than the gate, the closest pair first.
@@ -10,6 +10,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "recording/records/records.h"

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 #include <utility>
 
 #include "core/counted.h"
@@ -19,6 +18,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double kConfidence = 0.95;
+constexpr std::size_t kMostRemarked = 6;   // drives; of more of them only what went wrong is told
 
 struct MeasureRow {
   const char* name;
@@ -112,16 +112,21 @@ std::string single_answer(const std::vector<ToldDrive>& drives) {
     double error;
     std::string label;
   };
+  const bool one_folder = std::ranges::all_of(
+      drives, [&](const ToldDrive& told) { return told.drive->folder == drives.front().drive->folder; });
   std::vector<Ranked> ranked;
   for (const ToldDrive& told : drives)
-    if (const double error = position_rmse(told); std::isfinite(error)) ranked.push_back({error, told.drive->label});
+    if (const double error = position_rmse(told); std::isfinite(error))
+      ranked.push_back({error, one_folder ? told.drive->strategy : told.drive->label});
   if (ranked.empty()) return "No position was compared with the truth.";
   std::ranges::stable_sort(ranked, {}, &Ranked::error);
   if (ranked.size() == 1)
     return fmt::format("{} is off by {} m in position (root mean square against the truth, when the image is used).",
                        ranked[0].label, brief(ranked[0].error));
-  std::string text = fmt::format("{} has the smallest position error here: {} m (root mean square against the truth, when "
-                                 "the image is used); ", ranked[0].label, brief(ranked[0].error));
+  std::string text = fmt::format(
+      "{} has the smallest position error here: {} m (root mean square against the truth, when "
+      "the image is used); ",
+      ranked[0].label, brief(ranked[0].error));
   for (std::size_t i = 1; i < ranked.size(); ++i)
     text += fmt::format("{}{} {} m{}", i > 1 ? ", " : "", ranked[i].label, brief(ranked[i].error),
                         percent_more(ranked[i].error, ranked[0].error));
@@ -147,6 +152,29 @@ std::string repeated_answer(const std::string& scenario, const Repeated& runs) {
                         verdict(more.mean, more.half_width) == "more" ? "for certain" : "which is not certain");
   }
   return text + ".";
+}
+
+// `ordinary`: what is worth knowing of a sound drive, too.
+void remark_on(const ToldDrive& told, bool ordinary, std::vector<std::string>& more) {
+  const Drive& drive = *told.drive;
+  const auto at = [&](const char* pointer) { return measure_at(drive, pointer); };
+  if (const auto mean = at("/age_when_used/mean_ms"), worst = at("/age_when_used/worst_ms"); ordinary && mean && worst)
+    more.push_back(fmt::format("{}: a measurement is {:.1f} ms old on average when it is used, {:.1f} ms at worst.",
+                               drive.label, *mean, *worst));
+  if (const auto nees = at("/nees/mean"), low = at("/nees/band_95/0"), high = at("/nees/band_95/1");
+      ordinary && nees && low && high && (*nees < *low || *nees > *high))
+    more.push_back(fmt::format("{}: its filter is {} than it believes: NEES {:.2f}, outside {:.2f}..{:.2f}.",
+                               drive.label, *nees < *low ? "better" : "worse", *nees, *low, *high));
+  for (const auto& [pointer, what] : kTroubles)
+    if (const auto count = at(pointer); count && *count > 0.0)
+      more.push_back(fmt::format("{}: {}.", drive.label, counted(static_cast<std::uint64_t>(*count), what)));
+  if (const auto& faults = told.series.faults; !faults.empty()) {
+    std::uint64_t acts = 0;
+    for (const auto& [index, fault] : faults) acts += fault.acts;
+    more.push_back(fmt::format("{}: {} injected, which acted {} in all.", drive.label,
+                               faults.size() == 1 ? "one fault was" : fmt::format("{} faults were", faults.size()),
+                               counted(acts, "time")));
+  }
 }
 
 }  // namespace
@@ -212,41 +240,24 @@ std::vector<PageTable> repeated_tables(const std::vector<ToldDrive>& drives) {
 RunAnswer run_answer(const std::vector<ToldDrive>& drives) {
   RunAnswer answer;
   const auto several = repeated(drives);
-  std::set<std::string> scenarios;
-  for (const ToldDrive& told : drives) scenarios.insert(told.drive->scenario);
-  for (const auto& [scenario, runs] : several) {
+  std::map<std::string, std::vector<ToldDrive>> by_scenario;
+  for (const ToldDrive& told : drives) by_scenario[told.drive->scenario].push_back(told);
+  bool single = false;
+  for (const auto& [scenario, of_one] : by_scenario) {
     std::string& place = answer.answer.empty() ? answer.answer : answer.more.emplace_back();
-    place = repeated_answer(scenario, runs);
-  }
-  if (several.empty()) {
-    answer.answer = scenarios.size() > 1 ? fmt::format("{} drives of {} scenarios: what each came to is in the table.",
-                                                       drives.size(), scenarios.size())
-                                         : single_answer(drives);
-    if (drives.size() > 1)
-      answer.more.push_back("One drive is one draw of the noise, so none of these differences is certain by it: an interval "
-                            "takes several runs with other seeds in one report, or an experiment.");
-  }
-  for (const ToldDrive& told : drives) {
-    const Drive& drive = *told.drive;
-    const auto at = [&](const char* pointer) { return measure_at(drive, pointer); };
-    if (const auto mean = at("/age_when_used/mean_ms"), worst = at("/age_when_used/worst_ms"); mean && worst)
-      answer.more.push_back(fmt::format("{}: a measurement is {:.1f} ms old on average when it is used, {:.1f} ms at worst.",
-                                        drive.label, *mean, *worst));
-    if (const auto nees = at("/nees/mean"), low = at("/nees/band_95/0"), high = at("/nees/band_95/1"); nees && low && high)
-      if (*nees < *low || *nees > *high)
-        answer.more.push_back(fmt::format("{}: its filter is {} than it believes: NEES {:.2f}, outside {:.2f}..{:.2f}.",
-                                          drive.label, *nees < *low ? "better" : "worse", *nees, *low, *high));
-    for (const auto& [pointer, what] : kTroubles)
-      if (const auto count = at(pointer); count && *count > 0.0)
-        answer.more.push_back(fmt::format("{}: {}.", drive.label, counted(static_cast<std::uint64_t>(*count), what)));
-    if (const auto& faults = told.series.faults; !faults.empty()) {
-      std::uint64_t acts = 0;
-      for (const auto& [index, fault] : faults) acts += fault.acts;
-      answer.more.push_back(fmt::format("{}: {} injected, which acted {} in all.", drive.label,
-                                        faults.size() == 1 ? "one fault was" : fmt::format("{} faults were", faults.size()),
-                                        counted(acts, "time")));
+    const auto runs = several.find(scenario);
+    if (runs != several.end()) {
+      place = repeated_answer(scenario, runs->second);
+    } else {
+      place = (by_scenario.size() > 1 ? scenario + ": " : "") + single_answer(of_one);
+      single = single || of_one.size() > 1;
     }
   }
+  if (single)
+    answer.more.push_back(
+        "One drive is one draw of the noise, so none of its differences is certain by it: an interval takes "
+        "several runs with other seeds in one report, or an experiment.");
+  for (const ToldDrive& told : drives) remark_on(told, drives.size() <= kMostRemarked, answer.more);
   return answer;
 }
 

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <iterator>
+#include <utility>
 
 #include "report/names.h"
 #include "report/run_tables.h"
@@ -31,9 +32,10 @@ std::vector<PageTable> trouble_tables(const ToldDrive& told) {
                    {"fault", "node", "begins [s]", "first acts [s]", "acts", "ends [s]", "what it did first"},
                    {}};
   for (const auto& [index, fault] : series.faults)
-    faults.rows.push_back({fmt::format("{} {}", index, fault.kind), fault.node == kNoNode ? "-" : names.node(fault.node),
-                           seconds_cell(fault.begins_s), seconds_cell(fault.first_act_s), std::to_string(fault.acts),
-                           seconds_cell(fault.ends_s), fault.text});
+    faults.rows.push_back({fmt::format("{} {}", index, fault.kind),
+                           fault.node == kNoNode ? "-" : names.node(fault.node), seconds_cell(fault.begins_s),
+                           seconds_cell(fault.first_act_s), std::to_string(fault.acts), seconds_cell(fault.ends_s),
+                           fault.text});
   PageTable slots{label + ": slots that did not bring one valid frame, as receivers saw them",
                   {"receiver", "status", "times"},
                   {}};
@@ -44,7 +46,8 @@ std::vector<PageTable> trouble_tables(const ToldDrive& told) {
   for (const auto& [why, times] : series.guardian) guardian.rows.push_back({why, std::to_string(times)});
   PageTable deadlines{label + ": deadlines missed", {"task", "times"}, {}};
   for (const auto& [task, times] : series.deadlines_missed)
-    deadlines.rows.push_back({names.node(task.first) + ": " + names.task(task.first, task.second), std::to_string(times)});
+    deadlines.rows.push_back(
+        {names.node(task.first) + ": " + names.task(task.first, task.second), std::to_string(times)});
   std::vector<PageTable> tables;
   for (PageTable* table : {&faults, &slots, &guardian, &deadlines})
     if (!table->rows.empty()) tables.push_back(std::move(*table));

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Sets everything up on a fresh Debian 12, runs both of the paper's drives with all three strategies, prints one comparison
-# table, and leaves the pictures, logs and an index page in out/demo (or the folder given).
+# table, and leaves the pictures, logs, an index page and a report of both drives in out/demo (or the folder given).
 set -euo pipefail
 cd "$(dirname "$0")/.."
 out=${1:-out/demo}
@@ -10,9 +10,11 @@ tools/build.sh release --target ttfusion
 mkdir -p "$out"
 drives=(paper_scenario1 paper_scenario2)
 summaries=()
+folders=()
 for drive in "${drives[@]}"; do
   build/release/ttfusion run "scenarios/$drive.yaml" --out "$out/$drive" >"$out/$drive.txt"
   summaries+=("$out/$drive/summary.json")
+  folders+=("$out/$drive")
 done
 tools/joint_table.py "${summaries[@]}" >"$out/comparison.txt"
 {
@@ -23,6 +25,7 @@ tools/joint_table.py "${summaries[@]}" >"$out/comparison.txt"
 <ul>
 <li><a href="paper_scenario1/index.html">Scenario 1: a car ahead accelerates</a></li>
 <li><a href="paper_scenario2/index.html">Scenario 2: a car approaches and turns</a></li>
+<li><a href="report.html">Report of both, with plots and timing diagrams to zoom into</a></li>
 </ul>
 <pre>
 HTML
@@ -32,4 +35,6 @@ HTML
 echo
 cat "$out/comparison.txt"
 echo
+build/release/ttfusion report "${folders[@]}" -o "$out/report.html"
 echo "pictures, logs and tables: $out/index.html"
+echo "report of both drives:     $out/report.html"

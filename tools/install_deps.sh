@@ -14,17 +14,18 @@ packages=(
   # tests
   libgtest-dev libgmock-dev libbenchmark-dev
 )
-# Programs the tests call, wherever they come from, and the package that has them.
+# Programs the build and the tests call, wherever they come from, and the package that has them.
 programs=(
-  node:nodejs npm:npm   # the log's official reader
+  node:nodejs npm:npm   # the report's plots; the log's official reader
   tshark:tshark         # captures, as Wireshark sees them
   gnuplot:gnuplot-nox   # the pictures of exported scripts
 )
 # The slower gates (.ci/run) also need a second compiler and the fuzzer's runtime, what counts instructions, and the test bed:
-# a kernel's source, what it is built with, and strangers for its CANs.
+# a kernel's source, what it is built with, and strangers for its CANs; and a browser, for the report.
 if [[ ${1:-} == --gates ]]; then
   packages+=(clang libclang-rt-14-dev valgrind)
   packages+=(linux-source-6.1 xz-utils make flex bison bc busybox-static iproute2 can-utils)
+  programs+=(chromium:chromium)
 fi
 
 missing=()

@@ -4,12 +4,13 @@ foreach(name package.json package-lock.json .npmrc)
   configure_file(${PAGE}/${name} ${WORK}/${name} COPYONLY)
 endforeach()
 foreach(attempt 1 2)
-  execute_process(COMMAND npm ci --prefer-offline --no-progress WORKING_DIRECTORY ${WORK} TIMEOUT 90
+  execute_process(COMMAND npm ci --prefer-offline --no-progress --fetch-retries=1 --fetch-retry-mintimeout=2000
+                  WORKING_DIRECTORY ${WORK} TIMEOUT 90
                   RESULT_VARIABLE result OUTPUT_FILE ${WORK}/npm.log ERROR_FILE ${WORK}/npm.log)
   if(result EQUAL 0)
     file(TOUCH ${WORK}/node_modules/uplot/LICENSE)   # younger than what asked for it
     return()
   endif()
 endforeach()
-message(FATAL_ERROR "uPlot, which the report's plots are drawn by, could not be fetched with npm (${WORK}/npm.log says why): "
-                    "without a network, give the folder of its unpacked package, -DTTF_UPLOT=FOLDER")
+message(FATAL_ERROR "uPlot, which the report's plots are drawn by, could not be fetched with npm "
+                    "(${WORK}/npm.log says why): without a network, give the folder of its unpacked package, -DTTF_UPLOT=FOLDER")

@@ -1,5 +1,5 @@
-// The page's plots, drawn by uPlot. Each zooms by dragging, by buttons, by keys when it has the focus, and by the wheel with
-// Ctrl or Shift; what is seen stands in data-from and data-to.
+// The page's plots, drawn by uPlot. Each zooms by dragging, by buttons, by keys when it has the focus, and by the wheel
+// with Ctrl or Shift; what is seen stands in data-from and data-to.
 "use strict";
 (() => {
   const DASHES = [[], [7, 4], [2, 3], [9, 3, 2, 3]];
@@ -12,8 +12,11 @@
   const figures = (value) => (value == null ? "–" : Number(value.toPrecision(4)).toString());
 
   // As many decimals as tell neighbours on an axis apart.
-  const labels = (u, splits, axis, space, step) => splits.map((value) => value == null ? "" : u.scales.x.distr === 3 && axis === 0
-    ? figures(value) : value.toFixed(Math.max(0, Math.min(12, -Math.floor(Math.log10(step) + 1e-9)))));
+  const labels = (u, splits, axis, space, step) => splits.map(
+      (value) => value == null ? "" :
+          u.scales.x.distr === 3 && axis === 0 ?
+                                 figures(value) :
+                                 value.toFixed(Math.max(0, Math.min(12, -Math.floor(Math.log10(step) + 1e-9)))));
 
   // Where a curve is nearest to x.
   const nearest = (curve, x) => {
@@ -38,7 +41,11 @@
         const select = make("select");
         select.setAttribute("aria-label", `${spec.heading}: what is shown`);
         spec.views.forEach((view, i) => select.append(new Option(view.label, i)));
-        select.addEventListener("change", () => { this.view = spec.views[select.value]; this.hidden.clear(); this.draw(); });
+        select.addEventListener("change", () => {
+          this.view = spec.views[select.value];
+          this.hidden.clear();
+          this.draw();
+        });
         bar.append(select);
       }
       const button = (text, label, act) => {
@@ -137,7 +144,8 @@
         if (!value) return;
         if (x === undefined) { value.textContent = ""; return; }
         const n = nearest(curve, x);
-        const wide = curve.low && curve.y[n] != null && curve.high[n] != null ? ` ± ${figures(curve.high[n] - curve.y[n])}` : "";
+        const wide =
+            curve.low && curve.y[n] != null && curve.high[n] != null ? ` ± ${figures(curve.high[n] - curve.y[n])}` : "";
         value.textContent = `${figures(curve.y[n])}${wide} at ${figures(curve.x[n])}`;
       });
     }
@@ -235,7 +243,8 @@
   }
 
   const specs = JSON.parse(document.getElementById("plots").textContent);
-  const plots = [...document.querySelectorAll("figure[data-plot]")].map((figure) => new Plot(figure, specs[figure.dataset.plot]));
+  const plots =
+      [...document.querySelectorAll("figure[data-plot]")].map((figure) => new Plot(figure, specs[figure.dataset.plot]));
   const redraw = (width) => {
     for (const plot of plots)
       if (plot.uplot) {

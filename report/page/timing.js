@@ -1,5 +1,5 @@
-// Timing diagrams: what stands in time is put anew for the window that is seen, so that texts, arrow heads and line widths
-// stay as they are. What the attributes mean: report/timing_tags.h. The window stands in data-from and data-to.
+// Timing diagrams: what stands in time is put anew for the window that is seen, so that texts, arrow heads and line
+// widths stay as they are. What the attributes mean: report/timing_tags.h. The window stands in data-from and data-to.
 "use strict";
 (() => {
   const make = (tag, properties = {}, ...children) => {
@@ -28,7 +28,8 @@
       [this.left, this.top, this.width, this.height] = ["x", "y", "width", "height"].map((name) => number(plot, name));
       [this.first, this.last] = [Number(plot.dataset.a), Number(plot.dataset.b)];
       [this.from, this.to] = [this.first, this.last];
-      this.items = [...this.svg.querySelectorAll("[data-a]")].filter((one) => one !== plot).map((one) => this.item(one));
+      this.items =
+          [...this.svg.querySelectorAll("[data-a]")].filter((one) => one !== plot).map((one) => this.item(one));
       this.things = this.items.filter((item) => item.title).sort((p, q) => p.a - q.a || p.y - q.y);
       this.by_element = new Map(this.things.map((item) => [item.element, item]));
       this.frame();
@@ -40,8 +41,15 @@
     item(element) {
       const title = element.querySelector("title");
       const { a, b, id, since, label } = element.dataset;
-      const item = { element, a: Number(a), b: b === undefined ? undefined : Number(b), id, title: title?.textContent,
-        since: since === undefined ? undefined : Number(since), label: label === undefined ? undefined : Number(label) };
+      const item = {
+        element,
+        a: Number(a),
+        b: b === undefined ? undefined : Number(b),
+        id,
+        title: title?.textContent,
+        since: since === undefined ? undefined : Number(since),
+        label: label === undefined ? undefined : Number(label)
+      };
       title?.remove();
       item.origin = this.x(item.a);
       if (element.tagName === "text") {
@@ -66,10 +74,15 @@
     // What is as wide as the plot.
     frame() {
       const right = this.left + this.width;
-      this.lines = [...this.svg.querySelectorAll("path:not([data-a])")].filter((path) => {
-        const ends = path.getAttribute("d").match(/^M\S+ (\S+)L(\S+) (\S+)$/);
-        return ends && ends[1] === ends[3] && Math.abs(Number(ends[2]) - right) < 0.02;
-      }).map((path) => ({ path, begin: path.getAttribute("d").split("L")[0], y: path.getAttribute("d").split(" ").pop() }));
+      this.lines =
+          [...this.svg.querySelectorAll("path:not([data-a])")]
+              .filter((path) => {
+                const ends = path.getAttribute("d").match(/^M\S+ (\S+)L(\S+) (\S+)$/);
+                return ends && ends[1] === ends[3] && Math.abs(Number(ends[2]) - right) < 0.02;
+              })
+              .map(
+                  (path) => (
+                      {path, begin: path.getAttribute("d").split("L")[0], y: path.getAttribute("d").split(" ").pop()}));
       this.clips = [...this.svg.querySelectorAll("clipPath rect")];
       this.ground = this.svg.querySelector("svg > rect");
       this.axis = this.svg.querySelector("g.time");
@@ -95,14 +108,17 @@
       this.told = make("p", { className: "told" });
       this.told.setAttribute("aria-live", "polite");
       this.keys = make("p", { className: "keys" });
-      this.keys.innerHTML = "Drag to move, <kbd>Ctrl</kbd> or <kbd>Shift</kbd> and the wheel to zoom, or, with the focus here: " +
-        "<kbd>+</kbd> <kbd>−</kbd> zoom, <kbd>←</kbd> <kbd>→</kbd> move, <kbd>0</kbd> all, <kbd>,</kbd> <kbd>.</kbd> from thing to thing.";
+      this.keys.innerHTML =
+          "Drag to move, <kbd>Ctrl</kbd> or <kbd>Shift</kbd> and the wheel to zoom, or, with the focus here: " +
+          "<kbd>+</kbd> <kbd>−</kbd> zoom, <kbd>←</kbd> <kbd>→</kbd> move, <kbd>0</kbd> all, <kbd>,</kbd> <kbd>.</kbd> from thing to thing.";
       this.paper.before(bar);
       this.paper.after(this.told, this.keys);
       this.paper.tabIndex = 0;
       this.paper.setAttribute("role", "group");
-      this.paper.setAttribute("aria-label", `Timing diagram, ${this.box.dataset.label}. Plus and minus zoom, arrow keys move, ` +
-        "0 shows all, comma and full stop go from thing to thing.");
+      this.paper.setAttribute(
+          "aria-label",
+          `Timing diagram, ${this.box.dataset.label}. Plus and minus zoom, arrow keys move, ` +
+              "0 shows all, comma and full stop go from thing to thing.");
       this.paper.addEventListener("keydown", (event) => this.key(event));
       this.paper.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
       this.paper.addEventListener("dblclick", () => this.show(this.first, this.last));
@@ -113,7 +129,8 @@
 
     x(t) { return this.left + (t - this.from) / (this.to - this.from) * this.width; }
     t(client) {
-      const px = (client - this.svg.getBoundingClientRect().left) / this.svg.getBoundingClientRect().width * this.svg.viewBox.baseVal.width;
+      const px = (client - this.svg.getBoundingClientRect().left) / this.svg.getBoundingClientRect().width *
+          this.svg.viewBox.baseVal.width;
       return this.from + (px - this.left) / this.width * (this.to - this.from);
     }
 
@@ -172,11 +189,12 @@
       this.ticks();
       this.box.dataset.from = this.from;
       this.box.dataset.to = this.to;
-      this.range.textContent = `${this.box.dataset.label}: ${ms(this.from)} to ${ms(this.to)} ms, ${lasting(this.to - this.from)}`;
+      this.range.textContent =
+          `${this.box.dataset.label}: ${ms(this.from)} to ${ms(this.to)} ms, ${lasting(this.to - this.from)}`;
     }
 
-    // A text: in its box if that is wide enough, or beside what it names if its neighbours leave room; a cycle's number is
-    // above it.
+    // A text: in its box if that is wide enough, or beside what it names if its neighbours leave room; a cycle's number
+    // is above it.
     place(item, right, rows) {
       let x, begin;
       if (item.b !== undefined) {
@@ -208,11 +226,14 @@
       const marks = [];
       for (let n = Math.ceil(this.from / step - 1e-9); n * step <= this.to + step * 1e-9; ++n) {
         const x = this.x(n * step);
-        marks.push(draw("path", { d: `M${x} ${bottom}V${bottom + 4}`, stroke: "#000", "stroke-width": 0.8 }),
-          draw("text", { x, y: bottom + 16, "font-size": 10.5, "text-anchor": "middle" }, (n * step).toFixed(decimals)));
+        marks.push(
+            draw("path", {d: `M${x} ${bottom}V${bottom + 4}`, stroke: "#000", "stroke-width": 0.8}),
+            draw(
+                "text", {x, y: bottom + 16, "font-size": 10.5, "text-anchor": "middle"}, (n * step).toFixed(decimals)));
       }
-      marks.push(draw("text", { x: this.left + this.width / 2, y: bottom + 33, "font-size": 11.5, "text-anchor": "middle" },
-        "true time [ms]"));
+      marks.push(draw(
+          "text", {x: this.left + this.width / 2, y: bottom + 33, "font-size": 11.5, "text-anchor": "middle"},
+          "true time [ms]"));
       this.axis.replaceChildren(...marks);
     }
 
@@ -230,11 +251,13 @@
       this.chosen = item;
       if (!item) { this.told.textContent = ""; return; }
       for (const one of this.things)
-        if (one === item || (item.id !== undefined && one.id === item.id && Math.abs(one.a - item.a) < 500)) one.element.classList.add("hot");
+        if (one === item || (item.id !== undefined && one.id === item.id && Math.abs(one.a - item.a) < 500))
+          one.element.classList.add("hot");
       this.told.textContent = this.words(item).replaceAll("\n", " · ");
     }
     step(by) {
-      const seen = this.things.filter((item) => item.a >= this.from && item.a <= this.to && !item.element.classList.contains("null"));
+      const seen = this.things.filter(
+          (item) => item.a >= this.from && item.a <= this.to && !item.element.classList.contains("null"));
       if (seen.length === 0) return;
       const at = seen.indexOf(this.chosen);
       this.choose(seen[at < 0 ? (by > 0 ? 0 : seen.length - 1) : Math.max(0, Math.min(seen.length - 1, at + by))]);
@@ -290,7 +313,9 @@
       if (!item) return;
       tip.textContent = this.words(item);
       tip.style.left = `${Math.min(event.clientX + 14, innerWidth - tip.offsetWidth - 8)}px`;
-      tip.style.top = `${event.clientY + 18 + tip.offsetHeight > innerHeight ? event.clientY - tip.offsetHeight - 12 : event.clientY + 18}px`;
+      tip.style.top = `${
+          event.clientY + 18 + tip.offsetHeight > innerHeight ? event.clientY - tip.offsetHeight - 12 :
+                                                                event.clientY + 18}px`;
     }
     leave() {
       tip.hidden = true;

@@ -20,7 +20,7 @@ cp "$source"/scenarios/*.yaml "$work/scenarios"
 expect 0 "Example: ttfusion run" run --help
 expect 2 "^error: command line: .*required" run
 expect 2 "^error: command line: A subcommand is required"
-expect 2 '^error: foo is no command: must be run, diagram, export, schedule, experiment, launch, node or track$' foo --help
+expect 2 '^error: foo is no command: must be run, diagram, export, schedule, experiment, launch, node, report or track$' foo --help
 expect 2 '^error: draw is no command of schedule: must be check, show or export$' schedule draw x.yaml
 expect 2 '^error: command line: .*--fast' run "$source/scenarios/paper_scenario1.yaml" --fast
 expect 2 "^error: command line: --strategy" run "$source/scenarios/paper_scenario1.yaml" --strategy best

@@ -21,7 +21,9 @@ async function opened(name, file, options = {}) {
   const context = await browser.newContext({ viewport: { width: 1440, height: 1000 }, offline: true, ...options });
   const page = await context.newPage();
   const url = pathToFileURL(file).href;
-  page.on("console", (message) => check(`${name}: console says ${message.text()}`, !["error", "warning"].includes(message.type())));
+  page.on(
+      "console",
+      (message) => check(`${name}: console says ${message.text()}`, !["error", "warning"].includes(message.type())));
   page.on("pageerror", (error) => check(`${name}: ${error}`, false));
   page.on("request", (request) => check(`${name}: asks for ${request.url().slice(0, 100)}`,
     request.url() === url || request.url().startsWith("data:")));
@@ -38,7 +40,8 @@ const inside = ([a, b], [c, d]) => a >= c - 1e-9 && b <= d + 1e-9 && b - a < (d 
 const same = ([a, b], [c, d]) => Math.abs(a - c) + Math.abs(b - d) < 1e-6 * (Math.abs(c) + Math.abs(d));
 
 async function plot_zooms(name, page) {
-  const figure = page.locator("figure.plot").first(), canvas = figure.locator(".canvas"), over = figure.locator(".u-over");
+  const figure = page.locator("figure.plot").first(), canvas = figure.locator(".canvas"),
+        over = figure.locator(".u-over");
   await canvas.scrollIntoViewIfNeeded();
   await page.waitForTimeout(100);
   const all = await range(figure);
@@ -83,7 +86,8 @@ async function diagram_zooms(name, page) {
   const near = await range(diagram);
   check(`${name}: plus zooms the diagram: ${all} to ${near}`, inside(near, all));
   const wide = async () => page.evaluate(() => {
-    const one = [...document.querySelectorAll(".diagram:not([hidden]) rect.frame")].find((e) => !e.hasAttribute("display"));
+    const one =
+        [...document.querySelectorAll(".diagram:not([hidden]) rect.frame")].find((e) => !e.hasAttribute("display"));
     return Number(one.getAttribute("width"));
   });
   const before = await wide();
@@ -110,8 +114,9 @@ async function diagram_zooms(name, page) {
   await paper.focus();
   for (let i = 0; i < 2; ++i) await page.keyboard.press("+");
   await page.waitForTimeout(100);
-  for (const [kind, words] of [["path.arrow", / ms to .*age .* since /s], ["rect.frame", /slot \d+, cycle \d+.* ms to /s],
-                               ["rect.task", /: .* ms to /s], ["path.measured", /is measured\s+at /]]) {
+  for (const [kind, words] of [
+           ["path.arrow", / ms to .*age .* since /s], ["rect.frame", /slot \d+, cycle \d+.* ms to /s],
+           ["rect.task", /: .* ms to /s], ["path.measured", /is measured\s+at /]]) {
     const spot = await page.evaluate((selector) => {
       for (const element of document.querySelectorAll(`.diagram:not([hidden]) ${selector}`)) {
         if (element.hasAttribute("display")) continue;
@@ -139,13 +144,16 @@ async function diagram_zooms(name, page) {
 // Everything that can be operated is reached with the Tab key.
 async function reached(name, page) {
   await page.locator(".skip").focus();
-  const wanted = await page.locator("figure .canvas:visible, .diagram .paper:visible, figure select:visible, summary:visible").count();
+  const wanted =
+      await page.locator("figure .canvas:visible, .diagram .paper:visible, figure select:visible, summary:visible")
+          .count();
   const seen = new Set();
   for (let i = 0; i < 600; ++i) {
     await page.keyboard.press("Tab");
     const id = await page.evaluate(() => {
       const e = document.activeElement;
-      if (!e.matches("figure .canvas, .diagram .paper, figure select, summary")) return e === document.body ? "end" : "";
+      if (!e.matches("figure .canvas, .diagram .paper, figure select, summary"))
+        return e === document.body ? "end" : "";
       e.dataset.reached ??= String(Math.random());
       return e.dataset.reached;
     });
