@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/commands.h"
@@ -30,7 +31,13 @@ std::string html(const ReportOptions& options) {
     report::RunReportOptions run;
     if (options.from_s >= 0.0) run.from = window.from;
     run.to = window.to;
-    return report::run_report_html(options.folders, run);
+    std::vector<report::RunFolder> folders;
+    for (const std::string& path : options.folders) {
+      folders.push_back(report::read_run_folder(path));
+      for (const report::Drive& drive : folders.back().drives)
+        if (drive.log) print_warnings(drive.log->warnings());
+    }
+    return report::run_report_html(std::move(folders), run);
   }
   if (options.folders.size() > 1)
     throw InputError({"command line", 0, "folders", options.folders[0],

@@ -223,7 +223,7 @@ void made(Page& page, const std::vector<ToldDrive>& drives) {
 
 }  // namespace
 
-std::string run_report_html(std::vector<RunFolder>& folders, const RunReportOptions& options) {
+std::string run_report_html(std::vector<RunFolder> folders, const RunReportOptions& options) {
   label_drives(folders);
   std::vector<ToldDrive> drives;
   std::set<std::string> scenarios;
@@ -248,12 +248,6 @@ std::string run_report_html(std::vector<RunFolder>& folders, const RunReportOpti
   pictures(page, drives);
   made(page, drives);
   return page.html();
-}
-
-std::string run_report_html(const std::vector<std::string>& paths, const RunReportOptions& options) {
-  std::vector<RunFolder> folders;
-  for (const std::string& path : paths) folders.push_back(read_run_folder(path));
-  return run_report_html(folders, options);
 }
 
 }  // namespace ttf::report

@@ -15,10 +15,6 @@ struct RunReportOptions {
   std::optional<TrueTime> from, to;
 };
 
-// `paths`: folders as the user named them, all of them runs. Throws InputError where one cannot be read.
-std::string run_report_html(const std::vector<std::string>& paths, const RunReportOptions& options);
-
-// The same of folders that were read: for tests.
-std::string run_report_html(std::vector<RunFolder>& folders, const RunReportOptions& options);
+std::string run_report_html(std::vector<RunFolder> folders, const RunReportOptions& options);
 
 }  // namespace ttf::report

@@ -92,6 +92,12 @@ has small.html 'ttfusion experiment experiments/small.yaml --replay 0/adva/0 --o
 expect 0 'written to one' experiment small.yaml --replay 0/adva/0 --out one
 expect 0 'written to' report one -o one.html
 
+# ---- a log that was cut off is read up to there, with a warning
+mkdir torn
+head -c 300000 seed1/tt.mcap >torn/tt.mcap
+expect 0 '^warning: .*cut off at byte 300000' report torn -o torn.html
+has torn.html 'cut off at byte 300000'
+
 # ---- what is refused, in a sentence each
 mkdir nothing
 expect 2 '^error: nothing: is neither a run .* nor an experiment' report nothing -o x.html
