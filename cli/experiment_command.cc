@@ -25,15 +25,22 @@ experiments::Shard shard_of(const std::string& text) {
   throw InputError({"command line", 0, "--shard", text, "must be i/n with i from 1 to n"});
 }
 
-namespace {
-
-int run_experiment(const ExperimentOptions& options) {
+ExperimentKind kind_of(const ExperimentOptions& options) {
   Findings none;
   YamlMap root = StrictYaml::load(options.file).root(none);
   const std::string kind = root.text_or("kind", "");
-  if (kind == "fault_campaign") return run_fault_campaign(options);
-  if (kind == "sweep") return run_sweep_experiment(options);
+  if (kind == "fault_campaign") return ExperimentKind::kFaultCampaign;
+  if (kind == "sweep") return ExperimentKind::kSweep;
   throw InputError({options.file, root.line("kind"), "kind", kind, "must be sweep or fault_campaign"});
+}
+
+namespace {
+
+int run_experiment(const ExperimentOptions& options) {
+  experiments::Ranks ranks;
+  if (ranks.size() > 1) return run_on_ranks(options, ranks);
+  if (kind_of(options) == ExperimentKind::kFaultCampaign) return run_fault_campaign(options);
+  return run_sweep_experiment(options, ranks);
 }
 
 }  // namespace
@@ -48,7 +55,8 @@ void add_experiment(CLI::App& app, Action& action) {
       "          ttfusion experiment experiments/process_noise.yaml --replay 3/time_triggered/17 --out out/one\n"
       "          ttfusion experiment experiments/fault_campaign.yaml --replay 17\n"
       "          ttfusion experiment FILE --shard 1/2 --out a; ttfusion experiment FILE --shard 2/2 --out b;\n"
-      "          ttfusion experiment FILE --merge a b --out both");
+      "          ttfusion experiment FILE --merge a b --out both\n"
+      "          mpirun -n 8 ttfusion experiment FILE --out all");
   command->add_option("file", options->file, "Experiment file")->required();
   command->add_option("--jobs", options->jobs, "Workers (default: one per processor)")->check(CLI::Range(1u, 1024u));
   auto* shard = command->add_option("--shard", options->shard, "i/n: every n-th fault or replication only, from the i-th on");

@@ -1,11 +1,14 @@
 // What `ttfusion experiment` is asked for, and who does it: one file a kind of experiment.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "experiments/mpi/ranks.h"
 #include "experiments/shard.h"
+#include "experiments/sweep_drive.h"
 
 namespace ttf::cli {
 
@@ -23,7 +26,15 @@ struct ExperimentOptions {
 // All of it where nothing is asked for. Throws InputError.
 experiments::Shard shard_of(const std::string& text);
 
+enum class ExperimentKind : std::uint8_t { kSweep, kFaultCampaign };
+// Throws InputError.
+ExperimentKind kind_of(const ExperimentOptions& options);
+
 int run_fault_campaign(const ExperimentOptions& options);
-int run_sweep_experiment(const ExperimentOptions& options);
+int run_sweep_experiment(const ExperimentOptions& options, experiments::Ranks& alone);
+// A sweep, on more ranks than one: every rank reads it, and what is wrong is told once.
+int run_on_ranks(const ExperimentOptions& options, experiments::Ranks& ranks);
+// Drives what the store does not have yet, and writes and prints the answer. Of more ranks than one: on rank 0.
+int drive_and_answer(const ExperimentOptions& options, const experiments::SweepDrives& drives, experiments::Ranks& ranks);
 
 }  // namespace ttf::cli

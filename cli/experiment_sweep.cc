@@ -121,16 +121,19 @@ bool merge(const std::vector<Store>& shards, const SweepFile& sweep, Store& stor
   return false;
 }
 
-void drive(const ExperimentOptions& options, const SweepDrives& drives, experiments::Shard shard, Store& store) {
+// `ranks`: of more than one, every rank is a worker.
+void drive(const ExperimentOptions& options, const SweepDrives& drives, experiments::Shard shard, Store& store,
+           experiments::Ranks& ranks) {
   const SweepFile& sweep = drives.sweep();
-  const unsigned jobs = options.jobs > 0 ? options.jobs : experiments::workers_here();
+  const bool alone = ranks.size() == 1;
+  const unsigned jobs = !alone ? 1 : options.jobs > 0 ? options.jobs : experiments::workers_here();
   fmt::print(stderr, "{}: {}, {}, {}, {} ...\n", sweep.name, counted(sweep.points(), "point"),
              counted(sweep.paradigms.size(), "paradigm"), counted(sweep.replications, "replication"),
-             counted(jobs, "worker"));
+             alone ? counted(jobs, "worker") : counted(static_cast<std::size_t>(ranks.size()), "rank"));
   const Progress progress("runs");
-  experiments::run_sweep(drives, store, shard, jobs, [&](const experiments::SweepProgress& now) {
-    progress(now.done, now.all, now.driven);
-  });
+  experiments::run_sweep(
+      drives, store, shard, jobs,
+      [&](const experiments::SweepProgress& now) { progress(now.done, now.all, now.driven); }, alone ? nullptr : &ranks);
 }
 
 nlohmann::ordered_json to_json(double value) {
@@ -190,10 +193,8 @@ std::string failures_text(const ExperimentOptions& options, const SweepFile& swe
 
 }  // namespace
 
-int run_sweep_experiment(const ExperimentOptions& options) {
-  const SweepFile sweep = experiments::load_sweep(options.file);
-  const SweepDrives drives(sweep);
-  if (options.replay) return replay(options, drives);
+int drive_and_answer(const ExperimentOptions& options, const SweepDrives& drives, experiments::Ranks& ranks) {
+  const SweepFile& sweep = drives.sweep();
   // All that can be wrong with what is asked for, before anything is written.
   const experiments::Shard shard = shard_of(options.shard);
   if (!options.shard.empty() && sweep.stop)
@@ -205,7 +206,7 @@ int run_sweep_experiment(const ExperimentOptions& options) {
   create_folder(folder);
   Store store = store_of(options, drives, folder + "/results.sqlite");
   if (shards.empty())
-    drive(options, drives, shard, store);
+    drive(options, drives, shard, store, ranks);
   else if (!merge(shards, sweep, store))
     return 1;
 
@@ -223,6 +224,13 @@ int run_sweep_experiment(const ExperimentOptions& options) {
   std::fflush(stdout);
   fmt::print(stderr, "written to {}\n", folder);
   return answer.holds() && answer.failed == 0 ? 0 : 1;
+}
+
+int run_sweep_experiment(const ExperimentOptions& options, experiments::Ranks& alone) {
+  const SweepFile sweep = experiments::load_sweep(options.file);
+  const SweepDrives drives(sweep);
+  if (options.replay) return replay(options, drives);
+  return drive_and_answer(options, drives, alone);
 }
 
 }  // namespace ttf::cli

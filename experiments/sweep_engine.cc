@@ -21,6 +21,7 @@ using results::RunKey;
 
 constexpr std::uint32_t kAtATime = 8;                    // replications of one drive, which is prepared once for them
 constexpr std::chrono::milliseconds kWritten{500};       // how long a run waits at most to be written down
+constexpr std::chrono::milliseconds kTurn{2};            // between two looks at what is driven elsewhere
 constexpr std::size_t kMostWaiting = 100'000;            // runs
 
 // Which runs there are, a bit each.
@@ -42,10 +43,20 @@ class Ledger {
   std::vector<bool> there_;
 };
 
-// Drives `wanted` on all workers; `take` gets what is there now and then, on the calling thread.
+// Nothing where it cannot be: run() says why.
+std::optional<PreparedDrive> try_prepare(const SweepDrives& drives, const RunKey& key) {
+  try {
+    return drives.prepare(key);
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+}
+
+// Drives `wanted` on all workers, and elsewhere; `take` gets what is there now and then, on the calling thread.
 class Workers {
  public:
-  Workers(const SweepDrives& drives, const std::vector<RunKey>& wanted) : drives_(drives), wanted_(wanted) {}
+  Workers(const SweepDrives& drives, const std::vector<RunKey>& wanted, Elsewhere* elsewhere)
+      : drives_(drives), wanted_(wanted), elsewhere_(elsewhere) {}
 
   void work(unsigned workers, const std::function<void(std::vector<Run>)>& take) {
     std::vector<std::thread> threads;
@@ -61,11 +72,11 @@ class Workers {
       if (threads.empty()) throw;
     }
     for (bool last = false; !last;) {
+      const bool all_back = await_runs();
       std::vector<Run> runs;
       {
-        std::unique_lock lock(mutex_);
-        changed_.wait_for(lock, kWritten, [&] { return running_ == 0; });
-        last = running_ == 0;
+        const std::lock_guard lock(mutex_);
+        last = all_back && running_ == 0;
         runs.swap(waiting_);
       }
       changed_.notify_all();
@@ -96,36 +107,51 @@ class Workers {
     changed_.notify_all();
   }
 
-  // Neighbours are of one drive as far as they go; its preparation is shared unless something is drawn for each.
+  // The next few runs for who asks.
+  std::span<const RunKey> grab() {
+    const std::size_t first = next_.fetch_add(kAtATime);
+    if (first >= wanted_.size()) return {};
+    return std::span(wanted_).subspan(first, std::min<std::size_t>(kAtATime, wanted_.size() - first));
+  }
+
   void drive_all() {
-    const bool shared = drives_.sweep().drawn().empty();
-    for (std::size_t first = next_.fetch_add(kAtATime); first < wanted_.size(); first = next_.fetch_add(kAtATime)) {
-      const std::size_t end = std::min<std::size_t>(first + kAtATime, wanted_.size());
-      std::optional<PreparedDrive> prepared;
-      for (std::size_t r = first; r < end; ++r) {
-        const RunKey& key = wanted_[r];
-        const bool same = r > first && key.point == wanted_[r - 1].point && key.paradigm == wanted_[r - 1].paradigm;
-        if (!same) prepared.reset();
-        if (shared && !prepared) prepared = try_prepare(key);
-        Run run = prepared ? drives_.run(key, *prepared) : drives_.run(key);
+    for (std::span<const RunKey> some = grab(); !some.empty(); some = grab())
+      drive_in_turn(drives_, some, [this](Run run) {
         std::unique_lock lock(mutex_);
         changed_.wait(lock, [&] { return waiting_.size() < kMostWaiting; });
         waiting_.push_back(std::move(run));
-      }
-    }
+      });
   }
 
-  // Nothing where it cannot be: run() says why.
-  std::optional<PreparedDrive> try_prepare(const RunKey& key) const {
-    try {
-      return drives_.prepare(key);
-    } catch (const std::exception&) {
-      return std::nullopt;
+  bool nobody_runs() {
+    const std::lock_guard lock(mutex_);
+    return running_ == 0;
+  }
+
+  // Until it is time to write down what is there, or all is. Whether nothing is to be expected from elsewhere.
+  bool await_runs() {
+    if (elsewhere_ == nullptr) {
+      std::unique_lock lock(mutex_);
+      changed_.wait_for(lock, kWritten, [&] { return running_ == 0; });
+      return true;
+    }
+    const auto until = std::chrono::steady_clock::now() + kWritten;
+    while (true) {
+      const bool all_here = nobody_runs();
+      const std::size_t away = elsewhere_->turn([this] { return grab(); },
+                                                [this](std::vector<Run> runs) {
+                                                  const std::lock_guard lock(mutex_);
+                                                  for (Run& run : runs) waiting_.push_back(std::move(run));
+                                                });
+      if (away == 0 && all_here) return true;
+      if (std::chrono::steady_clock::now() >= until) return away == 0;
+      std::this_thread::sleep_for(kTurn);
     }
   }
 
   const SweepDrives& drives_;
   const std::vector<RunKey>& wanted_;
+  Elsewhere* const elsewhere_;
   std::atomic<std::size_t> next_{0};
   std::mutex mutex_;
   std::condition_variable changed_;
@@ -136,8 +162,21 @@ class Workers {
 
 }  // namespace
 
+// Something drawn for each leaves nothing to share.
+void drive_in_turn(const SweepDrives& drives, std::span<const RunKey> wanted, const std::function<void(Run)>& take) {
+  const bool shared = drives.sweep().drawn().empty();
+  std::optional<PreparedDrive> prepared;
+  for (std::size_t r = 0; r < wanted.size(); ++r) {
+    const RunKey& key = wanted[r];
+    const bool same = r > 0 && key.point == wanted[r - 1].point && key.paradigm == wanted[r - 1].paradigm;
+    if (!same) prepared.reset();
+    if (shared && !prepared) prepared = try_prepare(drives, key);
+    take(prepared ? drives.run(key, *prepared) : drives.run(key));
+  }
+}
+
 void run_sweep(const SweepDrives& drives, results::Store& store, Shard shard, unsigned workers,
-               const std::function<void(const SweepProgress&)>& progress) {
+               const std::function<void(const SweepProgress&)>& progress, Elsewhere* elsewhere) {
   const SweepFile& sweep = drives.sweep();
   const auto points = static_cast<std::uint32_t>(sweep.points());
   const auto paradigms = static_cast<std::uint32_t>(sweep.paradigms.size());
@@ -156,7 +195,7 @@ void run_sweep(const SweepDrives& drives, results::Store& store, Shard shard, un
       for (std::uint32_t paradigm = 0; paradigm < paradigms && !enough[point]; ++paradigm)
         for (std::uint32_t r = from; r < to; ++r)
           if (const RunKey key{point, r, paradigm}; shard.has(r) && !ledger.has(key)) wanted.push_back(key);
-    Workers(drives, wanted).work(workers, [&](std::vector<Run> runs) {
+    Workers(drives, wanted, elsewhere).work(workers, [&](std::vector<Run> runs) {
       store.add(runs);
       for (const Run& run : runs) ledger.add(run.key);
       now.done += runs.size();

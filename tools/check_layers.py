@@ -36,6 +36,7 @@ ALLOWED["bus/socketcan"] = ALLOWED["bus"] + ["bus"]
 ALLOWED["bus/dds"] = ALLOWED["bus"] + ["bus"]
 ALLOWED["bus/dds/ros"] = ALLOWED["bus/dds"] + ["bus/dds"]
 ALLOWED["nodes/runner"] = ALLOWED["nodes"] + ["nodes"]
+ALLOWED["experiments/mpi"] = ALLOWED["experiments"] + ["experiments"]
 ALLOWED["cli"] = [room for room in ALLOWED]
 ALLOWED["tests"] = [room for room in ALLOWED]
 

@@ -1,0 +1,56 @@
+#include <fmt/format.h>
+
+#include <exception>
+#include <optional>
+#include <string>
+
+#include "cli/experiment_options.h"
+#include "core/errors.h"
+#include "experiments/sweep_drive.h"
+#include "experiments/sweep_file.h"
+
+namespace ttf::cli {
+
+int run_on_ranks(const ExperimentOptions& options, experiments::Ranks& ranks) {
+  std::optional<experiments::SweepFile> sweep;
+  std::optional<experiments::SweepDrives> drives;
+  std::exception_ptr mine;
+  std::string words;
+  try {
+    const auto refuse = [](bool given, const char* option, const char* why) {
+      if (given) throw InputError({"command line", 0, option, "", why});
+    };
+    refuse(options.jobs > 0, "--jobs", "must not be given under mpirun: each rank is a worker");
+    refuse(options.replay.has_value(), "--replay", "needs no mpirun: it is one run");
+    refuse(!options.merge.empty(), "--merge", "needs no mpirun: nothing is driven");
+    if (kind_of(options) != ExperimentKind::kSweep)
+      throw InputError({options.file, 0, "kind", "fault_campaign", "must be sweep under mpirun: a campaign has --shard"});
+    sweep.emplace(experiments::load_sweep(options.file));
+    drives.emplace(*sweep);
+  } catch (const InputError& error) {
+    mine = std::current_exception();
+    words = error.findings().front().sentence();
+  } catch (const std::exception& error) {
+    mine = std::current_exception();
+    words = error.what();
+  }
+  std::string first = ranks.first_problem(words);
+  if (first.empty()) {
+    const bool same = ranks.same_as_first(drives->identity() + TTF_VERSION);
+    words = fmt::format("rank {}: reads other files than rank 0, or is another version", ranks.rank());
+    first = ranks.first_problem(same ? "" : words);
+  }
+  if (!first.empty()) {
+    if (ranks.rank() != 0) return 2;
+    if (mine) std::rethrow_exception(mine);
+    throw InputError({options.file, 0, "", "", first});
+  }
+  if (ranks.rank() != 0) {
+    ranks.serve(*drives);
+    return 0;
+  }
+  ranks.are_served();
+  return drive_and_answer(options, *drives, ranks);
+}
+
+}  // namespace ttf::cli
