@@ -87,7 +87,7 @@ Store opened(const SweepDrives& drives, const std::string& path) {
   if (store.head().identity != drives.identity() || store.head().measures != drives.columns() ||
       store.head().version != TTF_VERSION)
     throw InputError({path, 0, "", "",
-                      "must be of this experiment: the file, its scenario, a cluster or the program was another then"});
+                      "must be of this experiment: the file, a file that it names or the program was another then"});
   const SweepFile& sweep = drives.sweep();
   for (const results::RunKey& key : store.keys())
     if (key.point >= sweep.points() || key.replication >= sweep.replications || key.paradigm >= sweep.paradigms.size())

@@ -21,7 +21,7 @@ Duration period_of(const NodeSet& set, std::string_view step, const runner::Driv
 }
 
 Duration period_of(const NodeSet& set, const schedules::Sensor& sensor, const runner::DriveClock& clock) {
-  return clock.in_real(sensor.scheduled ? set.cluster.cycle() * sensor.at.repetition : sensor.period);
+  return clock.in_real(sensor.scheduled ? set.cluster.cycle() * sensor.at.repetition : sensor.longest_period());
 }
 
 std::int64_t utc_ns(bus::HostTime at) {

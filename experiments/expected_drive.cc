@@ -35,7 +35,7 @@ bool ExpectedError::is_defined(const nodes::Scenario& scenario) {
 }
 
 ExpectedError::ExpectedError(const nodes::Scenario& scenario)
-    : from_(sim::evaluation_start(scenario)), recursion_(motion_of(scenario)) {}
+    : from_(sim::evaluation_start(scenario)), motion_(motion_of(scenario)), recursion_(motion_) {}
 
 double ExpectedError::position_mse() const {
   return uses_ == 0 ? std::numeric_limits<double>::quiet_NaN() : sum_ / static_cast<double>(uses_);
@@ -69,6 +69,12 @@ void ExpectedError::on(const records::ObservationSeen& observation) {
 }
 
 void ExpectedError::on(const records::ListFused& list) {
+  // A fusion node that comes back has forgotten all, and may count time anew.
+  if (list.stamp.global < fusing_) {
+    recursion_ = ErrorRecursion(motion_);
+    images_.clear();
+  }
+  fusing_ = list.stamp.global;
   if (list.disposition != records::Disposition::kFused && list.disposition != records::Disposition::kFusedLate) return;
   const auto seen = std::find_if(seen_.begin(), seen_.end(), [&](const Seen& one) {
     return one.id == list.id && one.measured == list.measured;

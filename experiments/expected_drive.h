@@ -27,6 +27,7 @@ class ExpectedError final : public records::Sink {
   // not a number where there are none.
   double position_mse() const;
 
+  bool wants_frames() const override { return false; }
   using records::Sink::on;
   void on(const records::TruthState&) override;
   void on(const records::ObservationSeen&) override;
@@ -47,7 +48,9 @@ class ExpectedError final : public records::Sink {
   };
 
   TrueTime from_;
+  PointMotion motion_;
   ErrorRecursion recursion_;
+  GlobalTime fusing_{};                     // instant of the newest list's fusion
   std::deque<records::TruthState> truth_;   // the last few instants
   std::deque<Seen> seen_;                   // of lists that are not fused yet: the observation next to the object
   std::deque<Image> images_;                // the last few

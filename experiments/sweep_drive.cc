@@ -54,9 +54,13 @@ SweepDrives::SweepDrives(const SweepFile& sweep) : sweep_(sweep) {
       for (std::size_t s = 1; s < axis->settings.size(); ++s) each_paradigm(static_cast<std::uint32_t>(s * step));
     }
   }
-  std::string all = sweep.text + '\0' + texts_.at(sweep.scenario_file);
+  // The same from whichever folder it is looked at.
+  std::vector<std::string> others;
   for (const auto& [path, text] : texts_)
-    if (path != sweep.scenario_file) all += '\0' + std::filesystem::path(path).filename().string() + '\0' + text;
+    if (path != sweep.scenario_file) others.push_back(std::filesystem::path(path).filename().string() + '\0' + text);
+  std::sort(others.begin(), others.end());
+  std::string all = sweep.text + '\0' + texts_.at(sweep.scenario_file);
+  for (const std::string& other : others) all += '\0' + other;
   identity_ = hex_hash(all);
 }
 

@@ -27,10 +27,10 @@ schedules::CycleInstant image_use(const schedules::Cluster& cluster, PduId image
 }
 
 // The schedule's fusion instants, one by one. A fusing task that time does not activate has none: there the worst delay says
-// when to stop waiting.
+// when to stop waiting: until its own task, which may wait for others, hands a list to the strategy.
 fusion::Settling settling(const schedules::Cluster& cluster, const schedules::AgePath& path) {
   const auto round = schedules::settled_round(cluster, path.sensor);
-  if (!round) return fusion::Settling::after(path.fusion_worst);
+  if (!round) return fusion::Settling::after(path.fused_worst);
   std::vector<fusion::Settling::Step> steps;
   for (const schedules::Settled& settled : round->instants) steps.push_back({settled.at, settled.measured});
   return {std::move(steps), round->round};

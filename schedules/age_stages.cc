@@ -250,7 +250,8 @@ class Builder {
                            publisher->activation.after == fusing.name;
       if (!follows && publisher->activation.kind != ActivationKind::kTime) return;
       execution(path, id, fusing);
-      // First come, first served: activated while a list is being fused that time had no part in, it waits for that.
+      // The image's instant may come while this list is being fused: its task then runs right behind, and fusing adds
+      // nothing to the least age.
       if (!follows && fusing.activation.kind == ActivationKind::kMessage) path.stages.back().best = {};
       if (!follows) instant(path, fmt::format("{}.{}", node.name, publisher->name), publisher->activation.at);
       queue(path, id, *publisher, {});

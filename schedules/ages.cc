@@ -59,7 +59,7 @@ class Ages {
     Duration slowest{};
     std::optional<Duration> apart;
     for (const AgePath& path : paths) {
-      slowest = std::max(slowest, path.fusion_worst);
+      slowest = std::max(slowest, path.fused_worst);
       if (!path_of(cluster_, path.sensor).on_arrival) continue;
       const Duration one = longest_between(path.sensor) + path.fused_worst - path.fused_best;
       apart = std::min(apart.value_or(one), one);

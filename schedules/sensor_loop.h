@@ -1,14 +1,14 @@
 // A sensor that follows its host: it measures whenever the host has preprocessed its last measurement.
 //
-//   device:  measuring ==> raw list =(CAN or FlexRay)=> host:  after =====> trigger -> device, not before `period` is over
+//   device:  measuring ==> raw list =(CAN)=> host:  after =====> trigger -> device, not before `period` is over
 //
-// The ends of a loop are the device's measuring task and the task `after` that its raw list activates on the host, and that
-// no other task follows; a host triggers where that task ends and no newer list waits for it already, so that there is one list in the loop. In it a
-// measurement comes at least
+// The ends of a loop are the device's measuring task and the task `after` that its raw list activates on the host, and
+// that no other task follows; a host triggers where that task ends and no newer list waits for it already, so that there
+// is one list in the loop. In it a measurement comes at least
 //   best(measuring) + shortest transfer + best(after)
-// after the one before, however fast the device could, and the host's task never meets its own next activation: that is the
-// shortest transfer and measuring away from its end. The loop at its slowest must be no longer than `longest`, or the device
-// would measure by itself though nothing is lost.
+// after the one before, however fast the device could, and the host's task never meets its own next activation: that is
+// the shortest transfer and measuring away from its end. The loop at its slowest must be no longer than `longest`, or
+// the device would measure by itself though nothing is lost.
 #pragma once
 
 #include <optional>

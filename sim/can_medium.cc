@@ -18,7 +18,9 @@ CanMedium::CanMedium(const schedules::Cluster& cluster, std::size_t bus, std::sp
   const schedules::CanBus& can = cluster.can_buses[bus];
   if (can.other_load <= 0.0) return;
   other_length_ = schedules::can_worst_case(can, can.flexible_data_rate ? 64 : 8);
-  other_period_ = {static_cast<std::int64_t>(std::ceil(static_cast<double>(other_length_.ns) / can.other_load))};
+  constexpr double kSeldom_ns = 1e15;   // eleven days
+  const double period = std::ceil(static_cast<double>(other_length_.ns) / can.other_load);
+  other_period_ = {static_cast<std::int64_t>(std::min(period, kSeldom_ns))};
   RandomStream phase({seed, replication, Purpose::kOtherTraffic, static_cast<std::uint16_t>(bus), 0});
   next_other_ = TrueTime{} + Duration{phase.integer(0, other_period_.ns - 1)};
 }

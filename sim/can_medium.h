@@ -1,9 +1,9 @@
 // A simulated private CAN in virtual time: arbitration by identifier whenever the bus falls idle, durations with the exact
 // stuff bits of the data.
 //
-// Other traffic (CanBus::other_load) is as bad as the checker takes it to be: the longest frames there are, one after the
-// same time as the other, so that they take that share, from a drawn instant on, each before all that the cluster sends. It
-// is for no node, and no record tells of its frames; they count as time in which the bus is busy.
+// Other traffic (CanBus::other_load) is as bad as the checker takes it to be: the longest frames there are, at equal
+// distances, so that they take that share, from a drawn instant on, each before all that the cluster sends. It is for no
+// node, and no record tells of its frames; they count as time in which the bus is busy.
 #pragma once
 
 #include <cstdint>

@@ -62,6 +62,10 @@ void check_recording(const nodes::Scenario& scenario, const schedules::Cluster& 
   if (needed && scenario.startup.cold)
     throw InputError({scenario.file, 0, "startup", "cold",
                       "must be integrated: a recording begins with cycle 0, and nobody knows when that will be"});
+  for (const schedules::Sensor& sensor : cluster.sensors)
+    if (needed && sensor.follows())
+      throw InputError({cluster.file, sensor.line, "sensors." + sensor.name + ".measurement", "completion",
+                        "must be another where observations are recorded: their instants are"});
 }
 
 void check_late(const nodes::Scenario& scenario, const schedules::Cluster& cluster, fusion::StrategyKind strategy) {
@@ -81,7 +85,7 @@ void check_fusion(const schedules::Cluster& cluster, fusion::StrategyKind strate
   if (strategy != fusion::StrategyKind::kTt) return;
   for (const schedules::Node& node : cluster.nodes)
     for (const schedules::Task& task : node.tasks)
-      if (task.step == "fusion" && task.activation.kind == schedules::ActivationKind::kMessage)
+      if (task.step == "fusion" && task.activation.kind != schedules::ActivationKind::kTime)
         throw InputError({cluster.file, task.line, "nodes." + node.name + ".tasks." + task.name + ".activation", "",
                           "must be of kind time with strategy tt, which relies on fusion instants that the schedule knows"});
 }

@@ -122,6 +122,10 @@ WorldConfig load_world(YamlMap& yaml) {
   }
   const auto all = static_cast<std::int64_t>(config.objects.size());
   const std::int64_t count = yaml.integer_or("object_count", all, {std::min<std::int64_t>(all, 1), all});
+  const auto reference = std::find_if(config.objects.begin(), config.objects.end(),
+                                      [](const ObjectConfig& object) { return object.reference; });
+  if (reference != config.objects.end() && reference - config.objects.begin() >= count)
+    yaml.fail("object_count", "must leave the object that carries the reference's antenna");
   config.objects.resize(static_cast<std::size_t>(count));
   return config;
 }

@@ -66,7 +66,7 @@ expect 2 'must be point/paradigm/replication' experiment "$file" --replay 1/buff
 
 # ---- what is refused, and what does not come out as expected
 sed 's/seed: 3/seed: 4/' "$file" >"$work/other.yaml"
-expect 2 'must be of this experiment: the file, its scenario, a cluster or the program was another then' \
+expect 2 'must be of this experiment: the file, a file that it names or the program was another then' \
   experiment "$work/other.yaml" --out "$work/whole" --resume
 expect 2 'must be of this experiment' experiment "$work/other.yaml" --merge "$work/first" --out "$work/none"
 expect 2 'none/results.sqlite: cannot be opened' experiment "$file" --merge "$work/first" "$work/none" --out "$work/none"

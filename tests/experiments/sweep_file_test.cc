@@ -74,7 +74,8 @@ TEST(SweepFile, WhatIsWrongIsToldWithItsLine) {
               HasSubstr("one of `measures`"));
   EXPECT_THAT(refusal(kHead + axes + "expect: [{measure: nees, agrees: nees, of: a}]\n"),
               HasSubstr("another than `measure`"));
-  EXPECT_THAT(refusal(kHead + axes + "expect: [{measure: nees, agrees: missed, less: a}]\n"), HasSubstr("of"));
+  EXPECT_THAT(refusal(kHead + axes + "expect: [{measure: nees, agrees: missed, less: a}]\n"),
+              HasSubstr("expect[0].of"));
   EXPECT_THAT(refusal(kHead + axes + "expect: [{measure: nees, less: a, than: t, where: {one: 3}}]\n"),
               HasSubstr("not one: 3"));
   EXPECT_THAT(refusal(kHead + axes + "colour: red\n"), HasSubstr("colour"));

@@ -69,14 +69,17 @@ TEST(OtherTraffic, MakesListsWaitWithinTheBounds) {
     EXPECT_GT(among.longest, before.longest);
     EXPECT_GT(among.sum.ns / among.count, before.sum.ns / before.count);
     before = among;
+    int parts = 0;
     for (const schedules::AgePath& path : schedules::measurement_ages(drive.cluster)) {
       EXPECT_GE(ages.fused[path.sensor].best, path.fused_best);
       EXPECT_LE(ages.fused[path.sensor].worst, path.fused_worst);
       for (const schedules::Contribution& part : path.to_fusion)
         if (part.name.find("on observation_can") != std::string::npos && part.name.find("laser") != std::string::npos) {
           EXPECT_LE(among.longest, part.worst);
+          ++parts;
         }
     }
+    EXPECT_EQ(parts, 1);
   }
 }
 
