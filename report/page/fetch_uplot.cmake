@@ -3,8 +3,14 @@ file(MAKE_DIRECTORY ${WORK})
 foreach(name package.json package-lock.json .npmrc)
   configure_file(${PAGE}/${name} ${WORK}/${name} COPYONLY)
 endforeach()
-foreach(attempt 1 2)
-  execute_process(COMMAND npm ci --prefer-offline --no-progress --fetch-retries=1 --fetch-retry-mintimeout=2000
+find_program(npm npm)
+if(NOT npm)
+  message(FATAL_ERROR "npm, which fetches what the report's plots are drawn by, is not installed: tools/install_deps.sh")
+endif()
+# With the user's own cache, and where that cannot be written, with one here.
+foreach(cache "" "--cache=${WORK}/cache")
+  execute_process(COMMAND ${npm} ci ${cache} --prefer-offline --no-progress --fetch-retries=1
+                          --fetch-retry-mintimeout=2000 --fetch-timeout=30000
                   WORKING_DIRECTORY ${WORK} TIMEOUT 90
                   RESULT_VARIABLE result OUTPUT_FILE ${WORK}/npm.log ERROR_FILE ${WORK}/npm.log)
   if(result EQUAL 0)
