@@ -65,5 +65,20 @@ TEST(ShippedSweeps, TheErrorOfAWholeClusterIsTheExpectedOne) {
   }
 }
 
+// A fusion node that comes back has forgotten all, and may count its time anew: what was expected of it has, too.
+TEST(ShippedSweeps, WhatIsToBeExpectedSurvivesACrashOfTheFusionNode) {
+  SweepFile sweep = load_sweep(kFolder + "schedule_phases.yaml");
+  const SweepDrives drives(sweep);
+  PreparedDrive drive = drives.prepare({0, 0, 2});
+  std::string text = drive.scenario.text + "faults:\n  - {kind: crash, node: fusion, from: 700 ms, duration: 300 ms}\n";
+  drive.scenario = nodes::parse_scenario(std::move(text), sweep.scenario_file);
+  const results::Run run = drives.run({0, 0, 2}, drive);
+  ASSERT_EQ(run.status, results::kDone);
+  const auto found = std::find(sweep.measures.begin(), sweep.measures.end(), "position_mse_expected");
+  const double expected = run.values[static_cast<std::size_t>(found - sweep.measures.begin())];
+  EXPECT_GT(expected, 0.0);
+  EXPECT_LT(expected, 10.0);
+}
+
 }  // namespace
 }  // namespace ttf::experiments

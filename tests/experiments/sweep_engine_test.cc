@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <utility>
+#include <vector>
 
 #include "experiments/sweep_answer.h"
 #include "experiments/sweep_text.h"
@@ -40,6 +42,35 @@ TEST_F(SweepEngine, TheSameForAnyNumberOfWorkers) {
   EXPECT_EQ(std::count(one.begin(), one.end(), '\n'), 1 + 2 * 2 * 5);
   EXPECT_EQ(driven(drives, "2", 2), one);
   EXPECT_EQ(driven(drives, "8", 8), one);
+}
+
+// Somebody elsewhere who takes some runs at a time, and gives them back one turn later.
+class OneElsewhere final : public Elsewhere {
+ public:
+  explicit OneElsewhere(const SweepDrives& drives) : drives_(drives) {}
+  std::size_t turn(const Grab& grab, const Deposit& deposit) override {
+    driven += done_.size();
+    deposit(std::exchange(done_, {}));
+    drive_in_turn(drives_, grab(), [this](results::Run run) { done_.push_back(std::move(run)); });
+    return done_.size();
+  }
+  std::size_t driven = 0;
+
+ private:
+  const SweepDrives& drives_;
+  std::vector<results::Run> done_;
+};
+
+TEST_F(SweepEngine, TheSameWhereOthersDriveToo) {
+  const SweepFile sweep = small_sweep(40);
+  const SweepDrives drives(sweep);
+  const std::string alone = driven(drives, "alone", 2);
+  results::Store shared = store(drives, "shared");
+  OneElsewhere other(drives);
+  run_sweep(drives, shared, {}, 1, [](const SweepProgress&) {}, &other);
+  EXPECT_EQ(runs_csv(sweep, shared), alone);
+  EXPECT_GT(other.driven, 0u);
+  EXPECT_LT(other.driven, 160u);
 }
 
 TEST_F(SweepEngine, ShardsPutTogetherAreTheWhole) {
