@@ -97,8 +97,8 @@ void add_export(CLI::App& app, Action& action) {
       "Example: ttfusion export out/noise --format gnuplot -o figures");
   command
       ->add_option("logs", options->logs,
-                   "Log of a run, or one of each of its processes; for gnuplot also of several runs, folders of logs or "
-                   "an experiment's folder")
+                   "Log of a run, or one of each of its processes; for gnuplot also of several runs, folders of "
+                   "logs or an experiment's folder")
       ->required();
   command
       ->add_option("--format", options->format,

@@ -76,7 +76,7 @@ class RunTables {
     add("truth", selection_.truth);
     add("reference", selection_.reference);
     for (std::size_t s = 0; s < selection_.observations.size(); ++s)
-      add(names_.sensor(static_cast<SensorId>(s)), selection_.observations[s]);
+      add(report::sensor_kind(names_.sensor(static_cast<SensorId>(s))), selection_.observations[s]);
     add("image", selection_.fusion);
     return text;
   }

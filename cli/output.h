@@ -12,7 +12,8 @@ namespace ttf::cli {
 // Writes the whole file. Throws std::runtime_error with path and reason where it cannot.
 void write_file(const std::string& path, std::string_view text);
 
-// A file that is written piece by piece, and is there only if it was finished. Throws as write_file().
+// A file that is written piece by piece, and is there only if it was finished. An older one of its name is gone from
+// the beginning on. Throws as write_file().
 class OutputFile {
  public:
   explicit OutputFile(std::string path);

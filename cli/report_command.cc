@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -49,7 +51,18 @@ std::string html(const ReportOptions& options) {
   return report::experiment_report_html(options.folders[0]);
 }
 
+// A folder's files are what the page is of, but for a page that was written there before.
+void refuse_input(const ReportOptions& options) {
+  namespace fs = std::filesystem;
+  std::error_code none;
+  for (const std::string& folder : options.folders)
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, none))
+      if (entry.is_regular_file(none) && entry.path().extension() != ".html")
+        refuse_overwriting(entry.path().string(), options.out, "--out");
+}
+
 int run_report(const ReportOptions& options) {
+  refuse_input(options);
   const std::string page = html(options);
   write_file(options.out, page);
   fmt::print(stderr, "written to {}: {:.1f} MB\n", options.out, static_cast<double>(page.size()) * 1e-6);

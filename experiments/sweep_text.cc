@@ -115,7 +115,7 @@ std::string answer_text(const SweepFile& sweep, const SweepAnswer& answer) {
   if (answer.failed > 0) text += fmt::format("{} failed: see `status` in runs.csv\n", counted(answer.failed, "run"));
   for (const ExpectationAnswer& expectation : answer.expectations) {
     text += fmt::format("expected: {}: {}", expectation.text, expectation.holds ? "holds" : "does not hold for certain");
-    if (!expectation.holds) text += " at " + joined(expectation.where_not);
+    if (!expectation.where_not.empty()) text += " at " + joined(expectation.where_not);
     text += '\n';
   }
   return text;

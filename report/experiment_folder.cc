@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <filesystem>
 #include <limits>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
 
 #include "core/errors.h"
 #include "report/run_folder.h"
@@ -91,7 +94,9 @@ void read_points(const AnswerReader& reader, const Json& json, ExperimentFolder&
         folder.measures.push_back({name, "", ""});
     }
     ExperimentPoint& point = folder.points.emplace_back();
-    point.point = static_cast<std::uint32_t>(reader.count(points[p], place, "point"));
+    const std::uint64_t number = reader.count(points[p], place, "point");
+    if (number > std::numeric_limits<std::uint32_t>::max()) reader.refuse(place + "point", "must be below 2^32");
+    point.point = static_cast<std::uint32_t>(number);
     for (const std::string& axis : folder.axes)
       point.settings.push_back(reader.text(reader.object(points[p], place, "axes"), place + "axes.", axis.c_str()));
     for (const std::string& paradigm : folder.paradigms) {
@@ -110,8 +115,15 @@ void read_points(const AnswerReader& reader, const Json& json, ExperimentFolder&
 }
 
 void read_store(const std::string& path, ExperimentFolder& folder) {
-  if (!std::filesystem::exists(path)) return;
+  std::error_code none;
+  if (!std::filesystem::exists(path, none)) return;
   folder.store = results::Store::open(path);
+  // Damage behind its first rows shows only when they are read.
+  try {
+    folder.store->for_each([](const results::Run&) {});
+  } catch (const std::runtime_error& error) {
+    throw InputError({path, 0, "", "", std::string("must be a store of runs; SQLite says: ") + error.what()});
+  }
   for (const ExperimentMeasure& measure : folder.measures)
     if (std::ranges::find(folder.store->head().measures, measure.name) == folder.store->head().measures.end())
       throw InputError({path, 0, measure.name, "", "is no column of its runs: answer.json is of another experiment"});

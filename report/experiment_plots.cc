@@ -18,11 +18,17 @@ namespace {
 constexpr std::size_t kMostViews = 150;   // of a plot
 constexpr double kLogarithmic = 50.0;     // an axis that spans more than this factor
 
-// "42 ms" is 42.
-std::optional<double> number_of(const std::string& label) {
+// "42 ms" is 42 and "ms".
+struct Quantity {
+  double value = 0.0;
+  std::string unit;
+};
+std::optional<Quantity> quantity_of(const std::string& label) {
   char* end = nullptr;
   const double value = std::strtod(label.c_str(), &end);
-  return end == label.c_str() || !std::isfinite(value) ? std::nullopt : std::optional(value);
+  if (end == label.c_str() || !std::isfinite(value)) return std::nullopt;
+  while (*end == ' ') ++end;
+  return Quantity{value, end};
 }
 
 struct XAxis {
@@ -36,15 +42,21 @@ XAxis x_axis(const ExperimentFolder& folder) {
   std::size_t most = 1;
   for (std::size_t a = 0; a < folder.axes.size(); ++a) {
     std::set<double> values;
+    std::set<std::string> units;
     bool numeric = true;
     for (const ExperimentPoint& point : folder.points) {
-      const auto value = number_of(point.settings[a]);
-      numeric = numeric && value.has_value();
-      if (value) values.insert(*value);
+      const auto quantity = quantity_of(point.settings[a]);
+      numeric = numeric && quantity.has_value();
+      if (!quantity) continue;
+      values.insert(quantity->value);
+      units.insert(quantity->unit);
     }
-    if (!numeric || values.size() <= most) continue;
+    // "500 us" and "1 ms" are words here: nobody says how one unit comes to the other.
+    if (!numeric || units.size() != 1 || values.size() <= most) continue;
     most = values.size();
-    chosen = {a, folder.axes[a], *values.begin() > 0.0 && *values.rbegin() / *values.begin() > kLogarithmic};
+    const std::string& unit = *units.begin();
+    chosen = {a, folder.axes[a] + (unit.empty() ? "" : " [" + unit + "]"),
+              *values.begin() > 0.0 && *values.rbegin() / *values.begin() > kLogarithmic};
   }
   return chosen;
 }
@@ -68,6 +80,9 @@ Plot plot_over_axis(const ExperimentFolder& folder, bool differences) {
       x.logarithmic,
       differences,
       {}};
+  const auto x_of = [&](const ExperimentPoint* point) {
+    return x.axis ? quantity_of(point->settings[*x.axis])->value : static_cast<double>(point->point);
+  };
   std::vector<std::string> combinations;
   std::map<std::string, std::vector<const ExperimentPoint*>> points;
   for (const ExperimentPoint& point : folder.points) {
@@ -77,7 +92,7 @@ Plot plot_over_axis(const ExperimentFolder& folder, bool differences) {
   }
   if (x.axis)
     for (auto& [others, of_one] : points)
-      std::ranges::stable_sort(of_one, {}, [&](const ExperimentPoint* p) { return *number_of(p->settings[*x.axis]); });
+      std::ranges::stable_sort(of_one, {}, x_of);
   for (std::size_t m = 0; m < folder.measures.size(); ++m)
     for (const std::string& others : combinations) {
       if (plot.views.size() >= kMostViews) return plot;
@@ -89,7 +104,7 @@ Plot plot_over_axis(const ExperimentFolder& folder, bool differences) {
           const Estimate& estimate = point->estimates[p][m];
           if (differences && !estimate.difference) continue;
           const results::Interval& interval = differences ? *estimate.difference : estimate.mean;
-          curve.x.push_back(x.axis ? *number_of(point->settings[*x.axis]) : static_cast<double>(point->point));
+          curve.x.push_back(x_of(point));
           curve.y.push_back(interval.mean);
           curve.low.push_back(interval.low());
           curve.high.push_back(interval.high());

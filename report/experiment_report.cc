@@ -44,7 +44,7 @@ std::optional<Least> least_at(const ExperimentFolder& folder, const ExperimentPo
     if (std::isfinite(mean) && (!least || mean < point.estimates[least->paradigm][0].mean.mean))
       least = Least{p, false};
   }
-  if (!least || !folder.store) return least;
+  if (!least || !folder.store || folder.paradigms.size() == 1) return least;
   const auto& columns = folder.store->head().measures;
   const auto column = static_cast<std::size_t>(std::ranges::find(columns, folder.measures[0].name) - columns.begin());
   const std::vector<results::Run> runs = folder.store->of_point(point.point);
@@ -116,11 +116,11 @@ std::vector<std::string> sentences(const ExperimentFolder& folder) {
                                 folder.baseline, crossing.axis, brief(crossing.at),
                                 crossing.others.empty() ? "" : ", with " + crossing.others));
   }
-  if (!certain && !folder.axes.empty())
+  if (!certain && !folder.axes.empty() && folder.paradigms.size() > 1)
     all.push_back("Along no axis a paradigm crosses " + folder.baseline + " for certain.");
   for (const ExperimentExpectation& one : folder.expectations)
-    all.push_back(fmt::format("Expected: {}. It {}.", one.expected,
-                              one.holds ? "holds" : "does not hold for certain at " + joined(one.where_not)));
+    all.push_back(fmt::format("Expected: {}. It {}{}.", one.expected, one.holds ? "holds" : "does not hold for certain",
+                              one.holds || one.where_not.empty() ? "" : " at " + joined(one.where_not)));
   if (folder.failed > 0) all.push_back(counted(folder.failed, "run") + " failed; they are below.");
   return all;
 }
@@ -182,8 +182,13 @@ std::string experiment_answer(const ExperimentFolder& folder) {
     if (least[p] > 0) order.push_back(p);
   std::ranges::stable_sort(order, std::ranges::greater{}, [&](std::size_t p) { return least[p]; });
   if (order.empty()) return fmt::format("Nobody has a figure of {}.", folder.measures[0].name);
+  const bool alone = folder.paradigms.size() == 1;
   std::string text;
   for (const std::size_t p : order) {
+    if (alone) {
+      text = fmt::format("There is nobody to compare {} of {} with", folder.measures[0].name, folder.paradigms[p]);
+      break;
+    }
     const std::string points = folder.points.size() == 1 ? ""
                                : least[p] == folder.points.size()
                                    ? fmt::format(" at all {} points", folder.points.size())
@@ -198,7 +203,7 @@ std::string experiment_answer(const ExperimentFolder& folder) {
   }
   if (folder.points.size() == 1) {
     const results::Interval& mean = folder.points[0].estimates[order[0]][0].mean;
-    text += fmt::format(": {}{}", with_interval(mean.mean, mean.half_width),
+    text += fmt::format("{}{}{}", alone ? "; it is " : ": ", with_interval(mean.mean, mean.half_width),
                         folder.measures[0].unit.empty() ? "" : " " + folder.measures[0].unit);
   }
   return text + ".";

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <map>
@@ -14,11 +15,11 @@ namespace ttf::report {
 namespace {
 
 constexpr std::size_t kValueColumns = 7;
+constexpr std::size_t kMostCellsARow = 64;   // of the grid, most of which has a row each
 constexpr const char* kNameOfAFile = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
 
 }  // namespace
 
-// "42 ms": the number, and what is behind it.
 std::optional<std::pair<double, std::string>> number_with_unit(const std::string& label) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(label.data(), label.data() + label.size(), value);
@@ -29,7 +30,6 @@ std::optional<std::pair<double, std::string>> number_with_unit(const std::string
   return std::pair(value, unit);
 }
 
-// Of a list of names, where `name` is; it is added where it is new.
 std::size_t place_in(std::vector<std::string>& names, const std::string& name) {
   const auto found = std::find(names.begin(), names.end(), name);
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
@@ -52,6 +52,7 @@ ExperimentSummary read_summary(std::string_view text, const std::string& file) {
   ExperimentSummary summary;
   summary.axes.assign(names.begin() + 1, names.end() - static_cast<std::ptrdiff_t>(kValueColumns));
   std::map<std::string, std::size_t> places;
+  std::map<std::array<std::size_t, 3>, SummaryCell> cells;   // by point, measure and paradigm
   while (lines.next()) {
     const std::vector<std::string>& row = lines.fields();
     if (!lines.broken().empty()) throw refuse(std::string(lines.broken()));
@@ -67,20 +68,20 @@ ExperimentSummary read_summary(std::string_view text, const std::string& file) {
     };
     const auto [known, added] = places.try_emplace(row[0], summary.points.size());
     if (added) summary.points.push_back({{row.begin() + 1, row.begin() + static_cast<std::ptrdiff_t>(first)}, {}});
-    SummaryPoint& point = summary.points[known->second];
     if (row[first + 1].empty() || row[first + 1].find_first_not_of(kNameOfAFile) != std::string::npos)
       throw InputError({file, lines.line(), "measure", row[first + 1], "must be letters, digits and underscores"});
     const std::size_t paradigm = place_in(summary.paradigms, row[first]),
                       measure = place_in(summary.measures, row[first + 1]);
-    point.cells.resize(std::max(point.cells.size(), measure + 1));
-    point.cells[measure].resize(std::max(point.cells[measure].size(), paradigm + 1));
-    point.cells[measure][paradigm] = {value(3), value(4), value(5), value(6)};
+    const SummaryCell cell{value(3), value(4), value(5), value(6)};
+    if (!cells.try_emplace({known->second, measure, paradigm}, cell).second)
+      throw refuse("must be the only row of its point, paradigm and measure");
   }
   if (summary.points.empty()) throw refuse("must have a row: the experiment has no result yet");
-  for (SummaryPoint& point : summary.points) {
-    point.cells.resize(summary.measures.size());
-    for (auto& cells : point.cells) cells.resize(summary.paradigms.size());
-  }
+  if (summary.points.size() > kMostCellsARow * cells.size() / (summary.measures.size() * summary.paradigms.size()))
+    throw InputError({file, 0, "", "", "must have a row for each point, paradigm and measure"});
+  for (SummaryPoint& point : summary.points)
+    point.cells.assign(summary.measures.size(), std::vector<SummaryCell>(summary.paradigms.size()));
+  for (const auto& [place, cell] : cells) summary.points[place[0]].cells[place[1]][place[2]] = cell;
   return summary;
 }
 

@@ -2,12 +2,23 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "report/axes.h"
 
 namespace ttf::report {
+namespace {
+
+// A line that ends in a backslash would go on in the next one.
+std::string comment(std::string text) {
+  std::ranges::replace_if(text, [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
+  text.erase(text.find_last_not_of(' ') + 1);
+  return "# " + text + (text.ends_with('\\') ? "." : "") + "\n";
+}
+
+}  // namespace
 
 std::string gnuplot_text(std::string_view text) {
   std::string out = "\"";
@@ -36,8 +47,8 @@ PaperFile gnuplot_script(const GnuplotFigure& figure) {
   const std::size_t rows = (figure.panels.size() + columns - 1) / columns;
   const double width = figure.panel_width_cm * figure.columns;
   const double height = figure.panel_height_cm * static_cast<double>(rows);
-  std::string text = fmt::format("# gnuplot {0}.gp: draws {0}.pdf and {0}.png\n", figure.name);
-  for (const std::string& line : figure.about) text += "# " + line + "\n";
+  std::string text = comment(fmt::format("gnuplot {0}.gp: draws {0}.pdf and {0}.png", figure.name));
+  for (const std::string& line : figure.about) text += comment(line);
   text += fmt::format(
       "\n"
       "set datafile separator comma\n"

@@ -29,8 +29,8 @@ PaperFile gnuplot_script(const GnuplotFigure& figure);
 // As gnuplot reads it between double quotes, not as its enhanced text.
 std::string gnuplot_text(std::string_view text);
 
-// Of the n-th curve, Okabe and Ito's colours, told apart in grey by dashes and points: " linecolor rgb ..." alone, or with
-// " dashtype ... pointtype ...".
+// Of the n-th curve, Okabe and Ito's colours, told apart in grey by dashes and points: " linecolor rgb ..." alone, or
+// with " dashtype ... pointtype ...".
 std::string gnuplot_colour(std::size_t n);
 std::string gnuplot_curve(std::size_t n);
 

@@ -49,13 +49,25 @@ std::string script_data(const Json& json) {
 
 // Its ids made its own, so that several may stand in one page.
 std::string inlined(std::string_view svg, const std::string& prefix) {
-  std::string out(svg.substr(std::min(svg.find("<svg"), svg.size())));
-  for (const std::string_view mark : {" id=\"", "url(#"})
-    for (std::size_t at = 0; (at = out.find(mark, at)) != std::string::npos;) {
-      at += mark.size();
-      out.insert(at, prefix);
-    }
-  return out;
+  svg.remove_prefix(std::min(svg.find("<svg"), svg.size()));
+  struct Mark {
+    std::string_view text;
+    std::size_t at;   // the next
+  };
+  Mark marks[] = {{" id=\"", 0}, {"url(#", 0}};
+  for (Mark& mark : marks) mark.at = svg.find(mark.text);
+  std::string out;
+  out.reserve(svg.size() + svg.size() / 8);
+  std::size_t copied = 0;
+  while (true) {
+    Mark& next = marks[0].at < marks[1].at ? marks[0] : marks[1];
+    if (next.at == svg.npos) break;
+    const std::size_t end = next.at + next.text.size();
+    out.append(svg.substr(copied, end - copied)).append(prefix);
+    copied = end;
+    next.at = svg.find(next.text, end);
+  }
+  return out.append(svg.substr(copied));
 }
 
 }  // namespace
@@ -78,7 +90,6 @@ void Page::section(std::string_view heading) {
                        escape(heading));
 }
 
-void Page::sub_heading(std::string_view heading) { body_ += fmt::format("<h3>{}</h3>\n", escape(heading)); }
 void Page::lead(std::string_view text) { body_ += fmt::format("<p class=\"lead\">{}</p>\n", escape(text)); }
 void Page::paragraph(std::string_view text) { body_ += fmt::format("<p>{}</p>\n", escape(text)); }
 

@@ -52,7 +52,6 @@ class Page {
   Page(std::string title, std::string kind);
 
   void section(std::string_view heading);
-  void sub_heading(std::string_view heading);
   void lead(std::string_view text);              // what it comes to, set large
   void paragraph(std::string_view text);
   void points(const std::vector<std::string>& sentences);

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kWideRange = 20.0;   // from here on an axis that is above 0 is drawn by its logarithm
 
-// What goes along the pictures' x: an axis by its numbers, or else one point after the other.
+// What goes along the pictures' x: an axis by its numbers, all of one unit, or else one point after the other.
 struct AcrossAxis {
   std::optional<std::size_t> axis;
   bool by_number = false, logarithmic = false;
@@ -31,17 +31,18 @@ AcrossAxis across(const ExperimentSummary& summary) {
     std::vector<std::string> labels;
     bool numbers = true;
     double least = std::numeric_limits<double>::infinity(), most = -least;
-    std::string unit;
+    std::optional<std::string> unit;
     for (const SummaryPoint& point : summary.points) {
       place_in(labels, point.labels[a]);
       const auto number = number_with_unit(point.labels[a]);
-      numbers = numbers && number;
+      numbers = numbers && number && (!unit || *unit == number->second);
       if (!number) continue;
       least = std::min(least, number->first), most = std::max(most, number->first);
       unit = number->second;
     }
+    numbers = numbers && least < most;   // "1 ms" and "1.0 ms" are one place
     if (labels.size() < 2 || (found.axis && !numbers)) continue;
-    found = {a, numbers, numbers && least > 0.0 && most > kWideRange * least, numbers ? unit : "", least, most};
+    found = {a, numbers, numbers && least > 0.0 && most > kWideRange * least, numbers ? *unit : "", least, most};
   }
   return found;
 }
@@ -134,14 +135,22 @@ class MeasureFigure {
     });
   }
 
-  bool is_baseline(std::size_t paradigm) const {
-    return std::all_of(summary_.points.begin(), summary_.points.end(),
-                       [&](const SummaryPoint& p) { return std::isnan(p.cells[measure_][paradigm].difference); });
+  // It has values and no difference from itself.
+  bool may_be_baseline(std::size_t paradigm) const {
+    bool values = false, differences = false;
+    for (const SummaryPoint& point : summary_.points) {
+      const SummaryCell& cell = point.cells[measure_][paradigm];
+      values = values || std::isfinite(cell.mean);
+      differences = differences || !std::isnan(cell.difference);
+    }
+    return values && !differences;
   }
+  // Not by name where two may be.
   std::string baseline() const {
+    std::string name;
     for (std::size_t p = 0; p < summary_.paradigms.size(); ++p)
-      if (is_baseline(p)) return summary_.paradigms[p];
-    return "the baseline";
+      if (may_be_baseline(p)) name = name.empty() ? summary_.paradigms[p] : "the baseline";
+    return name.empty() ? "the baseline" : name;
   }
 
   std::string axis_settings() const {

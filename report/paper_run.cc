@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
+#include <string_view>
 
 namespace ttf::report {
 namespace {
@@ -20,6 +22,8 @@ class Curves {
  private:
   std::string text_;
 };
+
+bool is_sensor(std::string_view kind) { return kind != "truth" && kind != "reference" && kind != "image"; }
 
 std::string table_of(const PaperRun& run, const char* what) {
   return gnuplot_text(run.label + "_" + what + ".csv") + " skip 1";
@@ -45,9 +49,9 @@ std::string positions_panel(const PaperRun& run, const std::string& title, int x
   Curves curves;
   std::size_t sensors = 0;
   for (const std::string& kind : run.kinds) {
-    const bool sensor = kind != "truth" && kind != "reference" && kind != "image";
+    const std::string style = style_of(kind, is_sensor(kind) ? sensors++ : 0);
     curves.add(fmt::format("{} using (strcol(1) eq {} ? ${} : NaN):{} {} title {}", table_of(run, "positions"),
-                           gnuplot_text(kind), x, y, style_of(kind, sensor ? sensors++ : 0), gnuplot_text(kind)));
+                           gnuplot_text(kind), x, y, style, gnuplot_text(kind)));
   }
   return labels(title, kAxes[x], kAxes[y]) + curves.command();
 }
@@ -155,6 +159,12 @@ PaperFile ages(const std::vector<PaperRun>& runs) {
 }
 
 }  // namespace
+
+std::string sensor_kind(const std::string& name) {
+  std::string_view last = name;   // and `sensor truth` itself is `sensor sensor truth`
+  while (last.starts_with("sensor ")) last.remove_prefix(std::string_view("sensor ").size());
+  return is_sensor(last) ? name : "sensor " + name;
+}
 
 std::vector<PaperFile> scripts_of_runs(const std::vector<PaperRun>& runs) {
   std::vector<PaperFile> files;

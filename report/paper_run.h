@@ -1,7 +1,7 @@
 // A run's, or several runs', scripts for a paper: positions, errors with what the filter believed of them, consistency
 // and ages, from the tables of whoever exports them.
 //
-//   <run>_positions.csv   kind,time_s,x_m,y_m                 kinds: truth, reference, image, and a sensor's name
+//   <run>_positions.csv   kind,time_s,x_m,y_m                 kinds: truth, reference, image, and a sensor's (below)
 //   <run>_errors.csv      time_s,object,x_error_m,y_error_m,vx_error_mps,vy_error_mps,x_sigma_m,...,nees
 //   <run>_nees.csv        from_s,to_s,samples,mean,low_95,high_95
 //   <run>_ages.csv        of,sensor,from_ms,to_ms,count       of: fused, used
@@ -20,6 +20,9 @@ inline constexpr const char kErrorsHead[] =
     "time_s,object,x_error_m,y_error_m,vx_error_mps,vy_error_mps,x_sigma_m,y_sigma_m,vx_sigma_mps,vy_sigma_mps,nees\n";
 inline constexpr const char kNeesHead[] = "from_s,to_s,samples,mean,low_95,high_95\n";
 inline constexpr const char kAgesHead[] = "of,sensor,from_ms,to_ms,count\n";
+
+// A sensor's name, or `sensor truth` where it would be another kind.
+std::string sensor_kind(const std::string& name);
 
 // What a run's tables have. Nothing is drawn of what they have not.
 struct PaperRun {

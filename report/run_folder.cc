@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "core/errors.h"
@@ -43,6 +44,7 @@ void read_summary(const std::string& path, RunFolder& folder) {
   const auto strategies = folder.summary.find("strategies");
   if (strategies == folder.summary.end() || !strategies->is_array() || strategies->empty())
     bad("strategies", "must be the run's strategies, at least one");
+  std::error_code none;
   for (const Json& one : *strategies) {
     if (!one.is_object() || word_at(one, "strategy").empty()) bad("strategies", "must name a strategy each");
     Drive drive{folder.path, word_at(folder.summary, "scenario"), word_at(one, "strategy"), {},
@@ -51,7 +53,7 @@ void read_summary(const std::string& path, RunFolder& folder) {
     const std::string name = fs::path(word_at(one, "log")).filename().string(), log = folder.path + "/" + name;
     if (name.empty())
       folder.remarks.push_back(fmt::format("{} kept no log: what is drawn from one is not here.", drive.strategy));
-    else if (!fs::exists(log))
+    else if (!fs::exists(log, none))
       folder.remarks.push_back(fmt::format("The log of {}, {}, is not there: what is drawn from it is not here.",
                                            drive.strategy, name));
     else
@@ -70,6 +72,8 @@ Json read_json(const std::string& path) {
     const std::string_view before = std::string_view(text).substr(0, error.byte > 0 ? error.byte - 1 : 0);
     const auto line = 1 + static_cast<int>(std::ranges::count(before, '\n'));
     throw InputError({path, line, "", "", "must be JSON: it is damaged here, or cut off"});
+  } catch (const Json::exception&) {   // 1e999
+    throw InputError({path, 0, "", "", "must be JSON: a number in it is none"});
   }
 }
 

@@ -72,8 +72,13 @@ std::vector<Curve> histogram(const std::vector<NamedValues>& all, int bins) {
   if (extent.empty()) return {};
   const double step = nice_ticks(extent.padded(0.0, 1e-9 + 1e-6 * std::abs(extent.high)), bins).step;
   const double first = std::floor(extent.low / step) * step;
-  // A damaged log may hold one value that is far from all others.
-  const auto count = static_cast<std::size_t>(std::min(std::floor((extent.high - first) / step) + 1.0, 1000.0));
+  // A damaged log may hold values that are far from all others, even so far that their distance is infinite.
+  const double wanted = std::floor((extent.high - first) / step) + 1.0;
+  const std::size_t count = wanted >= 1.0 && wanted < 1000.0 ? static_cast<std::size_t>(wanted) : 1000;
+  const auto bin_of = [&](double value) {
+    const double bin = (value - first) / step;
+    return bin > 0.0 ? static_cast<std::size_t>(std::min(bin, static_cast<double>(count - 1))) : 0;
+  };
   std::vector<Curve> curves;
   for (const NamedValues& one : all) {
     std::vector<double> shares(count, 0.0);
@@ -81,7 +86,7 @@ std::vector<Curve> histogram(const std::vector<NamedValues>& all, int bins) {
     for (const double value : one.values) {
       if (!std::isfinite(value)) continue;
       ++finite;
-      shares[std::min(static_cast<std::size_t>((value - first) / step), count - 1)] += 1.0;
+      shares[bin_of(value)] += 1.0;
     }
     if (finite == 0.0) continue;
     Curve curve{one.label, one.colour, {}, {}, {}, {}};

@@ -16,8 +16,8 @@ Plot age_histogram(const std::vector<ToldDrive>& drives);
 Plot precision_plot(const std::vector<ToldDrive>& drives);
 Plot corrections_plot(const ToldDrive& drive, const Names& names);   // a curve a node
 
-// Shares of the values in bins of one width over all of them, as curves of Plot::Kind::kSteps: x is where a bin begins, with
-// one more of height 0 behind the last.
+// Shares of the values in bins of one width over all of them, as curves of Plot::Kind::kSteps: x is where a bin begins,
+// with one more of height 0 behind the last.
 struct NamedValues {
   std::string label;
   int colour = 0;

@@ -104,20 +104,30 @@ void answered(Page& page, const std::vector<RunFolder>& folders, const std::vect
 
 void timing(Page& page, const std::vector<ToldDrive>& drives, const RunReportOptions& options) {
   std::vector<PageDiagram> diagrams;
-  std::string window;
+  std::vector<std::string> windows;
   std::size_t logs = 0;
+  double longest_s = 0.0;
   for (const ToldDrive& told : drives) {
     if (!told.drive->log || ++logs > kMostDiagrams) continue;
     const recording::LogManifest& manifest = told.drive->log->manifest();
-    const TrueTime from = options.from.value_or(scenario_in(*told.drive->log).judged_from);
+    TrueTime from = options.from.value_or(scenario_in(*told.drive->log).judged_from);
+    // An end alone may lie before that: then it is the end that counts.
+    if (!options.from && options.to && *options.to <= from) from = std::max(TrueTime{}, *options.to - kDiagram);
     const TrueTime to = std::min(options.to.value_or(from + kDiagram), from + kLongestDiagram);
     TimingDiagram diagram(names_of(manifest), {manifest.cycle_ns}, from, to);
     told.drive->log->read(diagram);
     diagrams.push_back({told.drive->label, diagram.svg(TimingUse::kPage)});
-    window = fmt::format("Of {:.3f} s only {:g} ms are drawn, from {:g} s on (--from and --to choose others). ",
-                         told.series.end_s, in_ms(to - from), static_cast<double>(from.ns) * 1e-9);
+    windows.push_back(
+        fmt::format("{:g} ms are drawn, from {:g} s on", in_ms(to - from), static_cast<double>(from.ns) * 1e-9));
+    longest_s = std::max(longest_s, told.series.end_s);
   }
   if (diagrams.empty()) return;
+  std::string window = fmt::format("Of {:.3f} s only {}", longest_s, windows.front());
+  if (std::ranges::count(windows, windows.front()) != std::ssize(windows)) {
+    window = "Of each drive a part is drawn";
+    for (std::size_t d = 0; d < diagrams.size(); ++d) diagrams[d].label += ", of which " + windows[d];
+  }
+  window += " (--from and --to choose others). ";
   page.section("Timing: slots, tasks and every measurement's way");
   if (logs > kMostDiagrams) window += fmt::format("Of {} drives the first {} are drawn. ", logs, kMostDiagrams);
   page.diagrams(diagrams, window +
@@ -144,18 +154,43 @@ void time_base(Page& page, const std::vector<ToldDrive>& drives) {
 
 void troubles(Page& page, const std::vector<ToldDrive>& drives) {
   page.section("Faults and problems");
+  std::vector<std::string> without;
+  for (const ToldDrive& told : drives)
+    if (!told.drive->log) without.push_back(told.drive->label);
+  const std::string elsewhere =
+      "slot problems and missed deadlines are in the table above only; faults, if any, in summary.json.";
+  if (without.size() == drives.size()) {
+    page.paragraph("There is no log: " + elsewhere);
+    return;
+  }
   bool any = false;
   for (const ToldDrive& told : drives)
     for (const PageTable& table : trouble_tables(told)) {
       page.table(table);
       any = true;
     }
-  if (!any) page.paragraph("No fault was injected, no slot had a problem, no deadline was missed.");
+  if (!any)
+    page.paragraph(fmt::format("No fault was injected, no slot had a problem, no deadline was missed{}.",
+                               without.empty() ? "" : " in what was logged"));
+  if (!without.empty())
+    page.paragraph(fmt::format("Of {} there is no log: {}", joined(without), elsewhere));
+}
+
+void errors(Page& page, const std::vector<ToldDrive>& drives) {
+  const Plot plots[] = {error_plot(drives), age_histogram(drives), age_plot(drives)};
+  if (std::ranges::all_of(plots, [](const Plot& plot) { return plot.views.empty(); })) return;
+  page.section("Errors and ages");
+  for (const Plot& plot : plots) page.plot(plot);
 }
 
 void pictures(Page& page, const std::vector<ToldDrive>& drives) {
-  page.section("Where the car was");
   std::size_t shown = 0;
+  bool any = false;
+  const auto add = [&](std::string_view svg, const std::string& caption) {
+    if (!any) page.section("Where the car was");
+    any = true;
+    page.picture(svg, caption);
+  };
   for (const ToldDrive& told : drives) {
     if (!told.drive->log || shown >= kMostDiagrams) continue;
     ++shown;
@@ -170,18 +205,19 @@ void pictures(Page& page, const std::vector<ToldDrive>& drives) {
     records::Tee tee({&plots, &extent, &lateness});
     told.drive->log->read(tee);
     if (!plots.select().empty())
-      page.picture(plots.plane_svg(), told.drive->label + ": y over x, as truth, sensors, DGPS and the image have it");
+      add(plots.plane_svg(), told.drive->label + ": y over x, as truth, sensors, DGPS and the image have it");
     if (const auto window = extent.window({manifest.cycle_ns})) {
       StartupDiagram startup(names, {manifest.cycle_ns}, window->first, window->second);
       told.drive->log->read(startup);
-      page.picture(startup.svg(), told.drive->label + ": start-up, every node's states and what it sent");
+      add(startup.svg(), told.drive->label + ": start-up, every node's states and what it sent");
     }
     if (const auto nodes = lateness.nodes(); !nodes.empty())
-      page.picture(lateness_svg(nodes, names), told.drive->label + ": how late processes were woken up, in real time");
+      add(lateness_svg(nodes, names), told.drive->label + ": how late processes were woken up, in real time");
   }
 }
 
 void made(Page& page, const std::vector<ToldDrive>& drives) {
+  if (std::ranges::none_of(drives, [](const ToldDrive& told) { return told.drive->log != nullptr; })) return;
   page.section("How it was made");
   PageTable table{"What each log says of itself",
                   {"", "version", "seed", "strategy", "cluster", "content hash", "hashes of its inputs"},
@@ -238,10 +274,7 @@ std::string run_report_html(std::vector<RunFolder> folders, const RunReportOptio
             folders.size() == 1 ? "Report of a run" : fmt::format("Report of {} runs", folders.size()));
   asked(page, folders, drives);
   answered(page, folders, drives);
-  page.section("Errors and ages");
-  page.plot(error_plot(drives));
-  page.plot(age_histogram(drives));
-  page.plot(age_plot(drives));
+  errors(page, drives);
   timing(page, drives, options);
   time_base(page, drives);
   troubles(page, drives);

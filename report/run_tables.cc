@@ -139,8 +139,10 @@ std::string repeated_answer(const std::string& scenario, const Repeated& runs) {
   std::vector<double> means;
   for (std::size_t s = 0; s < runs.strategies.size(); ++s) {
     means.push_back(interval(runs, pointer, s, std::nullopt).mean);
-    if (means[s] < means[best]) best = s;
+    if (!(means[best] <= means[s]) && std::isfinite(means[s])) best = s;   // the first may have none
   }
+  if (!std::isfinite(means[best]))
+    return fmt::format("Over {} runs of {}: No position was compared with the truth.", runs.runs.size(), scenario);
   const results::Interval least = interval(runs, pointer, best, std::nullopt);
   std::string text = fmt::format("Over {} runs of {}, {} has the smallest position error on average: {} m (95 %)",
                                  runs.runs.size(), scenario, runs.strategies[best],
@@ -148,10 +150,22 @@ std::string repeated_answer(const std::string& scenario, const Repeated& runs) {
   for (std::size_t s = 0; s < runs.strategies.size(); ++s) {
     if (s == best) continue;
     const results::Interval more = interval(runs, pointer, s, best);
+    if (!std::isfinite(more.mean)) {
+      text += fmt::format("; of {} there is no figure", runs.strategies[s]);
+      continue;
+    }
     text += fmt::format("; {} {} m, {}", runs.strategies[s], with_interval(more.mean, more.half_width, true),
                         verdict(more.mean, more.half_width) == "more" ? "for certain" : "which is not certain");
   }
   return text + ".";
+}
+
+// 0 where there is no count.
+std::uint64_t count_at(const Drive& drive, const char* pointer) {
+  if (!drive.summary.is_object()) return 0;
+  const Json::json_pointer at(pointer);
+  if (!drive.summary.contains(at) || !drive.summary.at(at).is_number_unsigned()) return 0;
+  return drive.summary.at(at).get<std::uint64_t>();
 }
 
 // `ordinary`: what is worth knowing of a sound drive, too.
@@ -166,8 +180,8 @@ void remark_on(const ToldDrive& told, bool ordinary, std::vector<std::string>& m
     more.push_back(fmt::format("{}: its filter is {} than it believes: NEES {:.2f}, outside {:.2f}..{:.2f}.",
                                drive.label, *nees < *low ? "better" : "worse", *nees, *low, *high));
   for (const auto& [pointer, what] : kTroubles)
-    if (const auto count = at(pointer); count && *count > 0.0)
-      more.push_back(fmt::format("{}: {}.", drive.label, counted(static_cast<std::uint64_t>(*count), what)));
+    if (const std::uint64_t count = count_at(drive, pointer); count > 0)
+      more.push_back(fmt::format("{}: {}.", drive.label, counted(count, what)));
   if (const auto& faults = told.series.faults; !faults.empty()) {
     std::uint64_t acts = 0;
     for (const auto& [index, fault] : faults) acts += fault.acts;

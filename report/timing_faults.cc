@@ -29,11 +29,14 @@ std::string state_words(std::uint8_t state) {
 FaultLanes::FaultLanes(const TimingData& data, const Names& names, TrueTime from, TrueTime to) : from_(from), to_(to) {
   for (const auto& f : data.faults) {
     if (f.what == records::kFaultBegins)
-      lanes_.try_emplace(f.fault, Lane{f.node == kNoNode ? f.kind : fmt::format("{}, {}", f.kind, names.node(f.node)), f.text,
-                                       f.at, to, {}});
+      lanes_.try_emplace(f.fault, Lane{f.node == kNoNode ? f.kind : fmt::format("{}, {}", f.kind, names.node(f.node)),
+                                       f.text, f.at, to, false, {}});
     const auto lane = lanes_.find(f.fault);
     if (lane == lanes_.end()) continue;   // of a log that lost its begin
-    if (f.what == records::kFaultEnds) lane->second.end = f.at;
+    if (f.what == records::kFaultEnds) {
+      lane->second.end = f.at;
+      lane->second.ends = true;
+    }
     if (f.what == records::kFaultActs && f.at >= from && f.at < to) lane->second.acts.push_back(&f);
   }
   std::erase_if(lanes_, [&](const auto& one) {
@@ -62,7 +65,7 @@ void FaultLanes::draw(Svg& svg, const Area& plot, const std::function<double(Tru
   for (const auto& [fault, lane] : lanes_) {
     const double left = x(std::max(lane.start, from_)), right = x(std::min(lane.end, to_));
     if (lane.start < to_ && lane.end >= from_) {
-      svg.tag_next(tags.span(lane.start, lane.end));
+      svg.tag_next(tags.span(lane.start, lane.end) + (lane.ends ? "" : tags.beyond()));
       svg.rect({left, y + 4, std::max(1.5, right - left), 14}, {.fill = kFaultSpan, .stroke = kVermilion, .width = 0.7},
                lane.text, "fault");
     }
@@ -89,9 +92,11 @@ ChannelMark channel_mark(const TimingData::OnChannel& r, const Names& names) {
     mark.end = r.sent + std::max(r.end - r.start, Duration{});
     mark.channel = r.sent_channel;
   }
-  const std::string whose = r.slot != 0           ? fmt::format("slot {} of {}", r.slot, names.node(r.sender))
-                            : r.sender != kNoNode ? fmt::format("{}, but its controller did not send it", names.node(r.sender))
-                                                  : "nobody sent it";
+  std::string whose = "nobody sent it";
+  if (r.slot != 0)
+    whose = fmt::format("slot {} of {}", r.slot, names.node(r.sender));
+  else if (r.sender != kNoNode)
+    whose = fmt::format("{}, but its controller did not send it", names.node(r.sender));
   mark.words = mark.missing ? fmt::format("{}: nothing of it reached anybody", whose)
                             : fmt::format("{}: {}", whose, state_words(r.state));
   return mark;

@@ -1,4 +1,5 @@
-// What a timing diagram shows of a run's faults: a lane for each, above the others, and what became of the frames they touched.
+// What a timing diagram shows of a run's faults: a lane for each, above the others, and what became of the frames they
+// touched.
 #pragma once
 
 #include <cstdint>
@@ -35,6 +36,7 @@ class FaultLanes {
   struct Lane {
     std::string label, text;
     TrueTime start, end;
+    bool ends;                                   // in the window
     std::vector<const TimingData::Fault*> acts;   // in the window
   };
   TrueTime from_, to_;

@@ -3,6 +3,7 @@
 //   data-a, data-b   from when to when it is, true time in ms; without data-b it is an instant, and only moves
 //   data-id          the list it is of: things of one list belong together
 //   data-since       when that list was measured, ms: from then on it ages
+//   data-beyond      it lasts longer than the diagram: data-b is not its end
 //   data-label       a text: its width; shown where there is room for it (between a and b, or beside its neighbours)
 //
 // In pictures there are none: each is empty.
@@ -34,6 +35,7 @@ class TimingTags {
     return fmt::format(" data-id=\"{}:{}\"", index_of(sensor), sequence & 0xffu);
   }
   std::string since(TrueTime measured) const { return on_ ? fmt::format(" data-since=\"{}\"", ms(measured)) : ""; }
+  std::string beyond() const { return on_ ? " data-beyond=\"\"" : ""; }
   // A text that there is no room for as yet is there all the same.
   std::string label(double width, bool shown) const {
     return on_ ? fmt::format(" data-label=\"{}\"{}", number(width), shown ? "" : " display=\"none\"") : "";

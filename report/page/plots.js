@@ -3,6 +3,7 @@
 "use strict";
 (() => {
   const DASHES = [[], [7, 4], [2, 3], [9, 3, 2, 3]];
+  const dash_of = (curve) => DASHES[((curve.colour >> 3) + curve.colour) % 4];   // 32 curves differ, of 8 colours
   const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
   const make = (tag, properties = {}, ...children) => {
     const element = Object.assign(document.createElement(tag), properties);
@@ -11,12 +12,16 @@
   };
   const figures = (value) => (value == null ? "–" : Number(value.toPrecision(4)).toString());
 
-  // As many decimals as tell neighbours on an axis apart.
+  // As many as an axis' step has: 2.5 has one.
+  const decimals = (step) => {
+    let d = 0;
+    while (d < 12 && Math.abs(step * 10 ** d - Math.round(step * 10 ** d)) > 1e-6 * step * 10 ** d) ++d;
+    return d;
+  };
   const labels = (u, splits, axis, space, step) => splits.map(
-      (value) => value == null ? "" :
-          u.scales.x.distr === 3 && axis === 0 ?
-                                 figures(value) :
-                                 value.toFixed(Math.max(0, Math.min(12, -Math.floor(Math.log10(step) + 1e-9)))));
+      (value) => value == null                   ? "" :
+          u.scales.x.distr === 3 && axis === 0 ? figures(value) :
+                                                 value.toFixed(decimals(step)));
 
   // Where a curve is nearest to x.
   const nearest = (curve, x) => {
@@ -63,7 +68,9 @@
       this.canvas.setAttribute("aria-label", `${spec.heading}. Plus and minus zoom, arrow keys move, 0 shows all, ` +
         "comma and full stop go from point to point.");
       this.legend = make("div", { className: "legend" });
-      figure.append(bar, this.canvas, this.legend);
+      this.heard = make("p", { className: "heard" });
+      this.heard.setAttribute("aria-live", "polite");
+      figure.append(bar, this.canvas, this.legend, this.heard);
       this.canvas.addEventListener("keydown", (event) => this.key(event));
       this.canvas.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
       // Inside closed details there is no width; nothing is drawn until there is.
@@ -80,7 +87,9 @@
       let low = Infinity, high = -Infinity;
       for (const curve of this.view.curves)
         for (const x of curve.x) { low = Math.min(low, x); high = Math.max(high, x); }
-      return low < high ? [low, high] : [low - 0.5, high + 0.5];
+      if (low < high) return [low, high];
+      if (low > high) return this.spec.log ? [1, 10] : [0, 1];   // no point
+      return this.spec.log ? [low / 1.5, low * 1.5] : [low - 0.5, low + 0.5];
     }
     get seen() { return [this.uplot.scales.x.min, this.uplot.scales.x.max]; }
 
@@ -115,6 +124,9 @@
       if (x < from || x > to) return;
       this.uplot.setCursor({ left: this.uplot.valToPos(x, "x"), top: this.uplot.valToPos(curve.y[at] ?? 0, "y") });
       this.tell(x);
+      const value = (i) => this.legend.children[i].querySelector(".value").textContent;
+      const values = this.view.curves.map((one, i) => this.hidden.has(i) ? "" : `${one.label}: ${value(i)}`);
+      this.heard.textContent = values.filter((text) => text !== "").join("; ");
     }
     key(event) {
       if (event.ctrlKey || event.altKey || event.metaKey) return;
@@ -160,7 +172,7 @@
         this.shown.push(series.length);
         const few = curve.x.length <= 60;
         series.push({
-          label: curve.label, stroke, show, width: 1.8, dash: DASHES[(curve.colour >> 3) % 4 || curve.colour % 4],
+          label: curve.label, stroke, show, width: 1.8, dash: dash_of(curve),
           fill: steps ? stroke + "22" : undefined, paths: steps ? uPlot.paths.stepped({ align: 1 }) : undefined,
           points: { show: this.spec.kind === "points" || (few && !steps), size: 6, stroke, fill: colour("--page") },
         });
@@ -180,7 +192,9 @@
         legend: { show: false },
         cursor: { drag: { x: true, y: false }, points: { size: 7 } },
         scales: {
-          x: { time: false, distr: this.spec.log ? 3 : 1, range: (u, low, high) => [low, high] },
+          x: {
+            time: false, distr: this.spec.log ? 3 : 1, range: (u, low, high) => low < high ? [low, high] : this.all,
+          },
           y: { range: (u, low, high) => {
             if (low == null) return [0, 1];
             const margin = (high - low) * 0.06 || Math.abs(high) * 0.1 || 1;
@@ -212,13 +226,12 @@
           }],
         },
       }, uPlot.join(tables), this.canvas);
-      this.figure.plot = this.uplot;
+      if (this.uplot.data[0].length === 1) this.reset();   // uPlot shows something else around one point
       this.key_to_curves();
     }
 
     key_to_curves() {
       this.legend.replaceChildren(...this.view.curves.map((curve, i) => {
-        const dash = (DASHES[(curve.colour >> 3) % 4 || curve.colour % 4]).join(" ");
         const one = make("button", { type: "button" });
         const swatch = document.createElementNS("http://www.w3.org/2000/svg", "svg");
         swatch.setAttribute("width", 26);
@@ -227,7 +240,7 @@
         line.setAttribute("d", "M0 4H26");
         line.setAttribute("stroke", colour(`--c${curve.colour % 8}`));
         line.setAttribute("stroke-width", 2.4);
-        line.setAttribute("stroke-dasharray", dash);
+        line.setAttribute("stroke-dasharray", dash_of(curve).join(" "));
         swatch.append(line);
         one.append(swatch, make("span", { textContent: curve.label }), make("span", { className: "value" }));
         one.setAttribute("aria-pressed", !this.hidden.has(i));

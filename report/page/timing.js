@@ -40,12 +40,13 @@
     // What is known of an element before it is moved for the first time.
     item(element) {
       const title = element.querySelector("title");
-      const { a, b, id, since, label } = element.dataset;
+      const { a, b, id, since, label, beyond } = element.dataset;
       const item = {
         element,
         a: Number(a),
         b: b === undefined ? undefined : Number(b),
         id,
+        beyond: beyond !== undefined,
         title: title?.textContent,
         since: since === undefined ? undefined : Number(since),
         label: label === undefined ? undefined : Number(label)
@@ -110,7 +111,9 @@
       this.keys = make("p", { className: "keys" });
       this.keys.innerHTML =
           "Drag to move, <kbd>Ctrl</kbd> or <kbd>Shift</kbd> and the wheel to zoom, or, with the focus here: " +
-          "<kbd>+</kbd> <kbd>−</kbd> zoom, <kbd>←</kbd> <kbd>→</kbd> move, <kbd>0</kbd> all, <kbd>,</kbd> <kbd>.</kbd> from thing to thing.";
+          "<kbd>+</kbd> <kbd>−</kbd> zoom, <kbd>←</kbd> <kbd>→</kbd> move, <kbd>0</kbd> all, " +
+          "<kbd>,</kbd> <kbd>.</kbd> from thing to thing" +
+          "<span class=\"scrolls\">, <kbd>Shift</kbd> with <kbd>←</kbd> <kbd>→</kbd> to what is beside it</span>.";
       this.paper.before(bar);
       this.paper.after(this.told, this.keys);
       this.paper.tabIndex = 0;
@@ -137,7 +140,8 @@
     fit() {
       const room = this.paper.clientWidth;
       if (room < 50) return;
-      const wide = Math.max(room, Math.min(this.least, 900));
+      const wide = Math.max(room, this.least);   // what is wider than its room is scrolled to
+      this.paper.classList.toggle("wider", wide > room);
       this.svg.setAttribute("width", wide);
       this.svg.setAttribute("viewBox", `0 0 ${wide} ${this.tall}`);
       this.ground.setAttribute("width", wide);
@@ -240,6 +244,7 @@
     words(item) {
       const lines = [item.title];
       if (item.b === undefined) lines.push(`at ${ms(item.a)} ms`);
+      else if (item.beyond) lines.push(`${ms(item.a)} ms until after ${ms(item.b)} ms`);
       else lines.push(`${ms(item.a)} ms to ${ms(item.b)} ms, ${lasting(item.b - item.a)}`);
       if (item.since !== undefined)
         lines.push(`age ${lasting(item.a - item.since)} to ${lasting(item.b - item.since)} since ${ms(item.since)} ms`);
@@ -261,9 +266,17 @@
       if (seen.length === 0) return;
       const at = seen.indexOf(this.chosen);
       this.choose(seen[at < 0 ? (by > 0 ? 0 : seen.length - 1) : Math.max(0, Math.min(seen.length - 1, at + by))]);
+      const x = this.x(this.chosen.a), room = this.paper.clientWidth, from = this.paper.scrollLeft;
+      if (x < from || x > from + room) this.paper.scrollLeft = x - room / 2;
     }
     key(event) {
       if (event.ctrlKey || event.altKey || event.metaKey) return;
+      const scroll = event.shiftKey ? { ArrowLeft: -120, ArrowRight: 120 }[event.key] : undefined;
+      if (scroll !== undefined) {
+        event.preventDefault();
+        this.paper.scrollLeft += scroll;
+        return;
+      }
       const act = {
         "+": () => this.zoom(0.5), "=": () => this.zoom(0.5), "-": () => this.zoom(2), "_": () => this.zoom(2),
         "0": () => this.show(this.first, this.last), "Home": () => this.show(this.first, this.last),
@@ -281,6 +294,9 @@
     }
     grab(event) {
       if (event.button !== 0) return;
+      const box = this.paper.getBoundingClientRect();
+      if (event.clientY > box.top + this.paper.clientTop + this.paper.clientHeight) return;   // its scroll bar
+      if (event.pointerType === "touch" && this.paper.classList.contains("wider")) return;    // scrolls
       const held = this.t(event.clientX);
       this.paper.classList.add("dragging");
       this.paper.setPointerCapture(event.pointerId);

@@ -204,6 +204,10 @@ cp "$work/a/tt.mcap" "$work/itself.mcap"
 expect 2 '--out = .*itself.mcap: must be another file than the input' \
   export "$work/itself.mcap" --format csv -o "$work/./itself.mcap"
 cmp -s "$work/a/tt.mcap" "$work/itself.mcap" || fail "a refused export changed its input"
+mkdir "$work/reported"
+cp "$work/a/tt.mcap" "$work/reported/"
+expect 2 '--out = .*tt.mcap: must be another file than the input' report "$work/reported" -o "$work/reported/./tt.mcap"
+cmp -s "$work/a/tt.mcap" "$work/reported/tt.mcap" || fail "a refused report changed its input"
 expect 2 'must be another file than the input' \
   schedule export "$work/schedules/paper_synchronised.yaml" --format fibex -o "$work/schedules/paper_synchronised.yaml"
 head -c 200000 "$work/a/tt.mcap" >"$work/cut.mcap"

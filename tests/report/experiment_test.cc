@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include "core/errors.h"
 #include "report/experiment_plots.h"
@@ -13,7 +14,8 @@ namespace {
 
 constexpr const char* kPoint = R"({"point": %, "axes": {"road": "dry", "noise": "$"}, "paradigms": {
   "adva": {"error": {"count": 3, "mean": 2.0, "half_width": 1.0}},
-  "tt": {"error": {"count": 3, "mean": #, "half_width": 1.0, "difference": {"count": 3, "mean": 0.5, "half_width": null}}}}})";
+  "tt": {"error": {"count": 3, "mean": #, "half_width": 1.0,
+                   "difference": {"count": 3, "mean": 0.5, "half_width": null}}}}})";
 
 std::string point(int number, const std::string& noise, const std::string& mean) {
   std::string text = kPoint;
@@ -77,10 +79,41 @@ TEST_F(ExperimentReport, WithoutItsRunsNothingIsCertain) {
   EXPECT_NE(experiment_report_html(folder_).find("There is no results.sqlite"), std::string::npos);
 }
 
+TEST_F(ExperimentReport, WhoIsAloneIsComparedWithNobody) {
+  const std::string alone = R"({"point": %, "axes": {"noise": "1 m"}, "paradigms": {
+    "tt": {"error": {"count": 3, "mean": 1.0, "half_width": 0.5}}}})";
+  const auto at = [&](int number) { return std::string(alone).replace(alone.find('%'), 1, std::to_string(number)); };
+  write(answer_of(at(0) + "," + at(1)));
+  EXPECT_EQ(experiment_answer(read_experiment_folder(folder_)), "There is nobody to compare error of tt with.");
+  EXPECT_EQ(experiment_report_html(folder_).find("Along no axis"), std::string::npos);
+}
+
+TEST_F(ExperimentReport, AnExpectationMayFailNowhereInParticular) {
+  std::string answer = answer_of(point(0, "1", "1"));
+  const std::string where = R"(["noise 40 m"])";
+  write(answer.replace(answer.find(where), where.size(), "[]"));
+  EXPECT_NE(experiment_report_html(folder_).find("It does not hold for certain."), std::string::npos);
+}
+
+// The last page of the file is of rows that nobody reads to open it.
+TEST_F(ExperimentReport, ADamagedStoreIsRefused) {
+  const std::string path = folder_ + "/results.sqlite";
+  std::vector<results::Run> runs;
+  for (std::uint32_t r = 3; r < 2000; ++r) runs.push_back({{1, r, 0}, results::kDone, {0.5 + r}});
+  results::Store::open(path).add(runs);
+  EXPECT_EQ(refusal(), "");
+  constexpr std::size_t kPage = 4096;
+  ASSERT_GT(std::filesystem::file_size(path), 8 * kPage);
+  std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+  file.seekp(-static_cast<std::streamoff>(kPage), std::ios::end);
+  file << std::string(kPage, '\xff') << std::flush;
+  EXPECT_EQ(refusal().substr(0, 53), "results.sqlite: must be a store of runs; SQLite says:");
+}
+
 TEST_F(ExperimentReport, PlotsGoOverTheNumericAxis) {
   const ExperimentFolder folder = read_experiment_folder(folder_);
   const Plot means = means_plot(folder);
-  EXPECT_EQ(means.x, "noise");
+  EXPECT_EQ(means.x, "noise [m]");
   EXPECT_TRUE(means.logarithmic_x);
   ASSERT_EQ(means.views.size(), 1u);
   EXPECT_EQ(means.views[0].label, "error, road dry");
@@ -99,6 +132,10 @@ TEST_F(ExperimentReport, WhatIsWrongIsNamed) {
   EXPECT_EQ(refusal(), "answer.json: points[1].paradigms: must be a mapping with an entry at least");
   write(answer_of(point(-1, "1", "1")));
   EXPECT_EQ(refusal(), "answer.json: points[0].point: must be a whole number from 0 on");
+  write(answer_of(point(1, "1", "1").replace(10, 1, "4294967296")));
+  EXPECT_EQ(refusal(), "answer.json: points[0].point: must be below 2^32");
+  write(answer_of(point(0, "1", "1e999")));
+  EXPECT_EQ(refusal(), "answer.json: must be JSON: a number in it is none");
   write("{\n\"experiment\": ");
   EXPECT_EQ(refusal(), "answer.json:2: must be JSON: it is damaged here, or cut off");
   write("[1]");

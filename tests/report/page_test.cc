@@ -2,8 +2,11 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "report/experiment_plots.h"
 #include "report/figures.h"
 #include "report/page.h"
 #include "report/run_plots.h"
@@ -88,6 +91,17 @@ TEST(Page, PicturesInItShareNoIds) {
   EXPECT_EQ(count(html, "<?xml"), 0u);
 }
 
+TEST(Page, APictureStaysAsItIsButForItsIds) {
+  Page page("", "");
+  page.picture("<svg id=\"a\" data-id=\"1:2\"><g fill=\"url(#b)\" id=\"b\"/>url(#c)</svg>", "one");
+  const char* const wanted =
+      "<svg id=\"p0-a\" data-id=\"1:2\"><g fill=\"url(#p0-b)\" id=\"p0-b\"/>url(#p0-c)</svg>";
+  EXPECT_EQ(count(page.html(), wanted), 1u);
+  Page bare("", "");
+  bare.picture("<svg></svg>", "none");
+  EXPECT_EQ(count(bare.html(), "<svg></svg>"), 1u);
+}
+
 TEST(Page, AShellTakesWordsBack) {
   EXPECT_EQ(shell_word("out/a-1.yaml"), "out/a-1.yaml");
   EXPECT_EQ(shell_word("it's $HOME"), "'it'\\''s $HOME'");
@@ -120,6 +134,40 @@ TEST(Histogram, HoldsEveryValueOnceOverCommonBins) {
   EXPECT_EQ(curves[1].colour, 2);
   EXPECT_EQ(histogram({{"same", 0, {5, 5, 5}}}, 10).at(0).y.front(), 100.0);
   EXPECT_TRUE(histogram({{"none", 0, {}}}, 10).empty());
+}
+
+TEST(Histogram, TakesValuesThatAreFarApart) {
+  const auto curves = histogram({{"a", 0, {-1.7e308, 0.0, 1.7e308}}, {"b", 1, {1e300, 1.0}}}, 10);
+  ASSERT_EQ(curves.size(), 2u);
+  for (const Curve& curve : curves) {
+    double sum = 0;
+    for (const double share : curve.y) sum += share;
+    EXPECT_NEAR(sum, 100.0, 1e-9);
+  }
+}
+
+ExperimentFolder experiment_of(const std::vector<std::string>& delays) {
+  ExperimentFolder folder;
+  folder.axes = {"delay"};
+  folder.paradigms = {"tt"};
+  folder.measures = {{"age", "ms", ""}};
+  for (const std::string& delay : delays) {
+    ExperimentPoint& point = folder.points.emplace_back();
+    point.point = static_cast<std::uint32_t>(folder.points.size() - 1);
+    point.settings = {delay};
+    point.estimates = {{{{4, 1.0, 0.5}, std::nullopt}}};
+  }
+  return folder;
+}
+
+TEST(ExperimentPlots, AnAxisIsNumericInOneUnitOnly) {
+  const Plot one = means_plot(experiment_of({"2 ms", "1 ms"}));
+  EXPECT_EQ(one.x, "delay [ms]");
+  EXPECT_EQ(one.views.at(0).curves.at(0).x, (std::vector<double>{1, 2}));
+  EXPECT_EQ(means_plot(experiment_of({"1", "2"})).x, "delay");
+  const Plot two = means_plot(experiment_of({"500 us", "1 ms"}));
+  EXPECT_EQ(two.x, "point (see the table)");
+  EXPECT_EQ(two.views.at(0).curves.at(0).x, (std::vector<double>{0, 1}));
 }
 
 TEST(TimingDiagram, InAPageEverythingThatStandsInTimeSaysWhen) {

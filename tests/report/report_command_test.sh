@@ -60,12 +60,25 @@ has logs.html 'There is no summary.json'
 expect 0 '' run "$source/scenarios/paper_scenario1.yaml" --strategy tt --no-log --out without
 expect 0 'written to' report without -o without.html
 has without.html 'tt kept no log'
+has without.html 'There is no log: slot problems and missed deadlines are in the table above only'
+for heading in 'Errors and ages' 'Where the car was' 'How it was made' 'No fault was injected'; do
+  lacks without.html "$heading"
+done
+expect 0 'written to' report seed1 without -o some.html
+has some.html 'Of without tt there is no log: slot problems'
+has some.html 'no deadline was missed in what was logged.'
 
 # ---- faults, and another window
 expect 0 '' run "$source/scenarios/faulty_bus.yaml" --strategy tt --no-pictures --out faulty
 expect 0 'written to' report faulty --from 0.5 --to 0.52 -o faulty.html
 has faulty.html 'only 20 ms are drawn, from 0.5 s on'
 has faulty.html 'byzantine_clock'
+
+# An end before the drive is judged (1.5 s): the window is before it.
+expect 0 'written to' report seed1 --to 1 -o before.html
+has before.html 'only 160 ms are drawn, from 0.84 s on'
+expect 0 'written to' report seed1 --to 0.1 -o first.html
+has first.html 'only 100 ms are drawn, from 0 s on'
 
 # ---- an experiment
 cat >small.yaml <<END
@@ -91,6 +104,11 @@ has small.html 'ttfusion experiment experiments/small.yaml --replay 0/adva/0 --o
 # The commands it shows do what they say.
 expect 0 'written to one' experiment small.yaml --replay 0/adva/0 --out one
 expect 0 'written to' report one -o one.html
+# Drives that are judged from other instants on: each timing diagram says what it shows.
+expect 0 'written to' report seed1 one -o windows.html
+has windows.html 'Of each drive a part is drawn'
+has windows.html 'data-label="one adva, of which 160 ms are drawn, from 0.4 s on"'
+has windows.html 'data-label="seed1 tt, of which 160 ms are drawn, from 1.5 s on"'
 
 # ---- a log that was cut off is read up to there, with a warning
 mkdir torn

@@ -154,5 +154,23 @@ TEST(RunAnswer, OfSeveralSeedsDifferencesArePaired) {
   EXPECT_EQ(tables[0].rows[0].back(), "-0.01050 ± 0.00092 less");
 }
 
+TEST(RunAnswer, AStrategyWithoutAFigureWinsNothing) {
+  std::vector<Drive> drives;
+  for (const std::uint64_t seed : {1u, 2u}) {
+    drives.push_back({"out", "bend", "adva", "adva", seed, {}, nullptr});
+    drives.back().summary["deadlines_missed"] = -3;   // no count
+    drives.push_back(drive_of(seed, "buff", 0.2 + 0.01 * static_cast<double>(seed)));
+    drives.push_back(drive_of(seed, "tt", 0.1));
+  }
+  std::vector<ToldDrive> told;
+  for (const Drive& drive : drives) told.push_back({&drive, {}});
+  const RunAnswer answer = run_answer(told);
+  EXPECT_NE(answer.answer.find(", tt has the smallest position error"), std::string::npos) << answer.answer;
+  EXPECT_NE(answer.answer.find("; of adva there is no figure; buff +0.1"), std::string::npos) << answer.answer;
+  EXPECT_TRUE(answer.more.empty());
+  EXPECT_EQ(run_answer({told[0], told[3]}).answer,
+            "Over 2 runs of bend: No position was compared with the truth.");
+}
+
 }  // namespace
 }  // namespace ttf::report

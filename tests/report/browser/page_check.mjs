@@ -20,6 +20,15 @@ const browser = await chromium.launch({ executablePath, args: ["--no-sandbox", "
 async function opened(name, file, options = {}) {
   const context = await browser.newContext({ viewport: { width: 1440, height: 1000 }, offline: true, ...options });
   const page = await context.newPage();
+  // What a plot writes on its canvas, and where.
+  await page.addInitScript(() => {
+    globalThis.written = [];
+    const write = CanvasRenderingContext2D.prototype.fillText;
+    CanvasRenderingContext2D.prototype.fillText = function(text, x, y) {
+      globalThis.written.push({ canvas: this.canvas, text, x, y });
+      write.apply(this, arguments);
+    };
+  });
   const url = pathToFileURL(file).href;
   page.on(
       "console",
@@ -39,6 +48,52 @@ const range = (element) => element.evaluate((e) => [Number(e.dataset.from), Numb
 const inside = ([a, b], [c, d]) => a >= c - 1e-9 && b <= d + 1e-9 && b - a < (d - c) * 0.99;
 const same = ([a, b], [c, d]) => Math.abs(a - c) + Math.abs(b - d) < 1e-6 * (Math.abs(c) + Math.abs(d));
 
+// An axis' labels are the values that they stand at: both grow alike from label to label.
+async function labels_hold(name, page, figure) {
+  const seen = new Set();
+  for (let zoomed = 0; zoomed < 8; ++zoomed) {
+    await page.evaluate(() => { globalThis.written = []; });
+    await page.keyboard.press("+");
+    await page.waitForTimeout(50);
+    const written = await figure.locator("canvas").evaluate(
+        (canvas) => globalThis.written.filter((one) => one.canvas === canvas && /^-?[\d.]+$/.test(one.text))
+                        .map(({ text, x, y }) => ({ text, x, y })));
+    const bottom = Math.max(...written.map((one) => one.y));
+    const labels = written.filter((one) => one.y === bottom).map((one) => [Number(one.text), one.x]);
+    for (let i = 2; i < labels.length; ++i) {
+      const [[a, x], [b, y], [c, z]] = labels.slice(i - 2);
+      const apart = (c - b) * (y - x) - (b - a) * (z - y), least = Math.abs((c - a) * 4);   // of pixels, 2 each
+      check(`${name}: labels ${a}, ${b}, ${c} stand at ${x}, ${y}, ${z}`, Math.abs(apart) <= least);
+      seen.add((Math.abs(c - b)).toPrecision(1));
+    }
+  }
+  check(`${name}: steps of several sizes are labelled: ${[...seen]}`, seen.size >= 3);
+  await page.keyboard.press("0");
+  await page.waitForTimeout(50);
+}
+
+// On a screen that is narrower than a timing diagram its end and its legend are scrolled to.
+async function diagram_scrolls(name, page) {
+  const diagram = page.locator(".diagram").first();
+  const ends = await diagram.evaluate((box) => {
+    const paper = box.querySelector(".paper"), svg = paper.querySelector("svg");
+    paper.scrollLeft = 1e6;
+    const frame = paper.getBoundingClientRect(), picture = svg.getBoundingClientRect();
+    const right = Math.max(...[...svg.querySelectorAll("text")].map((text) => text.getBoundingClientRect().right));
+    return {
+      paper: frame.right, plot: svg.querySelector("rect.plot").getBoundingClientRect().right, texts: right,
+      picture: picture.right, below: picture.bottom - frame.bottom, wide: paper.scrollWidth > paper.clientWidth
+    };
+  });
+  check(`${name}: the diagram is wider than the screen`, ends.wide);
+  check(`${name}: the diagram's right end is reached: ${JSON.stringify(ends)}`,
+    ends.plot <= ends.paper && ends.texts <= ends.picture + 1 && ends.picture <= ends.paper && ends.below <= 0);
+  const paper = diagram.locator(".paper");
+  await paper.focus();
+  for (let i = 0; i < 20; ++i) await page.keyboard.press("Shift+ArrowLeft");
+  check(`${name}: keys scroll the diagram back`, await paper.evaluate((e) => e.scrollLeft) === 0);
+}
+
 async function plot_zooms(name, page) {
   const figure = page.locator("figure.plot").first(), canvas = figure.locator(".canvas"),
         over = figure.locator(".u-over");
@@ -55,6 +110,11 @@ async function plot_zooms(name, page) {
   check(`${name}: an arrow moves a plot: ${near} to ${later}`, later[0] > near[0]);
   await page.keyboard.press("0");
   check(`${name}: 0 shows all of a plot`, same(await range(figure), all));
+  await page.keyboard.press(".");
+  await page.keyboard.press(".");
+  const heard = await figure.locator(".heard").textContent();
+  check(`${name}: keys say a point's values: "${heard}"`, /^.+: .+ at \S+/.test(heard));
+  if (name !== "experiment") await labels_hold(name, page, figure);   // whose axis has few points
   const box = await over.boundingBox();
   await page.mouse.move(box.x + box.width * 0.3, box.y + 60);
   await page.mouse.down();
@@ -175,6 +235,7 @@ async function looks(name, file) {
   const narrow = await opened(`${name}, narrow`, file, { viewport: { width: 420, height: 900 } });
   const overflow = await narrow.evaluate(() => document.documentElement.scrollWidth - innerWidth);
   check(`${name}: on a narrow screen it is ${overflow} px too wide`, overflow <= 0);
+  if (await narrow.locator(".diagram").count() > 0) await diagram_scrolls(`${name}, narrow`, narrow);
   await narrow.screenshot({ path: `${pictures}/${name}_narrow.png` });
   await narrow.context().close();
   const paper = await opened(`${name}, printed`, file, { colorScheme: "dark" });
