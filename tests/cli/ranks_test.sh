@@ -14,7 +14,7 @@ name: small
 question: Is it so?
 scenario: $source/scenarios/dynamics.yaml
 seed: 3
-replications: 30
+replications: 150
 paradigms:
   adva: {strategy: adva, set: {duration: 500 ms, evaluate_from: 300 ms}}
   tt: {strategy: tt, set: {duration: 500 ms, evaluate_from: 300 ms}}
@@ -28,7 +28,7 @@ expect 0 '' experiment "$file" --out "$work/alone"
 alone=$program
 program=mpirun
 for ranks in 2 3; do
-  expect 0 "small: 2 points, 2 paradigms, 30 replications, $ranks ranks" \
+  expect 0 "small: 2 points, 2 paradigms, 150 replications, $ranks ranks" \
     -n $ranks "$alone" experiment "$file" --out "$work/ranks$ranks"
   for name in runs.csv summary.csv answer.txt answer.json; do
     cmp "$work/alone/$name" "$work/ranks$ranks/$name" || fail "$name of $ranks ranks is another"
