@@ -39,7 +39,7 @@ two_at_once() {
 
 # The drives of processes on vcans that are the same, bit for bit, whenever and wherever they are run.
 golden=tests/golden/vcan_hashes
-made_with='bash g++-12 libc6 libfmt9 libprotobuf32 libstdc++6 libyaml-cpp0.7 libzstd1 linux-source-6.1'
+made_with='bash g++-12 libc6 libddsc0debian libfmt9 libopenmpi3 libprotobuf32 librsvg2-2 libsqlite3-0 libstdc++6 libyaml-cpp0.7 libzstd1 linux-source-6.1'
 golden_drives() {
   : >"$out/golden"
   for script in node_set node_set_restart; do
