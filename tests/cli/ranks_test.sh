@@ -6,22 +6,10 @@ program=$1
 source=$2
 command -v mpirun >/dev/null || { echo "skipped: no mpirun (Debian: openmpi-bin)"; exit 77; }
 source "$(dirname "$0")/expect.sh"
+source "$(dirname "$0")/small_sweep.sh"
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
 
-cat >"$work/small.yaml" <<END
-kind: sweep
-name: small
-question: Is it so?
-scenario: $source/scenarios/dynamics.yaml
-seed: 3
-replications: 150
-paradigms:
-  adva: {strategy: adva, set: {duration: 500 ms, evaluate_from: 300 ms}}
-  tt: {strategy: tt, set: {duration: 500 ms, evaluate_from: 300 ms}}
-axes:
-  noise: {keys: [world.acceleration_noise], values: [1, 40]}
-measures: [position_rmse_truth, age_fused]
-END
+small_sweep 150 "500 ms" "300 ms" >"$work/small.yaml"
 file=$work/small.yaml
 expect 0 '' experiment "$file" --out "$work/alone"
 

@@ -5,21 +5,9 @@ set -u
 program=$1
 source=$2
 source "$(dirname "$0")/expect.sh"
+source "$(dirname "$0")/small_sweep.sh"
 
-cat >"$work/small.yaml" <<END
-kind: sweep
-name: small
-question: Is it so?
-scenario: $source/scenarios/dynamics.yaml
-seed: 3
-replications: 40
-paradigms:
-  adva: {strategy: adva, set: {duration: 700 ms, evaluate_from: 400 ms}}
-  tt: {strategy: tt, set: {duration: 700 ms, evaluate_from: 400 ms}}
-axes:
-  noise: {keys: [world.acceleration_noise], values: [1, 40]}
-measures: [position_rmse_truth, age_fused]
-END
+small_sweep 40 "700 ms" "400 ms" >"$work/small.yaml"
 file=$work/small.yaml
 
 expect 0 'position_rmse_truth of tt is (less|more) than of adva|undecided at' experiment "$file" --out "$work/whole"

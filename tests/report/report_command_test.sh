@@ -5,6 +5,7 @@ set -u
 program=$1
 source=$2
 source "$source/tests/cli/expect.sh"
+source "$source/tests/cli/small_sweep.sh"
 cd "$work" || exit 1
 
 # What is in a page that must not be in another one.
@@ -81,20 +82,7 @@ expect 0 'written to' report seed1 --to 0.1 -o first.html
 has first.html 'only 100 ms are drawn, from 0 s on'
 
 # ---- an experiment
-cat >small.yaml <<END
-kind: sweep
-name: small
-question: Is it <so>?
-scenario: $source/scenarios/dynamics.yaml
-seed: 3
-replications: 4
-paradigms:
-  adva: {strategy: adva, set: {duration: 700 ms, evaluate_from: 400 ms}}
-  tt: {strategy: tt, set: {duration: 700 ms, evaluate_from: 400 ms}}
-axes:
-  noise: {keys: [world.acceleration_noise], values: [1, 40]}
-measures: [position_rmse_truth, age_fused]
-END
+small_sweep 4 "700 ms" "400 ms" | sed 's/^question: .*/question: Is it <so>?/' >small.yaml
 expect 0 'written to' experiment small.yaml --out small
 expect 0 'written to' report small -o small.html
 has small.html 'Is it &lt;so&gt;?'
