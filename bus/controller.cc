@@ -34,6 +34,7 @@ FlexRayController::State::State(const schedules::Cluster& c, NodeId n, FlexRayPo
       slots(c, n),
       minislots(c.flexray),
       geometry{g.gMacroPerCycle, g.gdMacrotick_ps, p.pMicroPerCycle, g.gOffsetCorrectionStart},
+      told_of_receptions(host.wants_receptions()),
       nominal_slot(bus::nominal_slot(g, p)),
       poc(poc_power_on(poc_parameters)),
       cni(c, n),
@@ -41,6 +42,7 @@ FlexRayController::State::State(const schedules::Cluster& c, NodeId n, FlexRayPo
       sync(c.flexray.gSyncNodeMax),
       initialisation(c.flexray, parameters(c, n)),
       board(g.gNumberOfStaticSlots),
+      grid(static_cast<std::size_t>(g.gNumberOfStaticSlots + 1)),
       dynamic{Dynamic{DynamicSlotCounter(c.flexray)}, Dynamic{DynamicSlotCounter(c.flexray)}} {}
 
 Microticks FlexRayController::State::bits(int count) const {
@@ -186,6 +188,7 @@ void FlexRayController::State::note_what_goes_on() {
 
 void FlexRayController::State::tell_slot_problems(Microticks at) {
   const int now = counter();
+  if (board.are_pairs(slots.pairs(now))) return;
   for (int slot = 1; slot <= g.gNumberOfStaticSlots; ++slot) {
     const SlotBoard::Seen& status = board.at(slot);
     const bool both_valid = status.valid[0] && status.valid[1];
@@ -287,6 +290,9 @@ void FlexRayController::advance(Microticks now) {
 }
 
 void FlexRayController::receive(const Reception& reception) { state_->receive(reception); }
+bool FlexRayController::receive_on_both(const Reception& reception) { return state_->receive_on_both(reception); }
+bool FlexRayController::knows(const Reception& reception) { return state_->knows(reception); }
+void FlexRayController::hear_known(const Reception& reception) { state_->hear_known(reception); }
 
 const std::optional<timebase::CycleClock>& FlexRayController::clock() const { return state_->clock; }
 const PocState& FlexRayController::state() const { return state_->poc; }

@@ -95,6 +95,8 @@ class ControllerEvents {
   // The static segment of a cycle is over, its slot problems have been told, and slot_status() is of it. During
   // start-up too: what that is worth is the host's to judge by state().
   virtual void static_segment_ended(std::int64_t cycle, Microticks at) { (void)cycle, (void)at; }
+  // Whether it is told of frames received, and of fragments that are known.
+  virtual bool wants_receptions() const { return true; }
   // A valid frame in the slot it says it is of; not during start-up. `frame` only during the call.
   virtual void frame_received(std::int64_t cycle, int slot, schedules::Channel channel, const wire::DecodedFrame& frame,
                               Microticks at) {
@@ -151,6 +153,14 @@ class FlexRayController {
   bool answers_at_once() const;
   void advance(Microticks now);
   void receive(const Reception& reception);
+  // The same on both channels at the same instants, as most of what nodes send arrives: receive() of channel A, which
+  // `reception` says, and of channel B. True: it has changed next_event() or state(), or may have.
+  bool receive_on_both(const Reception& reception);
+  // What is on its way to this node on both channels, and nothing else until it is there: whether it changes nothing but
+  // what was seen of its slot and the sync deviations. So do null frames and fragments of lists that are there, and most
+  // frames are either. Then, right after this, hear_known() may take it in before it is there.
+  bool knows(const Reception& reception);
+  void hear_known(const Reception& reception);
 
   // Nothing before a schedule has been derived or begun, and after it has been dropped.
   const std::optional<timebase::CycleClock>& clock() const;

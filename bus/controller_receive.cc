@@ -1,6 +1,7 @@
 // Frame and symbol processing: what arrives, where it belongs, and whether it may be there (FlexRay 2.1A, chapter 6).
 #include <algorithm>
 #include <cstdlib>
+#include <utility>
 
 #include "bus/controller_state.h"
 #include "core/check.h"
@@ -53,10 +54,79 @@ void FlexRayController::State::receive(const Reception& reception) {
   if (!receiver_on(poc.kind)) return;
   const auto c = index_of(reception.channel);
   // A controller that sends cannot make out what others send.
-  const bool conflict = sending_from[c] != kNever && reception.start < sending_to[c] && reception.end > sending_from[c];
+  const bool conflict = talks_over(reception, c);
   if (clock && !in_startup(poc.kind)) return judge(reception, conflict);
   hear_in_startup(reception, conflict);
   due = next_event();
+}
+
+bool FlexRayController::State::receive_on_both(const Reception& reception) {
+  if (judge_on_both(reception)) return false;
+  receive(reception);
+  Reception other = reception;
+  other.channel = Channel::kB;
+  receive(other);
+  return true;
+}
+
+// Whether it is a valid frame in its slot on both channels, and nothing was heard of that slot before; false where
+// anything else may be the case.
+bool FlexRayController::State::is_valid_on_both(const Reception& reception) {
+  const wire::FrameHeader& header = reception.frame.header;
+  if (!in_operation() || reception.signal != Signal::kFrame || reception.frame.error != wire::FrameError::kNone ||
+      talks_over(reception, 0) || talks_over(reception, 1) || (g.gdSymbolWindow > 0 && segment != Segment::kStatic) ||
+      header.frame_id > g.gNumberOfStaticSlots || header.payload_words != g.gPayloadLengthStatic ||
+      (header.startup && !header.sync))
+    return false;
+  if (grid_rate != clock->rate_correction()) lay_grid();
+  const Microticks cycle_start = clock->cycle_start();
+  const int slot = header.frame_id;
+  const auto index = static_cast<std::size_t>(slot);
+  if (reception.start < cycle_start + grid[index - 1] || reception.end > cycle_start + grid[index]) return false;
+  const int cycle = counter();
+  const auto& expected = slots.expected(slot, cycle);
+  return header.cycle == cycle && expected[0] != nullptr && expected[0] == expected[1] &&
+         std::as_const(board).nothing(slot);
+}
+
+// Judged once. False, and nothing is changed, where it has to be judged channel by channel.
+bool FlexRayController::State::judge_on_both(const Reception& reception) {
+  if (!is_valid_on_both(reception)) return false;
+  const int slot = reception.frame.header.frame_id;
+  const FrameSlot& expected = *slots.expected(slot, counter())[0];
+  const bool under_way = board.under_way();
+  board.hear_a(slot);
+  accept(reception, Channel::kA, slot, expected);
+  // What a host is told may make it act.
+  if (!in_operation() || board.under_way() != under_way) {
+    Reception other = reception;
+    other.channel = Channel::kB;
+    receive(other);
+    return true;
+  }
+  board.hear_b(slot);
+  accept(reception, Channel::kB, slot, expected);
+  return true;
+}
+
+bool FlexRayController::State::knows(const Reception& reception) {
+  // Until then it neither sends nor looks at what was seen.
+  if (due <= reception.end || segment != Segment::kStatic || told_of_receptions || !is_valid_on_both(reception))
+    return false;
+  const wire::FrameHeader& header = reception.frame.header;
+  const FrameSlot& expected = *slots.expected(header.frame_id, header.cycle)[0];
+  if (header.payload_preamble) return false;
+  if (header.null_frame || expected.pdu == kNoPdu) return true;
+  const auto bytes = static_cast<std::size_t>(cluster.pdu(expected.pdu).fragment_bytes);
+  return cni.incoming(expected.pdu).knows(reception.frame.payload.first(bytes), expected.fragment);
+}
+
+void FlexRayController::State::hear_known(const Reception& reception) {
+  const wire::FrameHeader& header = reception.frame.header;
+  board.hear_a(header.frame_id);
+  board.hear_b(header.frame_id);
+  if (!header.sync) return;
+  for (const Channel channel : schedules::kBothChannels) hear_sync(reception, channel, header.frame_id);
 }
 
 void FlexRayController::State::hear_in_startup(const Reception& reception, bool conflict) {
@@ -109,27 +179,29 @@ void FlexRayController::State::hear(const Reception& reception) {
   }
 }
 
+// Static slots lie before the clock's correction phase, so only its rate moves them.
+void FlexRayController::State::lay_grid() {
+  for (std::size_t s = 0; s < grid.size(); ++s)
+    grid[s] = clock->start_of(slot_start(static_cast<int>(s) + 1)) - clock->cycle_start();
+  grid_rate = clock->rate_correction();
+}
+
 int FlexRayController::State::look_up_static_slot(Microticks at) {
-  if (at < clock->cycle_start()) return 0;
-  const auto start = [this](int slot) { return clock->start_of(slot_start(slot)); };
-  // The one behind it, as a rule.
+  const Microticks into = at - clock->cycle_start();
+  if (into < Microticks{}) return 0;
+  if (grid_rate != clock->rate_correction()) lay_grid();
+  if (into >= grid.back()) return g.gNumberOfStaticSlots + 1;
+  const auto from = [this](int slot) { return grid[static_cast<std::size_t>(slot - 1)]; };
+  // The one behind it, as a rule; else an estimate on the nominal grid, put right by a slot at most.
   int slot = slot_at.slot + 1;
-  Microticks from = slot_at.to;
-  Microticks to = slot <= g.gNumberOfStaticSlots ? start(slot + 1) : from;
-  if (at < from || at >= to) {
-    // An estimate on the nominal grid, put right by a slot at most.
-    const std::int64_t into = (at - clock->cycle_start()).value;
-    slot = static_cast<int>(std::min<std::int64_t>(nominal_slot.floor(into) + 1, g.gNumberOfStaticSlots));
-    from = start(slot);
-    to = start(slot + 1);
-    for (; from > at; from = start(slot)) to = from, --slot;
-    for (; to <= at; to = start(slot + 1)) {
-      if (slot == g.gNumberOfStaticSlots) return slot + 1;
-      from = to, ++slot;
-    }
+  if (slot > g.gNumberOfStaticSlots || into < from(slot) || into >= from(slot + 1)) {
+    slot = static_cast<int>(std::min<std::int64_t>(nominal_slot.floor(into.value) + 1, g.gNumberOfStaticSlots));
+    while (from(slot) > into) --slot;
+    while (from(slot + 1) <= into) ++slot;
   }
   const int cycle = counter();
-  slot_at = {slot, from, to, cycle, slots.expected(slot, cycle)};
+  slot_at = {slot, clock->cycle_start() + from(slot), clock->cycle_start() + from(slot + 1), cycle,
+             slots.expected(slot, cycle)};
   return slot;
 }
 
@@ -165,9 +237,7 @@ void FlexRayController::State::judge_elsewhere(const Reception& reception, int s
 
 void FlexRayController::State::judge_static(const Reception& reception, int slot, std::uint8_t errors) {
   const auto c = index_of(reception.channel);
-  const wire::FrameHeader& header = reception.frame.header;
   const FrameSlot* expected = slot_at.expected[c];   // `slot` has just been looked up
-  const int cycle = slot_at.counter;
   SlotBoard::Seen& status = board.at(slot);
   if (const int last = last_static_slot_of(reception); last != slot) {
     cross_slots(reception, slot, last);
@@ -175,10 +245,7 @@ void FlexRayController::State::judge_static(const Reception& reception, int slot
   }
   if (status.element[c]) errors |= kSyntaxError;   // a second communication element
   status.element[c] = true;
-  if (errors == 0 && (header.frame_id != slot || header.cycle != cycle ||
-                      header.payload_words != g.gPayloadLengthStatic || expected == nullptr ||
-                      (header.startup && !header.sync)))
-    errors |= kContentError;
+  if (errors == 0 && !is_of_slot(reception.frame.header, slot, expected)) errors |= kContentError;
   status.errors[c] |= errors;
   if (errors != 0) {
     // Of one that outlasts the segment this comes when that has been closed.
@@ -187,19 +254,28 @@ void FlexRayController::State::judge_static(const Reception& reception, int slot
     return;
   }
   status.valid[c] = true;
+  accept(reception, reception.channel, slot, *expected);
+}
+
+// A valid frame of this node's schedule, in the slot that has just been looked up.
+void FlexRayController::State::accept(const Reception& reception, Channel channel, int slot, const FrameSlot& expected) {
+  const wire::FrameHeader& header = reception.frame.header;
   if (!in_startup(poc.kind))
-    events.frame_received(clock->cycle(), slot, reception.channel, reception.frame, reception.end);
-  if (header.sync) {
-    // The medium reports when the first bit of the TSS arrived, so no decoding time has to be taken off
-    // (pDecodingCorrection); the bus' mean propagation delay is the schedule's to compensate.
-    const int compensation = reception.channel == Channel::kA ? p.pDelayCompensationA : p.pDelayCompensationB;
-    const auto deviation = static_cast<int>(
-        (reception.start - clock->start_of(action_point(slot)) - Microticks{compensation}).value);
-    sync.heard(slot, reception.channel, deviation, header.startup && std::abs(deviation) <= p.pdAcceptedStartupRange);
-  }
+    events.frame_received(clock->cycle(), slot, channel, reception.frame, reception.end);
+  if (header.sync) hear_sync(reception, channel, slot);
   if (header.payload_preamble) network_management.combine(reception.frame.payload);
-  if (expected->pdu != kNoPdu && !store(*expected, reception))
-    status.errors[c] |= kContentError;   // a frame, but not of this slot's list
+  if (expected.pdu != kNoPdu && !store(expected, reception))
+    board.at(slot).errors[index_of(channel)] |= kContentError;   // a frame, but not of this slot's list
+}
+
+// The medium reports when the first bit of the TSS arrived, so no decoding time has to be taken off (pDecodingCorrection);
+// the bus' mean propagation delay is the schedule's to compensate.
+void FlexRayController::State::hear_sync(const Reception& reception, Channel channel, int slot) {
+  const int compensation = channel == Channel::kA ? p.pDelayCompensationA : p.pDelayCompensationB;
+  const auto deviation =
+      static_cast<int>((reception.start - clock->start_of(action_point(slot)) - Microticks{compensation}).value);
+  const bool startup = reception.frame.header.startup && std::abs(deviation) <= p.pdAcceptedStartupRange;
+  sync.heard(slot, channel, deviation, startup);
 }
 
 // The minislots that a reception took, from the first one on if it began before that: the slot counter goes on behind

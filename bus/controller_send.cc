@@ -34,21 +34,27 @@ void FlexRayController::State::send_static(Microticks at) {
   const Cni::Fragment content = starting ? Cni::Fragment{} : cni.fetch(slot, clock->cycle());
   const bool null_frame = starting || (slot.pdu != kNoPdu && content.payload.empty());
   const Microticks end = at + bits(schedules::frame_bits(g, g.gPayloadLengthStatic));
-  const Channel last_channel = includes(slot.channels, Channel::kB) ? Channel::kB : Channel::kA;
   if (slot.network_management && !null_frame) network_management.combine(network_management.own());
+  const bool sync_frame = p.pKeySlotUsedForSync && slot.slot == p.pKeySlotId;
+  const auto quiet = [this](Channel channel) { return !port.wants_bytes(channel); };
+  if (slot.channels == schedules::Channels::kAB && !events.wants_bytes() && quiet(Channel::kA) && quiet(Channel::kB)) {
+    send_on_both(slot, at, end, content, null_frame);
+    if (sync_frame) sync.own(slot.slot, slot.channels);
+    return;
+  }
+  const Channel last_channel = includes(slot.channels, Channel::kB) ? Channel::kB : Channel::kA;
   unsigned left = 0;   // bits of Channels
   for (const Channel channel : schedules::kBothChannels)
     if (includes(slot.channels, channel) &&
         send_frame(slot, channel, at, end, content, null_frame, content.last && channel == last_channel))
       left |= 1u << index_of(channel);
   // What nobody hears tells this node no more of the cluster's time than it tells the others.
-  if (left != 0 && p.pKeySlotUsedForSync && slot.slot == p.pKeySlotId)
+  if (left != 0 && sync_frame)
     sync.own(slot.slot, static_cast<schedules::Channels>(left));
 }
 
-bool FlexRayController::State::send_frame(const FrameSlot& slot, Channel channel, Microticks at, Microticks end,
-                                          const Cni::Fragment& content, bool null_frame, bool last) {
-  if (!port.may_leave(channel, slot.slot, at)) return false;
+wire::DecodedFrame FlexRayController::State::frame_of(const FrameSlot& slot, const Cni::Fragment& content,
+                                                      bool null_frame) {
   const bool is_static = slot.slot <= g.gNumberOfStaticSlots;
   wire::FrameHeader header;
   header.frame_id = static_cast<std::uint16_t>(slot.slot);
@@ -60,6 +66,8 @@ bool FlexRayController::State::send_frame(const FrameSlot& slot, Channel channel
   const std::size_t preamble = preamble_bytes(slot);
   const std::size_t length = is_static ? 2 * static_cast<std::size_t>(g.gPayloadLengthStatic)
                                        : (preamble + content.payload.size() + 1) / 2 * 2;
+  header.payload_words = static_cast<std::uint8_t>(length / 2);
+  if (preamble == 0 && content.payload.size() == length) return {wire::FrameError::kNone, header, content.payload};
   std::fill_n(payload.begin(), length, std::byte{0});
   std::copy(content.payload.begin(), content.payload.end(), payload.begin() + static_cast<std::ptrdiff_t>(preamble));
   if (header.payload_preamble && slot.message_id) {
@@ -68,18 +76,36 @@ bool FlexRayController::State::send_frame(const FrameSlot& slot, Channel channel
   } else if (header.payload_preamble) {
     std::copy_n(network_management.own().begin(), preamble, payload.begin());
   }
-  header.payload_words = static_cast<std::uint8_t>(length / 2);
-  const std::span<const std::byte> words = std::span<const std::byte>(payload).first(length);
+  return {wire::FrameError::kNone, header, std::span<const std::byte>(payload).first(length)};
+}
+
+bool FlexRayController::State::send_frame(const FrameSlot& slot, Channel channel, Microticks at, Microticks end,
+                                          const Cni::Fragment& content, bool null_frame, bool last) {
+  if (!port.may_leave(channel, slot.slot, at)) return false;
+  const wire::DecodedFrame said = frame_of(slot, content, null_frame);
   const bool in_bytes = port.wants_bytes(channel) || events.wants_bytes();
-  const std::size_t size = in_bytes ? wire::encode_frame(header, channel, words, frame) : 0;
+  const std::size_t size = in_bytes ? wire::encode_frame(said.header, channel, said.payload, frame) : 0;
   const Transmission transmission{channel, Signal::kFrame, at, end, slot.slot,
-                                  std::span<const std::byte>(frame).first(size),
-                                  {wire::FrameError::kNone, header, words}};
+                                  std::span<const std::byte>(frame).first(size), said};
   sending_from[index_of(channel)] = at;
   sending_to[index_of(channel)] = end;
   port.transmit(transmission);
   events.frame_sent(transmission, clock->cycle(), null_frame, slot.pdu, content.sequence, slot.fragment, last);
   return true;
+}
+
+// A static frame of which nobody looks at the bytes.
+void FlexRayController::State::send_on_both(const FrameSlot& slot, Microticks at, Microticks end,
+                                            const Cni::Fragment& content, bool null_frame) {
+  Transmission transmission{Channel::kA, Signal::kFrame, at, end, slot.slot, {}, frame_of(slot, content, null_frame)};
+  sending_from = {at, at};
+  sending_to = {end, end};
+  port.transmit_on_both(transmission);
+  for (const Channel channel : schedules::kBothChannels) {
+    transmission.channel = channel;
+    events.frame_sent(transmission, clock->cycle(), null_frame, slot.pdu, content.sequence, slot.fragment,
+                      content.last && channel == Channel::kB);
+  }
 }
 
 // Finds this node's next dynamic slot on the channel, as the slot counter stands. A reception changes the counter, and

@@ -32,6 +32,7 @@ struct FlexRayController::State {
   const SlotTable slots;
   const MinislotGrid minislots;
   const timebase::CycleGeometry geometry;
+  const bool told_of_receptions;           // its host
   const timebase::Divisor nominal_slot;    // a static slot's microticks, give or take one
 
   // --- where it stands
@@ -60,6 +61,8 @@ struct FlexRayController::State {
     std::array<const schedules::FrameSlot*, 2> expected{};   // by channel, as SlotTable has it
   };
   SlotAt slot_at;
+  std::vector<Microticks> grid;            // by slot - 1, where it begins in the cycle; and where the last one ends
+  std::optional<int> grid_rate;            // the clock's, that it is of
 
   // How far the cycle is.
   // kBefore: the first cycle is to start; kDynamic: with the symbol window.
@@ -124,9 +127,13 @@ struct FlexRayController::State {
   std::size_t preamble_bytes(const schedules::FrameSlot& slot) const {
     return static_cast<std::size_t>(schedules::preamble_bytes(g, slot));
   }
+  // What a slot says, in `payload`.
+  wire::DecodedFrame frame_of(const schedules::FrameSlot& slot, const Cni::Fragment& content, bool null_frame);
   // False: it was too late for it.
   bool send_frame(const schedules::FrameSlot& slot, schedules::Channel channel, Microticks at, Microticks end,
                   const Cni::Fragment& content, bool null_frame, bool last);
+  void send_on_both(const schedules::FrameSlot& slot, Microticks at, Microticks end, const Cni::Fragment& content,
+                    bool null_frame);
   void send_symbol(Signal signal, schedules::Channel channel, Microticks at, Microticks end);
   Microticks cas_length() const;
   void send_cas(Microticks at);
@@ -134,10 +141,26 @@ struct FlexRayController::State {
 
   // --- receiving (controller_receive.cc)
   void receive(const Reception& reception);
+  bool receive_on_both(const Reception& reception);
+  bool judge_on_both(const Reception& reception);
+  bool in_operation() const { return poc.kind == PocKind::kNormalActive || poc.kind == PocKind::kNormalPassive; }
+  bool is_valid_on_both(const Reception& reception);
+  bool knows(const Reception& reception);
+  void hear_known(const Reception& reception);
+  void hear_sync(const Reception& reception, schedules::Channel channel, int slot);
+  bool talks_over(const Reception& reception, std::size_t channel) const {
+    return sending_from[channel] != kNever && reception.start < sending_to[channel] &&
+           reception.end > sending_from[channel];
+  }
   void hear_in_startup(const Reception& reception, bool conflict);   // or without a schedule
   void hear(const Reception& reception);                   // without a schedule
   void judge(const Reception& reception, bool conflict);   // within the schedule
   void judge_static(const Reception& reception, int slot, std::uint8_t errors);
+  bool is_of_slot(const wire::FrameHeader& header, int slot, const schedules::FrameSlot* expected) const {
+    return header.frame_id == slot && header.cycle == slot_at.counter &&
+           header.payload_words == g.gPayloadLengthStatic && expected != nullptr && (header.sync || !header.startup);
+  }
+  void accept(const Reception& reception, schedules::Channel channel, int slot, const schedules::FrameSlot& expected);
   void judge_elsewhere(const Reception& reception, int slot, std::uint8_t errors, bool conflict);
   void cross_slots(const Reception& reception, int slot, int last);
   void judge_dynamic(const Reception& reception, int minislot, std::uint8_t errors);
@@ -153,6 +176,7 @@ struct FlexRayController::State {
     return static_slot_at(last > reception.start ? last : reception.start);
   }
   int look_up_static_slot(Microticks at);
+  void lay_grid();
 };
 
 }  // namespace ttf::bus

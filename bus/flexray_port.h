@@ -53,6 +53,13 @@ class FlexRayPort {
  public:
   virtual ~FlexRayPort() = default;
   virtual void transmit(const Transmission& transmission) = 0;
+  // The same frame on both channels at once, of which nobody wants the bytes; `transmission` says channel A.
+  virtual void transmit_on_both(const Transmission& transmission) {
+    transmit(transmission);
+    Transmission other = transmission;
+    other.channel = schedules::Channel::kB;
+    transmit(other);
+  }
   // Whether a frame or, in slot 0, a symbol that should leave at `start` still may: else it is not sent at all. Only real
   // time knows of too late.
   virtual bool may_leave(schedules::Channel channel, int slot, Microticks start) {
@@ -63,7 +70,8 @@ class FlexRayPort {
   virtual Microticks handed_over_within() const { return {}; }
   // Whether something is arriving just now.
   virtual bool carrier(schedules::Channel channel) const = 0;
-  // Whether the next transmission's bytes are looked at; a medium that carries contents can do without.
+  // Whether the next transmission's bytes are looked at; a medium that carries contents can do without, in virtual time,
+  // where all may leave.
   virtual bool wants_bytes(schedules::Channel channel) const { return (void)channel, true; }
 };
 

@@ -1,6 +1,7 @@
 #include "bus/list_buffer.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "bus/wire/pdu_codec.h"
 #include "core/check.h"
@@ -98,8 +99,23 @@ ArrivalEffect IncomingList::store(std::span<const std::byte> payload, int fragme
   return ArrivalEffect::kCompleted;
 }
 
+// Whether this is, to the last bit, a fragment that the newest list has already: so most of what arrives is, on the other
+// channel and in every cycle until there is another list.
+bool IncomingList::repeats(std::span<const std::byte> payload, int fragment) const {
+  const auto index = static_cast<std::size_t>(fragment);
+  const bool there = collecting_ ? fragment < collecting_fragments_ && present_[index]
+                                 : complete_ && fragment < complete_fragments_;
+  const std::byte* const known = (collecting_ ? collecting_bytes_ : complete_bytes_).data() + index * payload.size();
+  return there && std::memcmp(known, payload.data(), payload.size()) == 0;
+}
+
 ArrivalEffect IncomingList::arrive(std::span<const std::byte> payload, std::optional<int> expected) {
   torn_.reset();
+  if (expected && repeats(payload, *expected)) {
+    arrived_sequence_ = collecting_ ? collecting_sequence_ : complete_sequence_;
+    stale_lists_ = 0;
+    return ArrivalEffect::kDuplicate;
+  }
   const std::uint32_t raw = wire::read_header_raw(*layout_, payload, sequence_signal_);
   const auto fragment = static_cast<int>(wire::read_header_raw(*layout_, payload, fragment_signal_));
   const auto count = static_cast<int>(wire::read_header_raw(*layout_, payload, count_signal_));

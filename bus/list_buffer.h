@@ -67,6 +67,10 @@ class IncomingList {
   explicit IncomingList(const schedules::PduLayout& layout);
   // `fragment`: the one the slot is for, where that is laid down (FlexRay); a CAN frame may carry any.
   ArrivalEffect arrive(std::span<const std::byte> payload, std::optional<int> fragment = std::nullopt);
+  // Whether that fragment arriving once more would be kDuplicate and change nothing.
+  bool knows(std::span<const std::byte> payload, int fragment) const {
+    return stale_lists_ == 0 && repeats(payload, fragment);
+  }
   // The newest complete list, or nothing yet. Stays the same until a newer one is complete.
   std::optional<ListView> latest() const;
   // Marks the latest as read; false if it had been read before.
@@ -82,6 +86,7 @@ class IncomingList {
     std::size_t signal;
     std::uint32_t highest;
   };
+  bool repeats(std::span<const std::byte> payload, int fragment) const;
   bool well_formed(std::span<const std::byte> payload, int fragment, int count) const;
   std::int64_t ahead(std::uint32_t raw, std::uint32_t of) const;
   bool restarted(std::uint32_t raw);

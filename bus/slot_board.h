@@ -40,11 +40,13 @@ class SlotBoard {
     std::fill(kept_.begin(), kept_.end(), Seen{});
     noted_ = kept_.data();
     under_way_ = false;
+    begin_count();
   }
   void begin_segment() {
     std::fill(seen_.begin(), seen_.end(), Seen{});
     noted_ = seen_.data();
     under_way_ = true;
+    begin_count();
   }
   void end_segment() {
     seen_.swap(kept_);                      // so noted_ is kept_'s
@@ -52,7 +54,21 @@ class SlotBoard {
   }
 
   // Of the segment under way, or of the last one when that is over: what outlasts a segment is noted in it still.
-  Seen& at(int slot) { return noted_[slot - 1]; }
+  Seen& at(int slot) {
+    only_pairs_ = false;
+    return noted_[slot - 1];
+  }
+  const Seen& at(int slot) const { return noted_[slot - 1]; }
+  // The common case, slot after slot: nothing but a valid frame on both channels. hear_a() and hear_b() are its halves,
+  // for a slot in which nothing() was heard.
+  bool nothing(int slot) const { return at(slot).nothing(0) && at(slot).nothing(1); }
+  void hear_a(int slot) { noted_[slot - 1].element[0] = noted_[slot - 1].valid[0] = true; }
+  void hear_b(int slot) {
+    noted_[slot - 1].element[1] = noted_[slot - 1].valid[1] = true;
+    ++pairs_;
+  }
+  // Whether that is all that was heard in the segment, in as many slots; asked when the segment is over.
+  bool are_pairs(int count) const { return only_pairs_ && pairs_ == count; }
   // Of the last segment that is over.
   const Seen& kept(int slot) const { return kept_[static_cast<std::size_t>(slot - 1)]; }
 
@@ -68,9 +84,16 @@ class SlotBoard {
   }
 
  private:
+  void begin_count() {
+    pairs_ = 0;
+    only_pairs_ = true;
+  }
+
   std::vector<Seen> seen_, kept_;           // by slot - 1
   Seen* noted_;                             // begin of the one that at() is of
   bool under_way_ = false;
+  int pairs_ = 0;                           // slots that hear_b() was told of
+  bool only_pairs_ = true;                  // nobody else has touched any
 };
 
 }  // namespace ttf::bus

@@ -27,6 +27,13 @@ SlotTable::SlotTable(const schedules::Cluster& cluster, NodeId node) {
   for (const FrameSlot* frame : others_)
     steady_[static_cast<std::size_t>(frame->slot - 1)].every_cycle &= frame->repetition == 1;
   for (std::size_t s = 0; s < steady_.size(); ++s) steady_[s].frames = expected_by_cycle(static_cast<int>(s) + 1, 0);
+  pairs_.resize(static_cast<std::size_t>(cluster.flexray.gCycleCountMax + 1));
+  for (std::size_t counter = 0; counter < pairs_.size(); ++counter)
+    for (int slot = 1; slot <= cluster.flexray.gNumberOfStaticSlots && pairs_[counter] >= 0; ++slot) {
+      const auto sent = expected(slot, static_cast<int>(counter));
+      if ((sent[0] == nullptr) != (sent[1] == nullptr)) pairs_[counter] = -1;
+      else if (sent[0] != nullptr) ++pairs_[counter];
+    }
   for (auto& own : own_dynamic_) std::stable_sort(own.begin(), own.end(), by_slot);
 }
 

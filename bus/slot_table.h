@@ -32,6 +32,8 @@ class SlotTable {
   const schedules::FrameSlot* expected(int slot, int counter, schedules::Channel channel) const {
     return expected(slot, counter)[index_of(channel)];
   }
+  // In how many static slots of a cycle other nodes send, if they do so on both channels in all of them; else -1.
+  int pairs(int counter) const { return pairs_[static_cast<std::size_t>(counter)]; }
   // The same in the dynamic segment, where several may share a slot, told apart by message id: the one with that id (or
   // without one); null where that is not expected.
   const schedules::FrameSlot* expected(int slot, int counter, schedules::Channel channel,
@@ -54,6 +56,7 @@ class SlotTable {
     std::array<const schedules::FrameSlot*, 2> frames{};                     // by channel
   };
   std::vector<Steady> steady_;                                               // by slot - 1
+  std::vector<int> pairs_;                                                   // by counter
 };
 
 using schedules::in_cycle;

@@ -110,6 +110,7 @@ Executive::Executive(const ExecutiveConfig& config, std::vector<std::shared_ptr<
   }
   if (!asleep_) rise(config.power_on);
   arm_cycle();
+  look_ahead();
 }
 
 Executive::~Executive() = default;
@@ -150,6 +151,7 @@ void Executive::rise(Microticks now) {
 void Executive::start_anew(Microticks now) {
   flexray_->start_cold(now);
   arm_cycle();
+  look_ahead();
 }
 
 // However the wake-up ended, its host lets the controller start up then.
@@ -162,9 +164,13 @@ void Executive::start_up_after_waking(Microticks now) {
 
 Microticks Executive::next_event() const {
   if (asleep_) return rises_.value_or(kNever);
+  return flexray_ ? std::min(own_next_, flexray_->next_event()) : own_next_;
+}
+
+void Executive::look_ahead() {
+  concerned_ = false;
   Microticks next = running_ ? running_end_ : kNever;
   if (!running_ && !ready_.empty()) next = tasks_[ready_.front()].activated;
-  if (flexray_) next = std::min(next, flexray_->next_event());
   if (const timebase::CycleClock* global = clock()) {
     for (const TaskState& state : tasks_)
       if (state.armed) next = std::min(next, global->start_of(state.task->activation.at.offset));
@@ -176,7 +182,7 @@ Microticks Executive::next_event() const {
     if (state.runs_freely)
       next = std::min(next, ticks((state.first - LocalTime{}) + state.sensor->period * state.measured));
   }
-  return next;
+  own_next_ = next;
 }
 
 Promise Executive::promise() const {
@@ -218,17 +224,22 @@ void Executive::advance(Microticks now) {
   if (asleep_) {
     if (!rises_ || *rises_ > now) return;
     asleep_ = false;
+    concerned_ = true;
     sink_.on(records::PowerChanged{stamp(now), true});
     rise(now);
   }
+  concerned_ |= own_next_ <= now;
   if (running_ && running_end_ <= now) finish(now);
   if (flexray_) {
     flexray_->advance(now);
     start_up_after_waking(now);
   }
+  // As a rule the controller had a frame to send, and nobody else anything to do.
+  if (!concerned_) return;
   arm_cycle();
   activate_due(now);
   start_next(now);
+  look_ahead();
 }
 
 void Executive::activate_due(Microticks now) {
@@ -265,6 +276,7 @@ void Executive::trigger(SensorId sensor, Microticks now) {
   if (asleep_) return;
   for (SensorState& state : sensors_)
     if (state.id == sensor && state.is_device) state.due = state.follows ? std::max(now, state.ready) : now;
+  look_ahead();
 }
 
 void Executive::strobe(SensorId sensor, std::uint32_t sequence, Microticks now) {
@@ -284,6 +296,7 @@ void Executive::activate(std::size_t task, Microticks now) {
     ++counts_.overruns;
     return;
   }
+  concerned_ = true;
   state.waiting = true;
   state.activated = now;
   state.activated_at = stamp(now);
@@ -394,6 +407,19 @@ void Executive::receive(const bus::Reception& reception) {
   }
   flexray_->receive(reception);
   start_up_after_waking(reception.end);
+  if (concerned_) look_ahead();
+}
+
+bool Executive::receive_on_both(const bus::Reception& reception) {
+  if (asleep_) {
+    receive(reception);
+    return true;
+  }
+  const bool changed = flexray_->receive_on_both(reception);
+  if (changed) start_up_after_waking(reception.end);
+  if (!changed && !concerned_) return false;
+  look_ahead();
+  return true;
 }
 
 void Executive::receive_can(std::size_t can_bus, const bus::CanFrame& frame, Microticks now) {
@@ -402,6 +428,7 @@ void Executive::receive_can(std::size_t can_bus, const bus::CanFrame& frame, Mic
     arrived(arrival->pdu, static_cast<int>(can_bus), arrival->effect, arrival->sequence, arrival->torn, now);
   else
     ++counts_.refused_can_frames;
+  if (concerned_) look_ahead();
 }
 
 void Executive::list_arrived(PduId pdu, bus::ArrivalEffect effect, std::uint32_t sequence,

@@ -95,6 +95,10 @@ class Executive final : private bus::ControllerEvents {
   // Arrivals. `now` is the node's microtick of the arrival. What they set off happens at the next advance(), which
   // next_event() then asks for.
   void receive(const bus::Reception& reception);
+  // The same on both channels at once (bus/controller.h). False: next_event() is what it was.
+  bool receive_on_both(const bus::Reception& reception);
+  bool knows(const bus::Reception& reception) { return !asleep_ && flexray_->knows(reception); }
+  void hear_known(const bus::Reception& reception) { flexray_->hear_known(reception); }
   void receive_can(std::size_t can_bus, const bus::CanFrame& frame, Microticks now);
   // A frame of this node has left, `now`. `frame` is what the medium knows of it: bus, start, when it has left in true
   // time, identifier and data; the node reports it with its own clock's times and the list and measurement it is of.
@@ -125,6 +129,7 @@ class Executive final : private bus::ControllerEvents {
   void list_arrived(PduId pdu, bus::ArrivalEffect effect, std::uint32_t sequence, std::optional<std::uint32_t> torn,
                     Microticks at) override;
   bool wants_bytes() const override { return wants_frames_; }
+  bool wants_receptions() const override { return false; }
   void frame_sent(const bus::Transmission& transmission, std::int64_t cycle, bool null_frame, PduId pdu,
                   std::uint32_t sequence, int fragment, bool last) override;
   void slot_problem(std::int64_t cycle, int slot, schedules::Channel channel, bus::SlotStatus status,
@@ -134,6 +139,12 @@ class Executive final : private bus::ControllerEvents {
   void symbol_sent(bus::Signal signal, schedules::Channel channel, Microticks start, Microticks end) override;
   void state_changed(bus::PocKind from, const bus::PocStep& step, Microticks at) override;
 
+  // What happens by the cluster's clock happens at other ticks now.
+  void cycle_started(std::int64_t cycle, Microticks at) override {
+    (void)cycle, (void)at;
+    concerned_ = true;
+  }
+  void look_ahead();
   void arrived(PduId pdu, int can_bus, bus::ArrivalEffect effect, std::uint32_t sequence,
                std::optional<std::uint32_t> torn, Microticks at);
   void rise(Microticks now);
@@ -167,6 +178,8 @@ class Executive final : private bus::ControllerEvents {
   std::optional<std::size_t> running_;
   Microticks running_end_{};
   std::int64_t armed_cycle_ = -1;
+  bool concerned_ = true;                   // own_next_ is to be looked for anew
+  Microticks own_next_{};                   // next_event() but for the controller's
   bool asleep_ = false;
   std::optional<Microticks> rises_;         // while asleep: when, once a wake-up pattern was heard
   bool waking_ = false;                     // others: start-up comes after the wake-up

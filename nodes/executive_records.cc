@@ -68,6 +68,7 @@ void Executive::slot_problem(std::int64_t cycle, int slot, schedules::Channel ch
 
 void Executive::clock_corrected(std::int64_t cycle, const timebase::Correction& offset,
                                 const timebase::Correction& rate, Microticks at) {
+  concerned_ = true;
   // One instant by both clocks, from which others take what they were apart by: true time is when this one showed that,
   // however late it was looked at.
   records::Stamp both = stamp(at);
@@ -85,6 +86,7 @@ void Executive::symbol_sent(bus::Signal signal, schedules::Channel channel, Micr
 }
 
 void Executive::state_changed(bus::PocKind from, const bus::PocStep& step, Microticks at) {
+  concerned_ = true;
   const bus::PocKind to = step.next.kind;
   sink_.on(records::StateChanged{stamp(at), static_cast<std::uint8_t>(from), static_cast<std::uint8_t>(to),
                                  bus::to_text(from), bus::to_text(to), bus::to_text(step.reason),

@@ -60,6 +60,9 @@ void BusSimulation::advance(std::size_t node, Microticks now) { controllers_[nod
 void BusSimulation::receive(std::size_t node, const bus::Reception& reception) {
   controllers_[node]->receive(reception);
 }
+bool BusSimulation::receive_on_both(std::size_t node, const bus::Reception& reception) {
+  return controllers_[node]->receive_on_both(reception);
+}
 void BusSimulation::happen(const MediumEvent& event) {
   TTF_CHECK(false, "an event of kind {} without hosts", static_cast<int>(event.kind));
 }

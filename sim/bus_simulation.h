@@ -46,6 +46,11 @@ class BusSimulation final : public Crank {
   Microticks next_event(std::size_t node) const override;
   void advance(std::size_t node, Microticks now) override;
   void receive(std::size_t node, const bus::Reception& reception) override;
+  bool receive_on_both(std::size_t node, const bus::Reception& reception) override;
+  bool knows(std::size_t node, const bus::Reception& reception) override { return controllers_[node]->knows(reception); }
+  void hear_known(std::size_t node, const bus::Reception& reception) override {
+    controllers_[node]->hear_known(reception);
+  }
   void happen(const MediumEvent& event) override;
   void make_controller(std::size_t node);
   void make_guardians(const std::vector<BusNode>& nodes, const std::vector<timebase::Oscillator>& oscillators);

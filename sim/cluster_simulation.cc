@@ -58,6 +58,11 @@ struct ClusterSimulation::FlexRayTap final : CrankPort {
     if (simulation.others_ != nullptr) simulation.others_->does(transmission);
     happens(transmission);
   }
+  void transmit_on_both(const bus::Transmission& transmission) override {
+    if (simulation.others_ != nullptr) return FlexRayPort::transmit_on_both(transmission);
+    simulation.frames_sent_ += 2;
+    CrankPort::transmit_on_both(transmission);
+  }
   void happens(const bus::Transmission& transmission) {
     simulation.frames_sent_ += transmission.signal == bus::Signal::kFrame ? 1 : 0;
     CrankPort::transmit(transmission);
@@ -220,6 +225,15 @@ void ClusterSimulation::receive(std::size_t node, const bus::Reception& receptio
   if (others_ != nullptr) others_->outlook(node).hears_flexray(ticks(node));
 }
 
+bool ClusterSimulation::receive_on_both(std::size_t node, const bus::Reception& reception) {
+  if (others_ == nullptr) return nodes_[node]->receive_on_both(reception);
+  receive(node, reception);
+  bus::Reception other = reception;
+  other.channel = schedules::Channel::kB;
+  receive(node, other);
+  return true;
+}
+
 void ClusterSimulation::drifts(std::size_t node) {
   if (is_here(node)) nodes_[node]->drift(oscillator(static_cast<NodeId>(node)));
 }
@@ -286,12 +300,14 @@ void ClusterSimulation::watch_cycle(std::size_t node) {
 void ClusterSimulation::observe() {
   ClockSpread spread(cluster_);
   std::int64_t newest = kNoCycle;
+  bool in_one_cycle = true;
   for (const auto& node : nodes_) {
     const timebase::CycleClock* clock = node ? node->clock() : nullptr;
     if (clock == nullptr) continue;
     const Microticks at = node->oscillator().ticks_at(now());
     if (at < clock->cycle_start()) return;   // before this node's first cycle
     spread.add(clock->global_time(at));
+    in_one_cycle &= newest == kNoCycle || clock->cycle() == newest;
     newest = std::max(newest, clock->cycle());
   }
   if (newest == kNoCycle) return;
@@ -299,6 +315,7 @@ void ClusterSimulation::observe() {
   const int round = cluster_.flexray.gCycleCountMax + 1;
   std::int64_t cycle = newest;
   for (const auto& node : nodes_) {
+    if (in_one_cycle) break;
     const timebase::CycleClock* clock = node ? node->clock() : nullptr;
     if (clock == nullptr) continue;
     const std::int64_t behind = (newest - clock->cycle()) % round;

@@ -80,6 +80,9 @@ class ClusterSimulation final : public Crank, private nodes::SensorLines {
   Microticks next_event(std::size_t node) const override;
   void advance(std::size_t node, Microticks now) override;
   void receive(std::size_t node, const bus::Reception& reception) override;
+  bool receive_on_both(std::size_t node, const bus::Reception& reception) override;
+  bool knows(std::size_t node, const bus::Reception& reception) override { return nodes_[node]->knows(reception); }
+  void hear_known(std::size_t node, const bus::Reception& reception) override { nodes_[node]->hear_known(reception); }
   void drifts(std::size_t node) override;
   void happen(const MediumEvent& event) override;
 

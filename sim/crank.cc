@@ -96,6 +96,7 @@ void Crank::set_next(std::size_t node, TrueTime time) {
 }
 
 void Crank::run_until(TrueTime end) {
+  until_ = end;
   while (true) {
     const bool node_is_due = queue_.empty() || next_of_nodes() < queue_.next();
     const TrueTime time = node_is_due ? next_[earliest_] : queue_.next().time;
@@ -136,6 +137,10 @@ void Crank::step(std::size_t node) {
 // Goes along with a signal from receiver to receiver, as long as nothing else comes between.
 void Crank::arrive(MediumEvent event, TrueTime end) {
   while (true) {
+    if (medium_.passes_on_both(event) && comes_next(medium_.last_arrival(event), end)) {
+      if (!pass_on_both(event, end)) return;
+      continue;
+    }
     const auto [arrival, goes_on] = medium_.stop_over(event, now_);
     if (arrival) {
       if (seats_[event.node].powered) deliver(event.node, *arrival);
@@ -143,15 +148,34 @@ void Crank::arrive(MediumEvent event, TrueTime end) {
     }
     if (!goes_on) return;
     const EventOrder next = medium_.next_arrival(event);
-    const bool comes_next = next.time <= end && next < next_of_nodes() && queue_.is_first(next) &&
-                            (disturbance_ == nullptr || disturbance_->next() >= next.time);
-    if (!comes_next) return queue_.go_on(next, event);
+    if (!comes_next(next, end)) return queue_.go_on(next, event);
     now_ = next.time;
   }
 }
 
-void Crank::deliver(std::size_t node, const FlexRayMedium::Arrival& arrival) {
-  Seat& seat = seats_[node];
+// What comes before everything else until its last stop on both channels, as nearly everything does, makes its stops on
+// both at once. True: a node has something to do before that now, and `event` is the next stop, which is due.
+bool Crank::pass_on_both(MediumEvent& event, TrueTime end) {
+  while (true) {
+    const FlexRayMedium::Passage passage = medium_.pass_on_both(event);
+    now_ = passage.on_a.end;
+    const std::size_t node = index_of(passage.receiver);
+    const TrueTime earliest = next_[earliest_];
+    if (seats_[node].powered) deliver_on_both(node, passage.on_a);
+    medium_.release_on_both(passage.on_a);
+    if (!passage.goes_on) return false;
+    if (next_[earliest_] == earliest) continue;
+    const EventOrder next = medium_.next_arrival(event);
+    if (comes_next(next, end)) {
+      now_ = next.time;
+      return true;
+    }
+    queue_.go_on(next, event);
+    return false;
+  }
+}
+
+bus::Reception Crank::reception_of(Seat& seat, const FlexRayMedium::Arrival& arrival) {
   if (arrival.start != seat.started || arrival.end != seat.ended) {
     seat.started = arrival.start;
     seat.ended = arrival.end;
@@ -166,8 +190,54 @@ void Crank::deliver(std::size_t node, const FlexRayMedium::Arrival& arrival) {
     reception.start = seat.oscillator.ticks_at(seat.since);
     reception.frame = {};
   }
-  receive(node, reception);
+  return reception;
+}
+
+void Crank::deliver(std::size_t node, const FlexRayMedium::Arrival& arrival) {
+  Seat& seat = seats_[node];
+  receive(node, reception_of(seat, arrival));
   if (next_event(node) != seat.next) refresh(node);
+}
+
+void Crank::deliver_on_both(std::size_t node, const FlexRayMedium::Arrival& arrival) {
+  if (receive_on_both(node, reception_of(seats_[node], arrival))) refresh(node);
+}
+
+void Crank::transmit_on_both(NodeId sender, const bus::Transmission& transmission, TrueTime start, TrueTime end) {
+  if (!is_known(sender, transmission, start, end))
+    return medium_.transmit_on_both(sender, transmission, start, end);
+  bus::Reception reception{transmission.channel, transmission.signal, {}, {}, transmission.content};
+  for (const FlexRayMedium::Leg& leg : medium_.way_from(sender)) {
+    const std::size_t node = index_of(leg.receiver);
+    reception.start = seats_[node].start;
+    reception.end = seats_[node].end;
+    hear_known(node, reception);
+  }
+  medium_.told_on_both(sender, start, end);
+}
+
+// Whether it tells nobody anything new; so nothing has to arrive. It leaves now, and until it is there nobody sends and
+// nothing else happens to those who hear it, but for tasks and CANs.
+bool Crank::is_known(NodeId sender, const bus::Transmission& transmission, TrueTime start, TrueTime end) {
+  if (disturbance_ != nullptr || start != now_ || !medium_.is_clear()) return false;
+  bus::Reception reception{transmission.channel, transmission.signal, {}, {}, transmission.content};
+  for (const FlexRayMedium::Leg& leg : medium_.way_from(sender)) {
+    const std::size_t node = index_of(leg.receiver);
+    Seat& seat = seats_[node];
+    if (!seat.powered || end + leg.delay > until_) return false;
+    reception.start = seat.start = seat.oscillator.ticks_at(start + leg.delay);
+    reception.end = seat.end = seat.oscillator.ticks_at(end + leg.delay);
+    seat.started = start + leg.delay;
+    seat.ended = end + leg.delay;
+    if (!knows(node, reception)) return false;
+  }
+  return true;
+}
+
+void CrankPort::transmit_on_both(const bus::Transmission& transmission) {
+  const timebase::Oscillator& oscillator = crank_.oscillator(node_);
+  crank_.transmit_on_both(node_, transmission, oscillator.time_of(transmission.start),
+                          oscillator.time_of(transmission.end));
 }
 
 void CrankPort::transmit(const bus::Transmission& transmission) {

@@ -67,6 +67,11 @@ class Crank : public Plant {
   virtual Microticks next_event(std::size_t node) const = 0;
   virtual void advance(std::size_t node, Microticks now) = 0;
   virtual void receive(std::size_t node, const bus::Reception& reception) = 0;
+  // The same on both channels at once; `reception` says channel A. False: the node's next event is what it was.
+  virtual bool receive_on_both(std::size_t node, const bus::Reception& reception) = 0;
+  // bus/controller.h
+  virtual bool knows(std::size_t node, const bus::Reception& reception) = 0;
+  virtual void hear_known(std::size_t node, const bus::Reception& reception) = 0;
   virtual void drifts(std::size_t node) { (void)node; }        // its oscillator is another one now
   // What is no arrival on FlexRay.
   virtual void happen(const MediumEvent& event) = 0;
@@ -77,6 +82,7 @@ class Crank : public Plant {
   FlexRayMedium medium_;
 
  private:
+  friend class CrankPort;
   struct Seat {
     timebase::Oscillator oscillator;
     bool powered = false;
@@ -88,8 +94,17 @@ class Crank : public Plant {
   };
   void set_next(std::size_t node, TrueTime time);
   void step(std::size_t node);
+  void transmit_on_both(NodeId sender, const bus::Transmission& transmission, TrueTime start, TrueTime end);
+  bool is_known(NodeId sender, const bus::Transmission& transmission, TrueTime start, TrueTime end);
   void arrive(MediumEvent event, TrueTime end);
+  bool comes_next(const EventOrder& order, TrueTime end) const {
+    return order.time <= end && order < next_of_nodes() && queue_.is_first(order) &&
+           (disturbance_ == nullptr || disturbance_->next() >= order.time);
+  }
+  bool pass_on_both(MediumEvent& event, TrueTime end);
   void deliver(std::size_t node, const FlexRayMedium::Arrival& arrival);
+  void deliver_on_both(std::size_t node, const FlexRayMedium::Arrival& arrival);
+  bus::Reception reception_of(Seat& seat, const FlexRayMedium::Arrival& arrival);
   EventOrder next_of_nodes() const {
     return {next_[earliest_], Phase::kNode, static_cast<std::uint8_t>(earliest_), 0, 0};
   }
@@ -99,7 +114,7 @@ class Crank : public Plant {
   std::vector<TrueTime> next_;         // by NodeId, its next own event; without supply its power-on
   std::size_t earliest_ = 0;           // in next_
   Disturbance* disturbance_ = nullptr;
-  TrueTime now_{};
+  TrueTime now_{}, until_{};           // until_: of the run_until() that is going on
 };
 
 // The port of a node's controller on the simulated FlexRay.
@@ -107,6 +122,7 @@ class CrankPort : public bus::FlexRayPort {
  public:
   CrankPort(Crank& crank, NodeId node) : crank_(crank), node_(node) {}
   void transmit(const bus::Transmission& transmission) override;
+  void transmit_on_both(const bus::Transmission& transmission) override;
   bool carrier(schedules::Channel channel) const override;
   bool wants_bytes(schedules::Channel channel) const override;
 

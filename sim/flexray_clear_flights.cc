@@ -23,17 +23,17 @@ const FlexRayMedium::Leg* FlexRayMedium::first_leg(const Flight& flight) {
 }
 
 void FlexRayMedium::depart_clear(NodeId sender, const Arrival& left, const Ways& ways, NodeId passed_over) {
-  const auto c = index_of(left.channel);
   // The same has left on channel A, and has not reached anybody yet: they go together.
   Flight* const on_a = left.channel == Channel::kB && same_receivers_ ? clear_[index_of(Channel::kA)] : nullptr;
   if (on_a != nullptr && on_a->ways == &ways && on_a->passed_over == passed_over && on_a->sender == sender &&
-      on_a->left[0].start == left.start && on_a->left[0].end == left.end && on_a->leg == first_leg(*on_a)) {
-    on_a->both_channels = true;
-    on_a->left[c] = left;
-    clear_[c] = on_a;
-    ++aloft_[c];
-    return;
-  }
+      on_a->left[0].start == left.start && on_a->left[0].end == left.end && on_a->leg == first_leg(*on_a))
+    return join(*on_a, left);
+  schedule(take_off_clear(sender, left, ways, passed_over));
+}
+
+FlexRayMedium::Flight& FlexRayMedium::take_off_clear(NodeId sender, const Arrival& left, const Ways& ways,
+                                                     NodeId passed_over) {
+  const auto c = index_of(left.channel);
   Flight& flight = take_off(sender, left.channel, left.logged);
   flight.ways = &ways;
   flight.passed_over = passed_over;
@@ -42,7 +42,57 @@ void FlexRayMedium::depart_clear(NodeId sender, const Arrival& left, const Ways&
   flight.last = ways[c].data() + ways[c].size();
   flight.leg = first_leg(flight);
   clear_[c] = &flight;
+  return flight;
+}
+
+void FlexRayMedium::join(Flight& on_a, const Arrival& left) {
+  const auto c = index_of(left.channel);
+  on_a.both_channels = true;
+  on_a.left[c] = left;
+  clear_[c] = &on_a;
+  ++aloft_[c];
+}
+
+void FlexRayMedium::transmit_on_both(NodeId sender, const bus::Transmission& transmission, TrueTime start,
+                                     TrueTime end) {
+  const Ways& ways = ways_[index_of(sender)];
+  const int receivers = static_cast<int>(ways[0].size());
+  if (!is_clear() || receivers == 0) {
+    transmit(sender, transmission, start, end);
+    bus::Transmission other = transmission;
+    other.channel = Channel::kB;
+    return transmit(sender, other, start, end);
+  }
+  const std::uint32_t frame = pool_.put_content(transmission.content, 2 * receivers);
+  Arrival left{start, end, frame, Channel::kA, bus::Signal::kFrame, ChannelLog::kNone};
+  Flight& flight = take_off_clear(sender, left, ways, kNoNode);
+  left.channel = Channel::kB;
+  join(flight, left);
+  told_on_both(sender, start, end);
   schedule(flight);
+}
+
+void FlexRayMedium::told_on_both(NodeId sender, TrueTime start, TrueTime end) {
+  for (const Channel channel : {Channel::kA, Channel::kB}) {
+    busy_[index_of(channel)] += end - start;
+    sent_until_[lane_of(sender, channel)] = end;
+  }
+}
+
+EventOrder FlexRayMedium::last_arrival(const MediumEvent& event) const {
+  const Flight& flight = flights_[event.frame];
+  const Leg* last = flight.last - 1;
+  while (last != flight.leg && last->receiver == flight.passed_over) --last;
+  return order_of(flight, Channel::kB, *last);
+}
+
+FlexRayMedium::Passage FlexRayMedium::pass_on_both(const MediumEvent& event) {
+  Flight& flight = flights_[event.frame];
+  const Leg leg = *flight.leg;
+  flight.leg = receiving(flight.leg + 1, flight.last, flight.passed_over);
+  const Passage passage{leg.receiver, after(flight.left[0], leg.delay), flight.leg != flight.last};
+  if (!passage.goes_on) land_clear(flight);
+  return passage;
 }
 
 // On both channels: the log hears of the end of what is on A where that ends, one stop before what is on B.

@@ -61,6 +61,21 @@ class FlexRayMedium {
 
   // What a node sends: `start`, `end`: true times of the first and last bit at the sender.
   void transmit(NodeId sender, const bus::Transmission& transmission, TrueTime start, TrueTime end);
+  // The same frame on both channels at once, without bytes; `transmission` says channel A.
+  void transmit_on_both(NodeId sender, const bus::Transmission& transmission, TrueTime start, TrueTime end);
+  // Whether what a node sends on both channels at once now reaches everybody else on FlexRay as it leaves, as long as
+  // nothing else is sent or changed until it is there; who they are and how far away; and that it was sent, when who
+  // asks has told them.
+  bool is_clear() const {
+    return same_receivers_ && aloft_[0] == 0 && aloft_[1] == 0 && transparent_ && disturbance_ == nullptr &&
+           log_ == nullptr && coupler_[0] == nullptr && coupler_[1] == nullptr;
+  }
+  struct Leg {
+    NodeId receiver{};
+    Duration delay{};
+  };
+  std::span<const Leg> way_from(NodeId sender) const { return ways_[index_of(sender)][0]; }
+  void told_on_both(NodeId sender, TrueTime start, TrueTime end);
   // What comes out of nothing and reaches everybody on the channel at once; `source` is the sender where there is one.
   void emit(const Leaving& signal, std::optional<NodeId> source);
   // The node has lost its supply at `now`: what it is sending ends there and becomes undecodable (what was drawn into
@@ -96,6 +111,22 @@ class FlexRayMedium {
     return clear ? stop_over_clear(flights_[event.frame], now) : stop_over_noted(event, now);
   }
   EventOrder next_arrival(MediumEvent& event) const;
+  // Whether it is one frame that stops on A and on B at once wherever it still goes; and when it will have done so. Then
+  // pass_on_both() is both stops at the receiver that is next; the frame stays valid until it is released on both.
+  bool passes_on_both(const MediumEvent& event) const {
+    const Flight& flight = flights_[event.frame];
+    return !event.at_coupler && flight.ways != nullptr && flight.both_channels &&
+           flight.channel == schedules::Channel::kA && flight.left[0].signal == bus::Signal::kFrame &&
+           flight.left[0].frame == flight.left[1].frame;
+  }
+  EventOrder last_arrival(const MediumEvent& event) const;
+  struct Passage {
+    NodeId receiver{};
+    Arrival on_a;
+    bool goes_on = false;
+  };
+  Passage pass_on_both(const MediumEvent& event);
+  void release_on_both(const Arrival& arrival) { pool_.release(arrival.frame, 2); }
   const wire::DecodedFrame& frame(const Arrival& arrival) const { return pool_.decoded(arrival.frame); }
   void release(const Arrival& arrival) {
     if (arrival.signal == bus::Signal::kFrame) pool_.release(arrival.frame);
@@ -132,12 +163,7 @@ class FlexRayMedium {
    private:
     std::vector<Pending> room_;
   };
-  // From a sender, or from the coupler of a star, to a node.
-  struct Leg {
-    NodeId receiver{};
-    Duration delay{};
-  };
-  using Way = std::vector<Leg>;       // by (delay, receiver)
+  using Way = std::vector<Leg>;       // from a sender, or from the coupler of a star, to all; by (delay, receiver)
   using Ways = std::array<Way, 2>;    // by channel
   // One signal on its way to all its receivers: a single event of the queue, which goes on from one stop to the next.
   struct Stop {
@@ -198,7 +224,14 @@ class FlexRayMedium {
   void schedule(Flight& flight);
   // --- clear flights (flexray_clear_flights.cc)
   void depart_clear(NodeId sender, const Arrival& left, const Ways& ways, NodeId passed_over);
+  Flight& take_off_clear(NodeId sender, const Arrival& left, const Ways& ways, NodeId passed_over);
+  void join(Flight& on_a, const Arrival& left);
   static const Leg* first_leg(const Flight& flight);
+  static EventOrder order_of(const Flight& flight, schedules::Channel channel, const Leg& leg) {
+    const auto rank = static_cast<std::uint16_t>((index_of(channel) << 8) | index_of(flight.sender));
+    return {flight.left[index_of(channel)].end + leg.delay, Phase::kArrival, static_cast<std::uint8_t>(leg.receiver), rank,
+            flight.sequence};
+  }
   static Arrival after(const Arrival& left, Duration delay) {
     return {left.start + delay, left.end + delay, left.frame, left.channel, left.signal, left.logged};
   }

@@ -52,8 +52,8 @@ class FramePool {
     return index;
   }
   std::span<const std::byte> bytes(std::uint32_t index) const { return {frames_[index].bytes.data(), frames_[index].size}; }
-  void release(std::uint32_t index) {
-    if (--frames_[index].uses == 0) free_.push_back(index);
+  void release(std::uint32_t index, int uses = 1) {
+    if ((frames_[index].uses -= uses) == 0) free_.push_back(index);
   }
 
  private:

@@ -19,9 +19,12 @@ class ClockSpread {
   void add(GlobalTime time) {
     if (!any_) first_ = time;
     any_ = true;
-    std::int64_t difference = (time - first_).ns % round_;
-    if (difference > round_ / 2) difference -= round_;
-    if (difference < -round_ / 2) difference += round_;
+    std::int64_t difference = (time - first_).ns;
+    if (difference > round_ / 2 || difference < -round_ / 2) {
+      difference %= round_;
+      if (difference > round_ / 2) difference -= round_;
+      if (difference < -round_ / 2) difference += round_;
+    }
     low_ = std::min(low_, difference);
     high_ = std::max(high_, difference);
   }

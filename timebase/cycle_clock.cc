@@ -1,5 +1,7 @@
 #include "timebase/cycle_clock.h"
 
+#include <algorithm>
+
 #include "core/check.h"
 #include "core/int128.h"
 #include "timebase/floor_div.h"
@@ -21,6 +23,9 @@ CycleClock::CycleClock(CycleGeometry geometry, Microticks start, int rate, std::
     : geometry_(checked(geometry)),
       macroticks_(geometry.macro_per_cycle),
       late_macroticks_(geometry.macro_per_cycle - geometry.offset_correction_start),
+      microticks_(geometry.micro_per_cycle),
+      cycle_ps_(geometry.macro_per_cycle * geometry.macrotick_ps),
+      most_cycles_((std::int64_t{1} << 62) / cycle_ps_),
       first_(first),
       cycle_(first),
       start_(start) {
@@ -30,6 +35,7 @@ CycleClock::CycleClock(CycleGeometry geometry, Microticks start, int rate, std::
 void CycleClock::set_rate(int rate) {
   rate_ = rate;
   length_ = geometry_.micro_per_cycle + rate;
+  microticks_ = Divisor(length_);
   before_ = macroticks_.ceil(geometry_.offset_correction_start * length_);
 }
 
@@ -53,6 +59,12 @@ GlobalTime CycleClock::global_time(Microticks t) const {
   const std::int64_t into = (t - start_).value;
   TTF_CHECK(into >= 0 || cycle_ == first_, "{} microticks before the cycle", -into);
   const std::int64_t correction_start = geometry_.offset_correction_start;
+  // Up to the correction phase, and for years to come, 64 bits are enough, and no division is needed.
+  if (into >= 0 && into <= before_ && into < most_cycles_ && cycle_ >= 0 && cycle_ < most_cycles_) {
+    const std::int64_t elapsed_ps =
+        std::min(microticks_.floor(into * cycle_ps_), correction_start * geometry_.macrotick_ps);
+    return {(cycle_ps_ * cycle_ + elapsed_ps) / 1000};
+  }
   // Elapsed picoseconds of the cycle: linear up to the correction phase, linear at another slope in it and, should
   // somebody ask, beyond the cycle's end.
   Int128 elapsed_ps = 0;

@@ -59,6 +59,9 @@ class CycleClock {
 
   CycleGeometry geometry_;
   Divisor macroticks_, late_macroticks_;   // of the cycle, and of its part from gOffsetCorrectionStart on
+  Divisor microticks_;                     // of the cycle without offset correction
+  std::int64_t cycle_ps_;                  // of global time
+  std::int64_t most_cycles_;               // so many of these, or of a microtick's share of them, are no overflow
   std::int64_t first_, cycle_;
   Microticks start_{0};
   int rate_ = 0;

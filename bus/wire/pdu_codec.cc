@@ -18,11 +18,12 @@ std::uint32_t read_bits(std::span<const std::byte> payload, int first, int count
 }
 
 void write_bits(std::span<std::byte> payload, int first, int count, std::uint32_t value) {
-  for (int bit = 0; bit < count; ++bit) {
-    const int at = first + bit;
-    const std::byte mask{static_cast<unsigned char>(0x80 >> (at % 8))};
-    std::byte& byte = payload[static_cast<std::size_t>(at / 8)];
-    byte = (value >> (count - 1 - bit)) & 1u ? byte | mask : byte & ~mask;
+  const int last = first + count - 1, shift = 7 - last % 8;
+  std::uint64_t mask = ((std::uint64_t{1} << count) - 1) << shift;
+  std::uint64_t bits = (static_cast<std::uint64_t>(value) << shift) & mask;
+  for (int at = last / 8; at >= first / 8; --at, mask >>= 8, bits >>= 8) {
+    std::byte& byte = payload[static_cast<std::size_t>(at)];
+    byte = (byte & ~static_cast<std::byte>(mask)) | static_cast<std::byte>(bits);
   }
 }
 

@@ -1,7 +1,9 @@
 #include "sim/world/laser.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "core/check.h"
 #include "core/random.h"
@@ -15,6 +17,27 @@ constexpr std::uint32_t kWordsOfABeam = LaserConfig::kMostLayers * RandomStream:
                                         (LaserConfig::kMostLayers + 1) / 2 * RandomStream::kWordsOfANormalPair;
 constexpr std::uint32_t kBlocksOfABeam =
     (kWordsOfABeam + RandomStream::kWordsOfABlock - 1) / RandomStream::kWordsOfABlock;
+
+// Of azimuth_step and half_field, as load_laser() takes them.
+constexpr int kMostBeamsOfASide = 1400;
+
+// What a beam meets first.
+struct Echo {
+  double range;
+  const ObjectState* object;   // null: nothing
+};
+
+// The beams of -half..half that may meet the object, first and last: those that pass its centre no further than its
+// outline reaches, and a little more.
+std::pair<int, int> beams_near(const ObjectState& object, double step, int half) {
+  const double reach = 0.5 * std::hypot(object.length, object.width) * 1.001;
+  const double distance = std::hypot(object.x, object.y);
+  if (distance <= reach) return {-half, half};
+  const double bearing = std::atan2(object.y, object.x), spread = std::asin(reach / distance);
+  const double widest = half + 1.0;
+  const auto beam = [&](double azimuth) { return static_cast<int>(std::clamp(azimuth / step, -widest, widest)); };
+  return {std::max(-half, beam(bearing - spread) - 1), std::min(half, beam(bearing + spread) + 1)};
+}
 
 }  // namespace
 
@@ -48,20 +71,20 @@ void measure_laser(const LaserConfig& config, std::span<const ObjectState> objec
   hits.clear();
   truth.clear();
   const auto half = static_cast<int>(config.half_field_rad / config.azimuth_step_rad);
+  TTF_CHECK(half >= 0 && half <= kMostBeamsOfASide, "{} beams to a side", half);
+  std::array<Echo, 2 * kMostBeamsOfASide + 1> echoes;   // by beam + half
+  std::fill_n(echoes.begin(), 2 * half + 1, Echo{config.max_range_m, nullptr});
+  for (const ObjectState& object : objects) {
+    const auto [first, last] = beams_near(object, config.azimuth_step_rad, half);
+    for (int beam = first; beam <= last; ++beam) {
+      Echo& echo = echoes[static_cast<std::size_t>(beam + half)];
+      if (const auto range = ray_to(object, beam * config.azimuth_step_rad); range && *range < echo.range)
+        echo = {*range, &object};
+    }
+  }
   for (int beam = -half; beam <= half; ++beam) {
     const double azimuth = beam * config.azimuth_step_rad;
-    double nearest = config.max_range_m;
-    const ObjectState* hit = nullptr;
-    for (const ObjectState& object : objects) {
-      // Cheap bound: the beam passes further from the centre than the outline reaches.
-      const double reach = 0.5 * std::hypot(object.length, object.width);
-      const double across = -std::sin(azimuth) * object.x + std::cos(azimuth) * object.y;
-      if (std::abs(across) > reach) continue;
-      if (const auto range = ray_to(object, azimuth); range && *range < nearest) {
-        nearest = *range;
-        hit = &object;
-      }
-    }
+    const auto [nearest, hit] = echoes[static_cast<std::size_t>(beam + half)];
     if (hit == nullptr) continue;
     const double loss = std::min(1.0, config.miss_at_100m * nearest * nearest * 1e-4);
     RandomStream noise({seed, replication, Purpose::kSensorNoise, sensor, sequence},

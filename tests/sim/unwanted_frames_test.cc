@@ -31,8 +31,8 @@ class Others final : public records::Every<Others> {
   bool wants_frames_;
 };
 
-void compare(const char* scenario, fusion::StrategyKind strategy) {
-  const testing_support::Drive drive(scenario, strategy);
+void compare(const testing_support::Drive& drive) {
+  const fusion::StrategyKind strategy = drive.strategy;
   const DriveConfig config{&drive.scenario, &drive.cluster, strategy, 3, 1, nullptr};
   Others all(true), others(false);
   const DriveOutcome with = run_drive(config, all), without = run_drive(config, others);
@@ -48,12 +48,35 @@ void compare(const char* scenario, fusion::StrategyKind strategy) {
 
 TEST(UnwantedFrames, LeaveAllOtherRecordsAsTheyAre) {
   for (const fusion::StrategyKind strategy : testing_support::kStrategies)
-    compare("scenarios/paper_scenario1.yaml", strategy);
+    compare({"scenarios/paper_scenario1.yaml", strategy});
+}
+
+// Every cluster has its own mixture of slots that repeat, take turns, or have their fragments from lists of many.
+TEST(UnwantedFrames, OfEveryClusterLeaveAllOtherRecordsAsTheyAre) {
+  for (const char* cluster : {"paper_dynamic", "paper_event_triggered", "paper_free_running", "flexray_demo"}) {
+    testing_support::Drive drive("scenarios/dynamics.yaml", fusion::StrategyKind::kAdva);
+    drive.cluster = schedules::load_cluster(testing_support::shipped("schedules/") + cluster + ".yaml");
+    SCOPED_TRACE(cluster);
+    compare(drive);
+  }
+  compare({"scenarios/twin_cameras.yaml", fusion::StrategyKind::kAdva});
+  compare({"scenarios/crowd_25.yaml", fusion::StrategyKind::kTt});
+}
+
+// Nodes that are powered on later hear some of what is on its way, and all of what they do not know yet.
+TEST(UnwantedFrames, BelongToStartupLikeOthers) { compare({"scenarios/cold_start.yaml", fusion::StrategyKind::kAdva}); }
+
+// Clocks that are not corrected drift apart until frames cross the others' slots, and then meet.
+TEST(UnwantedFrames, MayBeOutsideOfTheirSlots) {
+  testing_support::Drive drive("scenarios/paper_scenario1.yaml", fusion::StrategyKind::kAdva);
+  drive.cluster.synchronisation = false;
+  drive.scenario.duration = Duration::milliseconds(1500);
+  compare(drive);
 }
 
 TEST(UnwantedFrames, AreStillSubjectToFaults) {
   for (const fusion::StrategyKind strategy : testing_support::kStrategies)
-    compare("scenarios/faulty_bus.yaml", strategy);
+    compare({"scenarios/faulty_bus.yaml", strategy});
 }
 
 TEST(UnwantedFrames, AreThoseThatNoListenerWants) {
