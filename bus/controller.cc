@@ -297,8 +297,10 @@ void FlexRayController::hear_known(const Reception& reception) { state_->hear_kn
 const std::optional<timebase::CycleClock>& FlexRayController::clock() const { return state_->clock; }
 const PocState& FlexRayController::state() const { return state_->poc; }
 
-bool FlexRayController::synchronised() const {
-  return state_->poc.kind == PocKind::kNormalActive || state_->poc.kind == PocKind::kNormalPassive;
+bool FlexRayController::synchronised() const { return state_->in_operation(); }
+
+const timebase::CycleClock* FlexRayController::synchronised_clock() const {
+  return state_->in_operation() ? &*state_->clock : nullptr;
 }
 
 SlotSeen FlexRayController::slot_status(int slot, schedules::Channel channel) const {

@@ -164,6 +164,8 @@ class FlexRayController {
 
   // Nothing before a schedule has been derived or begun, and after it has been dropped.
   const std::optional<timebase::CycleClock>& clock() const;
+  // The same where the host may rely on it, else null.
+  const timebase::CycleClock* synchronised_clock() const;
   const PocState& state() const;
   // Whether the clock is the cluster's, which the host may rely on.
   bool synchronised() const;

@@ -125,8 +125,7 @@ void FlexRayController::State::hear_known(const Reception& reception) {
   const wire::FrameHeader& header = reception.frame.header;
   board.hear_a(header.frame_id);
   board.hear_b(header.frame_id);
-  if (!header.sync) return;
-  for (const Channel channel : schedules::kBothChannels) hear_sync(reception, channel, header.frame_id);
+  if (header.sync) hear_sync(reception, header.frame_id, schedules::Channels::kAB);
 }
 
 void FlexRayController::State::hear_in_startup(const Reception& reception, bool conflict) {
@@ -262,7 +261,8 @@ void FlexRayController::State::accept(const Reception& reception, Channel channe
   const wire::FrameHeader& header = reception.frame.header;
   if (!in_startup(poc.kind))
     events.frame_received(clock->cycle(), slot, channel, reception.frame, reception.end);
-  if (header.sync) hear_sync(reception, channel, slot);
+  if (header.sync)
+    hear_sync(reception, slot, channel == Channel::kA ? schedules::Channels::kA : schedules::Channels::kB);
   if (header.payload_preamble) network_management.combine(reception.frame.payload);
   if (expected.pdu != kNoPdu && !store(expected, reception))
     board.at(slot).errors[index_of(channel)] |= kContentError;   // a frame, but not of this slot's list
@@ -270,12 +270,15 @@ void FlexRayController::State::accept(const Reception& reception, Channel channe
 
 // The medium reports when the first bit of the TSS arrived, so no decoding time has to be taken off (pDecodingCorrection);
 // the bus' mean propagation delay is the schedule's to compensate.
-void FlexRayController::State::hear_sync(const Reception& reception, Channel channel, int slot) {
-  const int compensation = channel == Channel::kA ? p.pDelayCompensationA : p.pDelayCompensationB;
-  const auto deviation =
-      static_cast<int>((reception.start - clock->start_of(action_point(slot)) - Microticks{compensation}).value);
-  const bool startup = reception.frame.header.startup && std::abs(deviation) <= p.pdAcceptedStartupRange;
-  sync.heard(slot, channel, deviation, startup);
+void FlexRayController::State::hear_sync(const Reception& reception, int slot, schedules::Channels channels) {
+  const Microticks late = reception.start - clock->start_of(action_point(slot));
+  for (const Channel channel : schedules::kBothChannels) {
+    if (!includes(channels, channel)) continue;
+    const int compensation = channel == Channel::kA ? p.pDelayCompensationA : p.pDelayCompensationB;
+    const auto deviation = static_cast<int>((late - Microticks{compensation}).value);
+    const bool startup = reception.frame.header.startup && std::abs(deviation) <= p.pdAcceptedStartupRange;
+    sync.heard(slot, channel, deviation, startup);
+  }
 }
 
 // The minislots that a reception took, from the first one on if it began before that: the slot counter goes on behind

@@ -147,7 +147,7 @@ struct FlexRayController::State {
   bool is_valid_on_both(const Reception& reception);
   bool knows(const Reception& reception);
   void hear_known(const Reception& reception);
-  void hear_sync(const Reception& reception, schedules::Channel channel, int slot);
+  void hear_sync(const Reception& reception, int slot, schedules::Channels channels);
   bool talks_over(const Reception& reception, std::size_t channel) const {
     return sending_from[channel] != kNever && reception.start < sending_to[channel] &&
            reception.end > sending_from[channel];

@@ -115,10 +115,6 @@ Executive::Executive(const ExecutiveConfig& config, std::vector<std::shared_ptr<
 
 Executive::~Executive() = default;
 
-const timebase::CycleClock* Executive::clock() const {
-  return flexray_ && flexray_->synchronised() ? &*flexray_->clock() : nullptr;
-}
-
 records::Stamp Executive::stamp(Microticks at) const {
   records::Stamp stamp;
   stamp.true_time = config_.oscillator.time_of(at);

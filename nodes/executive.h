@@ -115,7 +115,7 @@ class Executive final : private bus::ControllerEvents {
   // It has not been woken yet.
   bool asleep() const { return asleep_; }
   // The node's clock of the cluster, null while it has none: off FlexRay, or before it has integrated.
-  const timebase::CycleClock* clock() const;
+  const timebase::CycleClock* clock() const { return flexray_ ? flexray_->synchronised_clock() : nullptr; }
   // Null off FlexRay.
   const bus::FlexRayController* controller() const { return flexray_.get(); }
   const timebase::Oscillator& oscillator() const { return config_.oscillator; }

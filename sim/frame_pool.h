@@ -18,9 +18,10 @@ class FramePool {
  public:
   static constexpr std::size_t kMaxBytes = 264;   // the longest FlexRay frame is 262
 
-  explicit FramePool(std::size_t capacity) : frames_(capacity) {
+  // Room for `capacity` frames, which is taken but not touched: most of it never is.
+  explicit FramePool(std::size_t capacity) {
+    frames_.reserve(capacity);
     free_.reserve(capacity);
-    for (std::size_t i = capacity; i-- > 0;) free_.push_back(static_cast<std::uint32_t>(i));
   }
 
   // Stores a copy of a FlexRay frame for `uses` deliveries and makes out what it says, once for all receivers.
@@ -42,7 +43,12 @@ class FramePool {
   const wire::DecodedFrame& decoded(std::uint32_t index) const { return frames_[index].decoded; }
   // Stores a copy for `uses` deliveries.
   std::uint32_t put(std::span<const std::byte> bytes, int uses) {
-    TTF_CHECK(!free_.empty() && bytes.size() <= kMaxBytes && uses > 0, "{} bytes, {} uses", bytes.size(), uses);
+    TTF_CHECK(bytes.size() <= kMaxBytes && uses > 0, "{} bytes, {} uses", bytes.size(), uses);
+    if (free_.empty()) {
+      TTF_CHECK(frames_.size() < frames_.capacity(), "all {} frames are on their way", frames_.size());
+      free_.push_back(static_cast<std::uint32_t>(frames_.size()));
+      frames_.emplace_back();
+    }
     const std::uint32_t index = free_.back();
     free_.pop_back();
     Frame& frame = frames_[index];
@@ -58,7 +64,7 @@ class FramePool {
 
  private:
   struct Frame {
-    std::array<std::byte, kMaxBytes> bytes{};
+    std::array<std::byte, kMaxBytes> bytes;
     std::size_t size = 0;
     int uses = 0;
     wire::DecodedFrame decoded;   // of a FlexRay frame

@@ -338,7 +338,7 @@ TEST(IncomingList, WhateverTheNetworkDoesAListIsWholeOrNotThere) {
   const auto layout = list_layout(8);
   IncomingList incoming(layout);
   std::deque<MadeList> sent;
-  int completed = 0;
+  int completed = 0, already_known = 0;
   for (std::uint32_t sequence = 0; sequence < 3000; ++sequence) {
     sent.emplace_back(layout, sequence, static_cast<int>(stream.integer(0, 10)),
                       static_cast<std::uint32_t>(stream.integer(0, 50'000)));
@@ -346,8 +346,22 @@ TEST(IncomingList, WhateverTheNetworkDoesAListIsWholeOrNotThere) {
     for (int arrival = 0; arrival < 12; ++arrival) {
       // Mostly the newest list, now and then one before.
       MadeList& from = stream.integer(0, 9) == 0 ? sent.front() : sent.back();
-      if (incoming.arrive(from.fragment(static_cast<int>(stream.integer(0, from.fragments - 1)))) == kCompleted)
-        ++completed;
+      const auto fragment = static_cast<int>(stream.integer(0, from.fragments - 1));
+      // What a slot brings is the same, and what is known is neither stored nor counted anew.
+      const bool known = incoming.knows(from.fragment(fragment), fragment);
+      const IncomingList before = incoming;
+      IncomingList in_slot = incoming;
+      const ArrivalEffect effect = incoming.arrive(from.fragment(fragment));
+      ASSERT_EQ(in_slot.arrive(from.fragment(fragment), fragment), effect);
+      ASSERT_EQ(in_slot.arrived(), incoming.arrived());
+      ASSERT_EQ(in_slot.torn(), incoming.torn());
+      ASSERT_EQ(in_slot.latest().has_value(), incoming.latest().has_value());
+      if (known) {
+        ASSERT_EQ(effect, kDuplicate);
+        ++already_known;
+        incoming = before;
+      }
+      if (effect == kCompleted) ++completed;
       const auto latest = incoming.latest();
       if (!latest) continue;
       const auto match = std::find_if(sent.begin(), sent.end(),
@@ -358,6 +372,7 @@ TEST(IncomingList, WhateverTheNetworkDoesAListIsWholeOrNotThere) {
     }
   }
   EXPECT_GT(completed, 1000);
+  EXPECT_GT(already_known, 1000);
 }
 
 TEST(OutgoingList, OffersTheFragmentsOfTheNewestWrite) {

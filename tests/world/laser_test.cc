@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/random.h"
 #include "sim/world/shape.h"
 
 namespace ttf::world {
@@ -85,6 +86,39 @@ TEST(Laser, RaysMeetOutlinesWhereTheirEdgesAre) {
       EXPECT_EQ(hits.size(), expected);
       for (const HitPoint& hit : hits) EXPECT_NEAR(hit.range, ray_against_edges(object, hit.azimuth), 1e-9);
     }
+}
+
+// However they lie, also around the sensor, beside it, behind it, and cut by the end of the field.
+TEST(Laser, EveryBeamEndsAtTheNearestOutline) {
+  const LaserConfig config = exact_laser();
+  const auto half = static_cast<int>(config.half_field_rad / config.azimuth_step_rad);
+  RandomStream place({5, 0, Purpose::kTest, 2, 0});
+  std::size_t seen = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    std::vector<ObjectState> objects;
+    for (std::uint16_t id = 0; id < 4; ++id) {
+      const double range = 60.0 * place.uniform() * place.uniform(), bearing = 7.0 * place.uniform();
+      objects.push_back(box(id, range * std::cos(bearing), range * std::sin(bearing), 7.0 * place.uniform(),
+                            0.1 + 12.0 * place.uniform(), 0.1 + 3.0 * place.uniform()));
+    }
+    const auto [hits, truth] = scan(config, objects);
+    std::size_t next = 0;
+    for (int beam = -half; beam <= half; ++beam) {
+      double nearest = config.max_range_m;
+      for (const ObjectState& object : objects) {
+        const auto range = ray_to(object, beam * config.azimuth_step_rad);
+        if (range) nearest = std::min(nearest, *range);
+      }
+      if (nearest == config.max_range_m) continue;
+      ASSERT_LT(next, hits.size()) << "trial " << trial << " beam " << beam;
+      ASSERT_EQ(hits[next].azimuth, beam * config.azimuth_step_rad);
+      ASSERT_EQ(hits[next].range, nearest);
+      ++next;
+    }
+    EXPECT_EQ(next, hits.size());
+    seen += next;
+  }
+  EXPECT_GT(seen, 5000u);
 }
 
 TEST(Laser, NearObjectsHideFarOnes) {
