@@ -8,7 +8,6 @@
 
 #include "schedules/checker.h"
 #include "schedules/sensor_loop.h"
-#include "schedules/slot_groups.h"
 
 namespace ttf::schedules {
 namespace {
@@ -25,15 +24,13 @@ bool meet(const GlobalParameters& flexray, const Task& a, const Task& b) {
   return from_a < a.worst_case.ns || period - from_a < b.worst_case.ns;
 }
 
-// The shortest time between two lists on the medium of a binding.
+// The shortest time between two lists on a CAN; zero where it is told of none. Over FlexRay it is the writer that says how
+// often there are lists, not the slots: check_responses() knows.
 Duration shortest_period(const Cluster& cluster, const PortBinding& binding) {
-  if (binding.can_bus) {
-    for (const CanMessage& message : cluster.can_buses[*binding.can_bus].messages)
-      if (message.pdu == binding.pdu) return message.shortest_period;
-    return {};
-  }
-  const auto slots = shortest_slot_gap(cluster, binding.pdu);
-  return slots ? slots->gap : Duration{};
+  if (!binding.can_bus) return {};
+  for (const CanMessage& message : cluster.can_buses[*binding.can_bus].messages)
+    if (message.pdu == binding.pdu) return message.shortest_period;
+  return {};
 }
 
 void check_activation(const Cluster& cluster, NodeId id, const Task& task, ClusterFindings& findings) {
