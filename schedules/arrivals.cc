@@ -19,18 +19,23 @@ class ArrivalFinder {
       : cluster_(cluster), clocks_(clock_bounds(cluster)), writers_(writers) {}
 
   ArrivalBounds of(const Task& task) {
-    if (task.activation.kind == ActivationKind::kSensor)
-      measurements(task.activation.sensor);
-    else if (const auto read = std::find_if(task.reads.begin(), task.reads.end(),
-                                            [&](const PortBinding& binding) { return activates(task, binding); });
-             read != task.reads.end())
-      read->can_bus ? over_can(cluster_.can_buses[*read->can_bus], read->pdu) : over_flexray(read->pdu);
+    if (task.activation.kind == ActivationKind::kSensor) measurements(task.activation.sensor);
+    for (const PortBinding& binding : task.reads) {
+      if (!activates(task, binding)) continue;
+      if (binding.can_bus)
+        over_can(cluster_.can_buses[*binding.can_bus], binding.pdu);
+      else
+        over_flexray(binding.pdu);
+      break;
+    }
     return std::move(found_);
   }
 
  private:
   // A time between events elsewhere in the node's own, at its shortest.
-  std::int64_t own(std::int64_t ns) const { return std::max<std::int64_t>(1, ns - clocks_.drift_ns(ns) - kGranularity_ns); }
+  std::int64_t own(std::int64_t ns) const {
+    return std::max<std::int64_t>(1, ns - clocks_.drift_ns(ns) - kGranularity_ns);
+  }
 
   void measurements(SensorId id) {
     const Sensor& sensor = cluster_.sensor(id);

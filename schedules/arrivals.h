@@ -1,17 +1,17 @@
 // How often messages and sensors may activate a task.
 //
 // In a closed window of length a at most floor((a + J) / T) + 1 times, for every T and J of these that is known (as in
-// J. Y. Le Boudec, P. Thiran: Network Calculus, Springer 2001, section 1.2: a flow that is bounded twice is bounded by the
-// smaller):
+// J. Y. Le Boudec, P. Thiran: Network Calculus, Springer 2001, section 1.2: a flow that is bounded twice is bounded by
+// the smaller):
 //   a sensor    T its period, J what clocks differ by where the cluster's time says when it measures
-//   over CAN    T the shortest time between two lists that the CAN is told of, J by how much their transfers may differ
-//   by slots    T the shortest time between two sendings, J how much later one may be complete than its first slot begins
-//   by writing  over FlexRay as well, where the list's writer is known to write less often: T the shortest time between two
-//               ends of its task, J the longest from one on until the list is complete: a list that has just missed its
-//               slots is sent in the next ones
-// A writer that waits for lists over FlexRay itself is taken to wait for their slots alone, as two might wait for each other.
-// All in a node's own time. Nothing fails: a list that is lost in its slots may come with the next ones, as soon after
-// it as they are.
+//   over CAN    T the shortest time between two lists that the CAN is told of, J by how much their transfers differ
+//   by slots    T the shortest time between two sendings, J how much later than its first slot begins one may be over
+//   by writing  over FlexRay as well, where the list's writer is known to write less often: T the shortest time between
+//               two ends of its task, J the longest from one on until the list is complete: a list that has just missed
+//               its slots is sent in the next ones
+// A writer that waits for lists over FlexRay itself is taken to wait for their slots alone, as two might wait for each
+// other. All in a node's own time. Nothing fails (schedules/ages.h, A1): a list that was lost in its static slots comes
+// with the next ones, later than J says, though never closer to another than their slots.
 #pragma once
 
 #include <cstdint>

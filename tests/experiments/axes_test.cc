@@ -1,5 +1,5 @@
-// Everything that an experiment may vary does to a drive what it must: the axes as docs/experiments.md writes them, each
-// driven by itself.
+// Everything that an experiment may vary does to a drive what it must: the axes as docs/experiments.md writes them,
+// each driven by itself.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -60,7 +60,8 @@ class Varied {
 
   std::size_t points() const { return sweep_.points(); }
   // Over some replications, the same for all points.
-  double mean(const std::string& measure, std::uint32_t point, const std::string& paradigm, int replications = kReplications) {
+  double mean(const std::string& measure, std::uint32_t point, const std::string& paradigm,
+              int replications = kReplications) {
     results::Moments moments;
     for (int r = 0; r < replications; ++r) moments.add(value(measure, point, paradigm, r));
     return moments.mean();
@@ -93,10 +94,11 @@ class Varied {
 };
 
 TEST(Axes, AllThatAreDocumentedAreTriedHere) {
-  const std::set<std::string> tried{
-      "process_noise", "scenario", "objects", "sensor_noise", "bias", "drawn_bias", "sensor_cycle", "bus_cycle", "sensor_phase",
-      "slot_phase", "shortest_processing", "longest_processing", "bus_load", "loss", "synchronisation", "drift", "microtick",
-      "fault_plan", "late_method"};
+  const std::set<std::string> tried{"process_noise", "scenario",     "objects",    "sensor_noise", "bias",
+                                    "drawn_bias",    "sensor_cycle", "bus_cycle",  "sensor_phase", "slot_phase",
+                                    "bus_load",      "loss",         "drift",      "microtick",    "fault_plan",
+                                    "late_method",   "synchronisation",            "shortest_processing",
+                                    "longest_processing"};
   std::set<std::string> documented;
   for (const auto& [name, text] : documented_axes()) documented.insert(name);
   EXPECT_EQ(documented, tried);
@@ -114,12 +116,13 @@ TEST(Axes, TheScenarioIsTheOneItSaysItIs) {
   EXPECT_EQ(with("axes"), with("dynamics"));
 }
 
-// The car goes as far astray as the square root of the density says, times what filters make of it: between 0.1 and 4 the error
-// squared grows, and not by as much.
+// The car goes as far astray as the square root of the density says, times what filters make of it: between 0.1 and 4
+// the error squared grows, and not by as much.
 TEST(Axes, ProcessNoise) {
   Varied varied("process_noise");
   for (const char* paradigm : {"adva", "tt"}) {
-    const double calm = varied.mean("position_mse_truth", 0, paradigm), wild = varied.mean("position_mse_truth", 1, paradigm);
+    const double calm = varied.mean("position_mse_truth", 0, paradigm);
+    const double wild = varied.mean("position_mse_truth", 1, paradigm);
     EXPECT_GT(wild, 2 * calm);
     EXPECT_LT(wild, 40 * calm);
   }
@@ -152,7 +155,8 @@ TEST(Axes, SensorNoise) {
 TEST(Axes, Bias) {
   Varied varied("bias");
   for (const char* paradigm : {"adva", "tt"}) {
-    const double added = varied.mean("position_mse_truth", 1, paradigm) - varied.mean("position_mse_truth", 0, paradigm);
+    const double sound = varied.mean("position_mse_truth", 0, paradigm);
+    const double added = varied.mean("position_mse_truth", 1, paradigm) - sound;
     EXPECT_NEAR(added, 0.25, 0.05) << paradigm;
   }
 }
@@ -169,8 +173,9 @@ TEST(Axes, DrawnBias) {
 TEST(Axes, SensorCycle) {
   Varied varied("sensor_cycle");
   for (const char* paradigm : {"adva", "tt"}) {
-    EXPECT_NEAR(varied.once("lists_fused", 1, paradigm) / varied.once("lists_fused", 0, paradigm), 0.5, 0.02) << paradigm;
-    EXPECT_GT(varied.once("age_used_newest", 1, paradigm), varied.once("age_used_newest", 0, paradigm) + 10) << paradigm;
+    SCOPED_TRACE(paradigm);
+    EXPECT_NEAR(varied.once("lists_fused", 1, paradigm) / varied.once("lists_fused", 0, paradigm), 0.5, 0.02);
+    EXPECT_GT(varied.once("age_used_newest", 1, paradigm), varied.once("age_used_newest", 0, paradigm) + 10);
   }
 }
 
@@ -192,8 +197,9 @@ TEST(Axes, SensorPhase) {
 TEST(Axes, SlotPhase) {
   Varied varied("slot_phase");
   ASSERT_EQ(varied.points(), 3u);
-  for (std::uint32_t later : {1u, 2u})
-    EXPECT_NEAR(varied.once("age_used_newest", later, "tt") - varied.once("age_used_newest", 0, "tt"), 5.0 * later, 0.1);
+  const double first = varied.once("age_used_newest", 0, "tt");
+  for (const std::uint32_t later : {1u, 2u})
+    EXPECT_NEAR(varied.once("age_used_newest", later, "tt") - first, 5.0 * later, 0.1);
 }
 
 // From 26 ms on the average to 34, in every second to third list.
@@ -230,7 +236,8 @@ TEST(Axes, Loss) {
     EXPECT_GT(later, 2.0) << paradigm;
     EXPECT_LT(later, 10.0) << paradigm;
   }
-  EXPECT_NEAR(varied.mean("age_fused", 1, "free"), varied.mean("age_fused", 0, "free"), 0.2) << "its lists go another way";
+  EXPECT_NEAR(varied.mean("age_fused", 1, "free"), varied.mean("age_fused", 0, "free"), 0.2)
+      << "its lists go another way";
 }
 
 TEST(Axes, Synchronisation) {
@@ -243,7 +250,8 @@ TEST(Axes, Synchronisation) {
 // Whoever does not correct clocks has them apart by their drifts, and by what they began with.
 TEST(Axes, Drift) {
   Varied varied("drift");
-  const double little = varied.mean("precision", 0, "unsynchronised"), much = varied.mean("precision", 1, "unsynchronised");
+  const double little = varied.mean("precision", 0, "unsynchronised");
+  const double much = varied.mean("precision", 1, "unsynchronised");
   EXPECT_GT(little, 10.0);
   EXPECT_LT(little, 2 * 15e-6 * 3e6 + 20) << "two clocks, 3 s";
   EXPECT_GT(much, 50 * little);

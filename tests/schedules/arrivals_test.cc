@@ -1,5 +1,5 @@
-// How often lists may activate a task: drawn writers and slots against the bounds, above all over FlexRay, where a list is
-// sent every cycle and written far less often.
+// How often lists may activate a task: drawn writers and slots against the bounds, above all over FlexRay, where a list
+// is sent every cycle and written far less often.
 #include "schedules/arrivals.h"
 
 #include <gtest/gtest.h>
@@ -40,8 +40,8 @@ std::int64_t drawn(RandomStream& draws, std::int64_t low, std::int64_t high) {
   return kind == 0 ? low : kind == 1 ? high : draws.integer(low, high);
 }
 
-// When lists are complete that are written at least `apart`, all clocks alike: each goes out in the first cycle whose slots
-// begin after it, or while it waits for the first of them.
+// When lists are complete that are written at least `apart`, all clocks alike: each goes out in the first cycle whose
+// slots begin after it, or while it waits for the first of them.
 std::vector<std::int64_t> arrivals_drawn(const Cluster& cluster, PduId pdu, std::int64_t apart, RandomStream& draws) {
   const auto groups = slot_groups(cluster, pdu);
   EXPECT_EQ(groups.size(), 1u);
@@ -92,12 +92,14 @@ TEST(Arrivals, NoDrawnListsComeMoreOftenThanTheirBounds) {
   }
 }
 
-// Written 12.4 ms apart, a list of the camera that has just missed its slots is complete 5 ms and the length of seven slots
-// later, so that two may come 6.8 ms apart; of their slots alone one would fear 4.4.
+// Written 12.4 ms apart, a list of the camera that has just missed its slots is complete 5 ms and the length of seven
+// slots later, so that two may come 6.8 ms apart; of their slots alone one would fear 4.4.
 TEST(Arrivals, OverFlexRayTheWriterSaysHowOften) {
   const Cluster cluster = over_flexray(false);
   const Task& fuse = task_of(cluster, "fusion", "fuse_camera");
-  const auto near = [](std::int64_t found, double expected_us) { EXPECT_NEAR(static_cast<double>(found), expected_us * 1e3, 50e3); };
+  const auto near = [](std::int64_t found, double expected_us) {
+    EXPECT_NEAR(static_cast<double>(found), expected_us * 1e3, 50e3);
+  };
   near(*arrivals_of(cluster, fuse, kUnknown).gap(), 5'000 * 0.997 - 7 * 84);
   near(*arrivals_of(cluster, fuse, kKnown).gap(), (400 + 108 + 12'000) * 0.997 * 0.997 - (5'000 + 7 * 84) * 1.003);
   EXPECT_EQ(arrivals_of(cluster, fuse, kKnown).most(0), 1);
@@ -146,9 +148,11 @@ TEST(Arrivals, OfAWriterThatGoesRoundAndRoundNothingIsKnown) {
 TEST(Mutations, OfListsThatComeTooOftenOverFlexRay) {
   expect_named({
       {"camera_often", inside("camera_pre", "best_case") + "12 ms", "$016 ms",
-       {"worst_case: 2 ms", "nodes.fusion.tasks.fuse_camera.worst_case", "2 ms", "before the next one, at the shortest 3.49"}},
+       {"worst_case: 2 ms", "nodes.fusion.tasks.fuse_camera.worst_case", "2 ms",
+        "before the next one, at the shortest 3.49"}},
       {"fusing_long", inside("fuse_laser", "worst_case") + "2 ms([^~]*?deadline: )5 ms", "$017 ms$0215 ms",
-       {"worst_case: 2 ms", "nodes.fusion.tasks.fuse_camera.worst_case", "2 ms", "must let the task end, at worst 9.5 ms"}},
+       {"worst_case: 2 ms", "nodes.fusion.tasks.fuse_camera.worst_case", "2 ms",
+        "must let the task end, at worst 9.5 ms"}},
   }, "paper_free_flexray");
 }
 

@@ -61,7 +61,8 @@ TEST(LateMethod, AdvaWithClonesIsNearlyRewinding) {
   expect_nearly(summary_of(drive), rewinding);
 }
 
-// Sensors that follow their hosts: each list is fused as it comes, one in six late. When they measure next nobody knows.
+// Sensors that follow their hosts: each list is fused as it comes, one in six late. When they measure next nobody
+// knows.
 TEST(LateMethod, WhereSensorsFollowTheirHostsAllButClonesAreNearlyRewinding) {
   for (const char* cluster : {"schedules/paper_free_running.yaml", "schedules/paper_free_flexray.yaml"}) {
     Drive drive(kScenario, StrategyKind::kAdva);

@@ -136,7 +136,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"FollowingAdva", kAhead, fusion::StrategyKind::kAdva, 700, false, kOverCan},
                     Case{"FollowingColdStart", kAhead, fusion::StrategyKind::kAdva, 700, false, kOverCan, true},
                     Case{"FollowingOverFlexRay", kAhead, fusion::StrategyKind::kAdva, 700, false, kOverFlexRay},
-                    Case{"FollowingOverFlexRayColdStart", kAhead, fusion::StrategyKind::kAdva, 700, false, kOverFlexRay, true}),
+                    Case{"FollowingOverFlexRayColdStart", kAhead, fusion::StrategyKind::kAdva, 700, false, kOverFlexRay,
+                         true}),
     [](const auto& one) { return std::string(one.param.name); });
 
 constexpr Case kShort{"", "scenarios/paper_scenario1.yaml", fusion::StrategyKind::kTt, 300};
