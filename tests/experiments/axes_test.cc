@@ -33,7 +33,7 @@ std::map<std::string, std::string> documented_axes() {
   return axes;
 }
 
-constexpr int kReplications = 6;
+constexpr int kReplications = 4;
 
 // One axis, driven as often as asked for.
 class Varied {
