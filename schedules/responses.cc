@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "core/int128.h"
-#include "schedules/clock_bounds.h"
 #include "schedules/round.h"
 #include "schedules/sensor_loop.h"
 
