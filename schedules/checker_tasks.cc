@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "schedules/arrivals.h"
 #include "schedules/checker.h"
 #include "schedules/sensor_loop.h"
 #include "schedules/slot_groups.h"
@@ -25,15 +26,20 @@ bool meet(const GlobalParameters& flexray, const Task& a, const Task& b) {
   return from_a < a.worst_case.ns || period - from_a < b.worst_case.ns;
 }
 
-// The shortest time between two lists on the medium of a binding.
-Duration shortest_period(const Cluster& cluster, const PortBinding& binding) {
+// The shortest time between two lists that activate the task, where they are sent, or written if that is less often;
+// zero where nothing is known.
+Duration shortest_period(const Cluster& cluster, const Task& task, const PortBinding& binding) {
   if (binding.can_bus) {
     for (const CanMessage& message : cluster.can_buses[*binding.can_bus].messages)
       if (message.pdu == binding.pdu) return message.shortest_period;
     return {};
   }
   const auto slots = shortest_slot_gap(cluster, binding.pdu);
-  return slots ? slots->gap : Duration{};
+  if (!slots) return {};
+  Duration shortest = slots->gap;
+  for (const Arrivals& one : arrivals_of(cluster, task, WritersOfLists::kKnown).all)
+    shortest = std::max(shortest, Duration{one.period});
+  return shortest;
 }
 
 void check_activation(const Cluster& cluster, NodeId id, const Task& task, ClusterFindings& findings) {
@@ -59,7 +65,7 @@ void check_activation(const Cluster& cluster, NodeId id, const Task& task, Clust
         findings.parameter(path + ".activation.port", task.activation.port, "must be one of the ports the task reads");
         break;
       }
-      const Duration period = shortest_period(cluster, *read);
+      const Duration period = shortest_period(cluster, task, *read);
       // A sensor that waits for the task's end sends nothing before.
       const bool waited_for = loop_through(cluster, id, task).has_value();
       if (period > Duration{} && task.worst_case > period && !waited_for)

@@ -4,23 +4,14 @@
 #include <utility>
 
 #include "core/int128.h"
-#include "schedules/can_load.h"
-#include "schedules/clock_bounds.h"
 #include "schedules/round.h"
 #include "schedules/sensor_loop.h"
-#include "schedules/slot_groups.h"
 
 namespace ttf::schedules {
 namespace {
 
 constexpr std::int64_t kLongest_ns = 20'000'000'000;         // twice the longest deadline a file can ask for
 constexpr int kMostRounds = 10'000;
-
-// How often a message or sensor activates a task: floor((a + jitter) / period) + 1 times in a closed window a.
-struct Arrivals {
-  std::int64_t period = 0;
-  std::int64_t jitter = 0;
-};
 
 // How a sensor that waits for the task's end activates it.
 struct Following {
@@ -41,7 +32,7 @@ struct Load {
 
 class NodeTasks {
  public:
-  NodeTasks(const Cluster& cluster, NodeId id) : cluster_(cluster), node_(cluster.node(id)) {
+  NodeTasks(const Cluster& cluster, NodeId id, WritersOfLists writers) : cluster_(cluster), node_(cluster.node(id)) {
     const std::size_t count = node_.tasks.size();
     before_.resize(count);
     ahead_.resize(count);
@@ -60,7 +51,7 @@ class NodeTasks {
         following_[t] = Following{shortest_execution(task).ns, task.worst_case.ns,
                                   std::max<std::int64_t>(1, shortest_return(cluster_, *loop).ns)};
       else
-        arrivals_[t] = arrivals(task);
+        arrivals_[t] = arrivals_of(cluster_, task, writers);
     }
     round_ = time_of(cluster.flexray, kCycles, Macroticks{0}).ns;
     for (std::size_t t = 0; t < count; ++t)
@@ -72,6 +63,8 @@ class NodeTasks {
   }
 
   std::optional<std::vector<TaskResponse>> responses() {
+    for (std::size_t t = 0; t < before_.size(); ++t)
+      if (before_[root(t)]) return std::nullopt;   // round and round
     const auto busy = busy_time();
     if (!busy) return std::nullopt;
     find_steps(*busy);
@@ -105,8 +98,8 @@ class NodeTasks {
     for (std::size_t t = 0; t < node_.tasks.size(); ++t) {
       if (before_[t] || by_time(t)) continue;
       if (ahead_[t] > 0) steps_.push_back(ahead_[t]);
-      if (const auto& from = arrivals_[t])
-        for (std::int64_t at = from->period - from->jitter % from->period; at <= busy; at += from->period)
+      for (const Arrivals& from : arrivals_[t].all)
+        for (std::int64_t at = from.period - from.jitter % from.period; at <= busy; at += from.period)
           steps_.push_back(ahead_[t] + at);
       // Behind its step its work grows more slowly than the window.
       if (const auto& following = following_[t]) steps_.push_back(ahead_[t] + following->round());
@@ -129,48 +122,6 @@ class NodeTasks {
       to = *before_[to];
     }
     return false;
-  }
-
-  // A time between events elsewhere in the node's own, at its shortest.
-  std::int64_t own(std::int64_t ns) const {
-    return std::max<std::int64_t>(1, ns - clock_bounds(cluster_).drift_ns(ns) - kGranularity_ns);
-  }
-
-  std::optional<Arrivals> arrivals(const Task& task) const {
-    if (task.activation.kind == ActivationKind::kSensor) return measurements(task.activation.sensor);
-    for (const PortBinding& binding : task.reads)
-      if (activates(task, binding))
-        return binding.can_bus ? arrivals(cluster_.can_buses[*binding.can_bus], binding.pdu) : slots(binding.pdu);
-    return std::nullopt;
-  }
-
-  Arrivals measurements(SensorId id) const {
-    const Sensor& sensor = cluster_.sensor(id);
-    if (sensor.scheduled) return {own(sensor.period.ns), clock_bounds(cluster_).apart_ns};
-    // A device that is not triggered counts its period on the very oscillator.
-    std::int64_t period = std::max<std::int64_t>(1, sensor.period.ns - kGranularity_ns);
-    if (const auto loop = loop_of(cluster_, id)) period = std::max(period, shortest_round(cluster_, *loop).ns);
-    return {period, 0};
-  }
-
-  std::optional<Arrivals> slots(PduId pdu) const {
-    const auto gap = shortest_slot_gap(cluster_, pdu);
-    if (!gap) return std::nullopt;
-    return Arrivals{own(gap->gap.ns), gap->spread.ns + 2 * clock_bounds(cluster_).apart_ns};
-  }
-
-  std::optional<Arrivals> arrivals(const CanBus& bus, PduId pdu) const {
-    for (const CanMessage& other : bus.messages)
-      if (!can_data_length(bus.flexible_data_rate, cluster_.pdu(other.pdu).fragment_bytes)) return std::nullopt;
-    if (can_worst_load(cluster_, bus) > kCanLoadLimit) return std::nullopt;
-    for (const CanMessage& message : bus.messages) {
-      if (message.pdu != pdu) continue;
-      const auto worst = can_worst_response(cluster_, bus, message);
-      if (!worst) return std::nullopt;
-      const Duration best = can_best_case(bus, cluster_.pdu(pdu).fragment_bytes);
-      return Arrivals{own(message.shortest_period.ns), std::max<std::int64_t>(0, (*worst - best).ns) + kGranularity_ns};
-    }
-    return std::nullopt;
   }
 
   // A distance of global time in the node's own: every cycle may be shorter by the rate correction, every second one by an
@@ -210,11 +161,6 @@ class NodeTasks {
     return list;
   }
 
-  std::int64_t activations(std::size_t task, std::int64_t window) const {
-    const auto& from = arrivals_[task];
-    return from ? (window + from->jitter) / from->period + 1 : 1;
-  }
-
   // No more than twice what is looked into: enough to know that it never ends.
   std::int64_t sporadic(std::int64_t window) const {
     Int128 work = 0;
@@ -226,7 +172,7 @@ class NodeTasks {
       if (const auto& following = following_[t])
         work += whole_[t] + following->before_last(before);
       else
-        work += static_cast<Int128>(whole_[t]) * activations(t, before);
+        work += static_cast<Int128>(whole_[t]) * arrivals_[t].most(before);
     }
     return static_cast<std::int64_t>(std::min<Int128>(work, 2 * kLongest_ns));
   }
@@ -280,8 +226,8 @@ class NodeTasks {
     response.worst = {worst - whole_[task] + node_.tasks[task].worst_case.ns};
     if (by_time(task))
       response.gap = Duration{shrunk(cluster_.cycle().ns * node_.tasks[task].activation.at.repetition)};
-    else if (const auto& from = arrivals_[task])
-      response.gap = Duration{std::max<std::int64_t>(0, from->period - from->jitter)};
+    else if (const auto gap = arrivals_[task].gap())
+      response.gap = Duration{*gap};
     set_written(task, response);
     return response;
   }
@@ -337,7 +283,7 @@ class NodeTasks {
   std::vector<std::optional<std::size_t>> before_;     // the task whose end activates it
   std::vector<std::int64_t> ahead_;                    // how long ago its newest activation was, at least
   std::vector<std::int64_t> whole_;                    // of a chain, at its first task
-  std::vector<std::optional<Arrivals>> arrivals_;      // of first tasks that messages and sensors activate
+  std::vector<ArrivalBounds> arrivals_;                // of first tasks that messages and sensors activate
   std::vector<std::optional<Following>> following_;    // of first tasks that a sensor waits for
   std::vector<std::pair<std::int64_t, std::size_t>> instants_;   // of 64 cycles, in global time, and the task
   std::int64_t round_ = 0;
@@ -353,13 +299,13 @@ Duration longest_busy_time(const Cluster& cluster, const Node& node) {
   return {kLongest_ns};
 }
 
-std::optional<std::vector<TaskResponse>> worst_responses(const Cluster& cluster, NodeId node) {
-  return NodeTasks(cluster, node).responses();
+std::optional<std::vector<TaskResponse>> worst_responses(const Cluster& cluster, NodeId node, WritersOfLists writers) {
+  return NodeTasks(cluster, node, writers).responses();
 }
 
 std::optional<Duration> worst_response(const Cluster& cluster, NodeId node, std::size_t task,
                                        std::span<const Duration> ahead) {
-  NodeTasks tasks(cluster, node);
+  NodeTasks tasks(cluster, node, WritersOfLists::kKnown);
   if (std::any_of(ahead.begin(), ahead.end(), [](Duration lead) { return lead > Duration{}; }))
     return tasks.response_behind(task, ahead);
   const auto all = tasks.responses();

@@ -9,7 +9,7 @@
 // all a up to the longest busy time, the smallest A with W(A) <= A. In W:
 //   by time      the exact instants of 64 cycles, at the distances that the node's corrections can shrink them to
 //   by messages  at most floor((a + J) / T) + 1 in a window, T the shortest time between two lists where they are sent and J
-//   and sensors  by how much their way may differ from one to the next
+//   and sensors  by how much their way may differ from one to the next (schedules/arrivals.h)
 //   by a sensor  that waits for the task's end (schedules/sensor_loop.h): the next comes R after that end at the soonest, so
 //   that follows the executions between activations in a window are at most a C / (C + R), and one C more; C the worst case
 //   after other  with the task they follow: a chain's work comes at its beginning at the earliest
@@ -25,6 +25,7 @@
 
 #include "core/ids.h"
 #include "core/time.h"
+#include "schedules/arrivals.h"
 #include "schedules/cluster.h"
 
 namespace ttf::schedules {
@@ -36,9 +37,10 @@ struct TaskResponse {
   std::optional<Duration> written;   // shortest between two ends
 };
 
-// By task, in file order; nothing for a node that may be busy without end. Tasks' activations must be in order (chains lead
-// back to a beginning, no two tasks that time activates overlap), as the checker demands first.
-std::optional<std::vector<TaskResponse>> worst_responses(const Cluster& cluster, NodeId node);
+// By task, in file order; nothing for a node that may be busy without end, or whose chains lead back to no beginning. No two
+// tasks that time activates may overlap, as the checker demands first.
+std::optional<std::vector<TaskResponse>> worst_responses(const Cluster& cluster, NodeId node,
+                                                         WritersOfLists writers = WritersOfLists::kKnown);
 
 // The same of one task, where of some others more is known: `ahead`, by task, is how long before this task's activation the
 // newest activation of the other was at the latest (zero: nothing is known). For a task that messages activate.

@@ -75,8 +75,12 @@ std::optional<SlotGap> shortest_slot_gap(const Cluster& cluster, PduId pdu) {
   }
   if (starts.empty()) return std::nullopt;
   std::sort(starts.begin(), starts.end());
-  result.gap = {starts.front() + time_of(g, kCycles, Macroticks{0}).ns - starts.back()};
-  for (std::size_t i = 1; i < starts.size(); ++i) result.gap = std::min(result.gap, Duration{starts[i] - starts[i - 1]});
+  result.gap = result.longest = {starts.front() + time_of(g, kCycles, Macroticks{0}).ns - starts.back()};
+  for (std::size_t i = 1; i < starts.size(); ++i) {
+    const Duration next{starts[i] - starts[i - 1]};
+    result.gap = std::min(result.gap, next);
+    result.longest = std::max(result.longest, next);
+  }
   return result;
 }
 

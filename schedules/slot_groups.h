@@ -31,10 +31,12 @@ std::vector<SlotGroup> slot_groups(const Cluster& cluster, PduId pdu);
 // Macrotick at which a static slot (1..) begins.
 Macroticks slot_start(const GlobalParameters& flexray, int slot);
 
-// The shortest time between the beginnings of two sendings of a PDU, over all 64 cycles, and how much later than its beginning
-// one can be complete. Nothing if it has no slots, or if some sending has no bound.
+// The shortest and the longest time between the beginnings of two sendings of a PDU that follow each other, over all 64
+// cycles, and how much later than its beginning one can be complete. Nothing if it has no slots, or if some sending has no
+// bound.
 struct SlotGap {
   Duration gap{};
+  Duration longest{};
   Duration spread{};
 };
 std::optional<SlotGap> shortest_slot_gap(const Cluster& cluster, PduId pdu);

@@ -21,6 +21,14 @@ for scenario in paper_scenario1 faulty_bus; do
   launch "$work/$scenario" "$source/scenarios/$scenario.yaml" || fail "launch $scenario: $(cat "$work/$scenario.err")"
   [[ $(hash_of "$work/$scenario") == "$(hash_of "$work/run_$scenario")" ]] || fail "launch $scenario leaves other records than run"
 done
+# Sensors that wait for their hosts' processes, from a cold start on, with lists over CAN and over FlexRay.
+for cluster in paper_free_running paper_free_flexray; do
+  sed "s#\.\./schedules/paper_unsynchronised#$source/schedules/$cluster#; s#\.\./schedules#$source/schedules#
+       s#^clusters:#startup: {kind: cold}\n&#" "$drive" >"$work/$cluster.yaml"
+  "$program" run "$work/$cluster.yaml" --strategy adva --no-pictures --out "$work/run_$cluster" >/dev/null 2>&1 || fail "run $cluster"
+  launch "$work/$cluster" "$work/$cluster.yaml" --strategy adva || fail "launch $cluster: $(cat "$work/$cluster.err")"
+  [[ $(hash_of "$work/$cluster") == "$(hash_of "$work/run_$cluster")" ]] || fail "launch $cluster leaves other records than run"
+done
 python3 - "$work/paper_scenario1" <<'PY' || fail "the manifest of a launch is another"
 import json, os, sys
 folder = sys.argv[1]

@@ -347,7 +347,8 @@ int main(int argc, char** argv) {
   const fs::path folder = argv[1];
   fs::remove_all(folder);
   yaml_seeds(folder, "cluster", "schedules",
-             {"paper_synchronised", "paper_unsynchronised", "laser_radar", "laser_radar_synchronised", "flexray_demo"});
+             {"paper_synchronised", "paper_unsynchronised", "laser_radar", "laser_radar_synchronised", "flexray_demo",
+              "paper_free_flexray"});
   yaml_seeds(folder, "scenario", "scenarios",
              {"paper_scenario1", "paper_scenario2", "laser_radar_recorded", "faulty_bus", "cold_start"});
   fibex_seeds(folder);

@@ -1,13 +1,16 @@
 // Sensors that measure when their host has preprocessed the last measurement, and lists that are fused when they arrive:
-// drives of the cluster that has both.
+// drives of the clusters that have both, over CAN and over either segment of FlexRay.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <map>
+#include <string>
 #include <vector>
 
 #include "core/errors.h"
 #include "schedules/ages.h"
+#include "schedules/checker.h"
+#include "schedules/responses.h"
 #include "tests/sim/drive_ages.h"
 #include "tests/sim/drive_fixture.h"
 
@@ -19,11 +22,31 @@ using testing_support::Ages;
 using testing_support::AgeRange;
 using testing_support::Drive;
 
-Drive free_running(StrategyKind strategy) {
-  Drive drive("scenarios/paper_scenario1.yaml", strategy);
-  drive.cluster = schedules::load_checked_cluster(testing_support::shipped("schedules/paper_free_running.yaml"));
-  return drive;
-}
+struct Medium {
+  const char* name;
+  const char* file;
+  bool in_static_slots = false;   // and not where the file has them
+};
+
+class FreeRunning : public testing::TestWithParam<Medium> {
+ protected:
+  static Drive free_running(StrategyKind strategy) {
+    Drive drive("scenarios/paper_scenario1.yaml", strategy);
+    std::string text = schedules::load_cluster(testing_support::shipped(GetParam().file)).text;
+    if (GetParam().in_static_slots) {
+      text.replace(text.find("slot: 35"), 8, "slot: 6");
+      text.replace(text.find("slot: 44"), 8, "slot: 15");
+    }
+    drive.cluster = schedules::parse_cluster(text, "cluster.yaml");
+    EXPECT_TRUE(schedules::check(drive.cluster).empty());
+    return drive;
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Over, FreeRunning,
+                         testing::Values(Medium{"Can", "schedules/paper_free_running.yaml"},
+                                         Medium{"DynamicSegment", "schedules/paper_free_flexray.yaml"},
+                                         Medium{"StaticSegment", "schedules/paper_free_flexray.yaml", true}),
+                         [](const auto& one) { return std::string(one.param.name); });
 
 // By node: when its only task's runs began and ended, in true time, and when its sensor measured.
 struct Rounds final : records::Sink {
@@ -37,7 +60,7 @@ struct Rounds final : records::Sink {
   }
 };
 
-TEST(FreeRunning, AMeasurementFollowsThePreprocessingOfTheLast) {
+TEST_P(FreeRunning, AMeasurementFollowsThePreprocessingOfTheLast) {
   const Drive drive = free_running(StrategyKind::kAdva);
   Rounds rounds;
   const sim::DriveOutcome outcome = drive.run(rounds);
@@ -72,22 +95,50 @@ TEST(FreeRunning, AMeasurementFollowsThePreprocessingOfTheLast) {
   EXPECT_EQ(outcome.counts.discarded_lists, 0u);
 }
 
+// What corrections may make of 5 ms.
+constexpr Duration kCorrections = Duration::microseconds(25);
+
 struct Fates final : records::Sink {
   using records::Sink::on;
   std::map<MeasurementId, int> taken;      // by the fusion: how often
   void on(const records::FusionInput& in) override { ++taken[{in.sensor, in.sequence}]; }
 };
 
-TEST(FreeRunning, EveryListIsTakenOnceAndWithinItsBounds) {
+// Of one node's tasks, by its global time.
+struct Responses final : records::Sink {
+  using records::Sink::on;
+  explicit Responses(NodeId which) : node(which) {}
+  NodeId node;
+  std::map<std::uint8_t, Duration> longest, closest;   // from activation to end; between activations
+  void on(const records::TaskRun& run) override {
+    if (run.start.node != node) return;
+    longest[run.task] = std::max(longest[run.task], run.end.global - run.activated.global);
+    const auto last = last_.find(run.task);
+    if (last != last_.end()) {
+      const Duration since = run.activated.global - last->second;
+      closest[run.task] = std::min(closest.try_emplace(run.task, since).first->second, since);
+    }
+    last_[run.task] = run.activated.global;
+  }
+  void next_drive() { last_.clear(); }
+
+ private:
+  std::map<std::uint8_t, GlobalTime> last_;
+};
+
+TEST_P(FreeRunning, EveryListIsTakenOnceAndWithinItsBounds) {
   for (const StrategyKind strategy : {StrategyKind::kBuff, StrategyKind::kAdva}) {
     const Drive drive = free_running(strategy);
     Ages ages;
+    const NodeId fusion = *drive.cluster.find_node("fusion");
+    Responses responses(fusion);
     constexpr std::uint64_t kDrives = 20;
     for (std::uint64_t seed = 1; seed <= kDrives; ++seed) {
       Fates fates;
-      records::Tee tee({&ages, &fates});
+      records::Tee tee({&ages, &fates, &responses});
       const sim::DriveOutcome outcome = drive.run(tee, seed);
       ages.next_drive();
+      responses.next_drive();
       EXPECT_EQ(outcome.counts.overruns + outcome.counts.overwritten_lists + outcome.counts.deadlines_missed, 0u);
       std::map<SensorId, std::uint32_t> next;
       for (const auto& [id, times] : fates.taken) {
@@ -111,10 +162,18 @@ TEST(FreeRunning, EveryListIsTakenOnceAndWithinItsBounds) {
         EXPECT_LT(fused.best, path.fused_best + Duration::milliseconds(2));
       }
     }
+    const auto bounds = schedules::worst_responses(drive.cluster, fusion);
+    ASSERT_TRUE(bounds.has_value());
+    for (const auto& [task, longest] : responses.longest) {
+      SCOPED_TRACE(drive.cluster.node(fusion).tasks[task].name);
+      EXPECT_LE(longest, (*bounds)[task].worst + kCorrections);
+      EXPECT_GE(responses.closest[task], *(*bounds)[task].gap - kCorrections);
+    }
+    EXPECT_EQ(responses.longest.size(), 3u);
   }
 }
 
-TEST(FreeRunning, TimeTriggeredFusionNeedsInstants) {
+TEST_P(FreeRunning, TimeTriggeredFusionNeedsInstants) {
   const Drive drive = free_running(StrategyKind::kTt);
   records::Sink nothing;
   try {

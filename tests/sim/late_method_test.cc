@@ -61,6 +61,24 @@ TEST(LateMethod, AdvaWithClonesIsNearlyRewinding) {
   expect_nearly(summary_of(drive), rewinding);
 }
 
+// Sensors that follow their hosts: each list is fused as it comes, one in six late. When they measure next nobody
+// knows.
+TEST(LateMethod, WhereSensorsFollowTheirHostsAllButClonesAreNearlyRewinding) {
+  for (const char* cluster : {"schedules/paper_free_running.yaml", "schedules/paper_free_flexray.yaml"}) {
+    Drive drive(kScenario, StrategyKind::kAdva);
+    drive.cluster = schedules::load_cluster(testing_support::shipped(cluster));
+    const experiments::DriveSummary rewinding = summary_of(drive);
+    EXPECT_GT(rewinding.fused_late, 20u);
+    for (const Kind kind : {Kind::kAugmented, Kind::kAdjoint, Kind::kAl1, Kind::kBl1}) {
+      drive.scenario.tracker.late = kind;
+      SCOPED_TRACE(std::string(cluster) + ", " + std::string(name_of(kind)));
+      expect_nearly(summary_of(drive), rewinding);
+    }
+    drive.scenario.tracker.late = Kind::kClone;
+    EXPECT_THROW(summary_of(drive), InputError);
+  }
+}
+
 TEST(LateMethod, TimeTriggeredClonesAreNeverNeeded) {
   Drive drive(kScenario, StrategyKind::kTt);
   const experiments::DriveSummary rewinding = summary_of(drive);

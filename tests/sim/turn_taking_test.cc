@@ -94,9 +94,13 @@ struct Case {
   fusion::StrategyKind strategy;
   std::int64_t milliseconds;
   bool guarded = false;   // in a star with guardians
+  const char* cluster = nullptr;   // in place of the scenario's
+  bool cold = false;
 
   Drive drive() const {
     Drive drive(scenario, strategy);
+    if (cluster != nullptr) drive.cluster = schedules::load_checked_cluster(testing_support::shipped(cluster));
+    drive.scenario.startup.cold = drive.scenario.startup.cold || cold;
     drive.scenario.duration = Duration::milliseconds(milliseconds);
     if (guarded) {
       drive.cluster.topology = schedules::Topology::kStar;
@@ -113,7 +117,12 @@ TEST_P(TurnTakingOf, LeavesTheRecordsOfASingleProcess) {
   expect_equal(together(in_processes(drive)), in_one_process(drive));
 }
 
-// The cold drives have frames in the dynamic segment.
+constexpr const char* kAhead = "scenarios/paper_scenario1.yaml";
+constexpr const char* kOverCan = "schedules/paper_free_running.yaml";
+constexpr const char* kOverFlexRay = "schedules/paper_free_flexray.yaml";
+
+// The cold drives have frames in the dynamic segment. Sensors that follow their hosts are triggered when a message of
+// another process lets them; lists over FlexRay set tasks off.
 INSTANTIATE_TEST_SUITE_P(
     Drives, TurnTakingOf,
     testing::Values(Case{"Buff", "scenarios/paper_scenario1.yaml", fusion::StrategyKind::kBuff, 700},
@@ -122,7 +131,13 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"ColdStart", "scenarios/cold_start.yaml", fusion::StrategyKind::kTt, 700},
                     Case{"GuardedColdStart", "scenarios/cold_start.yaml", fusion::StrategyKind::kTt, 700, true},
                     Case{"Faults", "scenarios/faulty_bus.yaml", fusion::StrategyKind::kTt, 2700},
-                    Case{"GuardedFaults", "scenarios/faulty_bus.yaml", fusion::StrategyKind::kTt, 2700, true}),
+                    Case{"GuardedFaults", "scenarios/faulty_bus.yaml", fusion::StrategyKind::kTt, 2700, true},
+                    Case{"FollowingBuff", kAhead, fusion::StrategyKind::kBuff, 700, false, kOverCan},
+                    Case{"FollowingAdva", kAhead, fusion::StrategyKind::kAdva, 700, false, kOverCan},
+                    Case{"FollowingColdStart", kAhead, fusion::StrategyKind::kAdva, 700, false, kOverCan, true},
+                    Case{"FollowingOverFlexRay", kAhead, fusion::StrategyKind::kAdva, 700, false, kOverFlexRay},
+                    Case{"FollowingOverFlexRayColdStart", kAhead, fusion::StrategyKind::kAdva, 700, false, kOverFlexRay,
+                         true}),
     [](const auto& one) { return std::string(one.param.name); });
 
 constexpr Case kShort{"", "scenarios/paper_scenario1.yaml", fusion::StrategyKind::kTt, 300};
