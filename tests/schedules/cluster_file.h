@@ -15,7 +15,8 @@ namespace ttf::schedules {
 inline const std::vector<std::string>& shipped_clusters() {
   static const std::vector<std::string> kNames{"paper_unsynchronised", "paper_synchronised", "paper_event_triggered",
                                                "paper_free_running", "paper_dynamic",
-                                               "laser_radar", "laser_radar_synchronised", "flexray_demo"};
+                                               "laser_radar", "laser_radar_synchronised", "flexray_demo",
+                                               "thousand_unsynchronised", "thousand_synchronised"};
   return kNames;
 }
 
