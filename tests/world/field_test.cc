@@ -22,7 +22,7 @@ std::string finding_of(const std::string& text) {
 TEST(Field, RowsAreFilledOneAfterTheOtherFromTheirMiddle) {
   // Within 45 degrees: at 10 m two to either side, at 14 m again two, which begin half a place aside.
   const WorldConfig world = world_from(
-      "field: {objects: 9, nearest: 10, row: 4, across: 5, half_angle: 0.7853982, speed: 1.5, length: 0.6, width: 0.4}");
+      "field: {objects: 9, nearest: 10, row: 4, across: 5, half_angle: 0.7854, speed: 1.5, length: 0.6, width: 0.4}");
   const double x[] = {10, 10, 10, 10, 10, 14, 14, 14, 14}, y[] = {0, -5, 5, -10, 10, 2.5, -2.5, 7.5, -7.5};
   ASSERT_EQ(world.objects.size(), 9u);
   for (std::size_t i = 0; i < 9; ++i) {
