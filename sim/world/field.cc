@@ -7,12 +7,12 @@
 
 namespace ttf::world {
 
-std::optional<std::vector<ObjectConfig>> placed(const FieldConfig& field) {
+std::vector<ObjectConfig> placed(const FieldConfig& field) {
   std::vector<ObjectConfig> objects;
   const auto wanted = static_cast<std::size_t>(field.objects);
   for (int row = 0; objects.size() < wanted; ++row) {
     const double x = field.nearest + row * field.row;
-    if (x > kFarthest_m) return std::nullopt;
+    if (x > kFarthest_m) break;
     const double widest = x * std::tan(field.half_angle), aside = row % 2 == 0 ? 0.0 : 0.5 * field.across;
     for (int place = 0; objects.size() < wanted; ++place) {
       // 0, -1, 1, -2, ... from the middle.

@@ -115,10 +115,10 @@ void load_field(YamlMap& map, std::vector<ObjectConfig>& objects) {
   field.across = map.number_or("across", field.across, {0.5, kFarthest_m}, "m");
   field.half_angle = map.number_or("half_angle", field.half_angle, {0.0, 1.4}, "rad");
   load_kind(map, field.each);
-  if (const auto all = placed(field))
-    objects.insert(objects.end(), all->begin(), all->end());
-  else
-    map.fail("objects", fmt::format("are too many for the field: its rows end {} m away", kFarthest_m));
+  const std::vector<ObjectConfig> all = placed(field);
+  if (all.size() < static_cast<std::size_t>(field.objects))
+    map.fail("objects", fmt::format("must be at most {}: rows end {} m away", all.size(), kFarthest_m));
+  objects.insert(objects.end(), all.begin(), all.end());
   map.finish();
 }
 

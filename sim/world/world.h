@@ -6,7 +6,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -57,8 +56,8 @@ struct FieldConfig {
   ObjectConfig each;                                // all but where it is
 };
 inline constexpr double kFarthest_m = 500.0;        // that an object may be from either axis
-// Nothing where they would be farther away.
-std::optional<std::vector<ObjectConfig>> placed(const FieldConfig& field);
+// As many as there is room for.
+std::vector<ObjectConfig> placed(const FieldConfig& field);
 
 // After `dt` >= 0 seconds of constant acceleration and yaw rate; a car that has come to a stop stays there.
 ObjectState moved(const ObjectState& state, double dt);

@@ -57,7 +57,7 @@ TEST(Field, AThousandFitTheShippedSquareWithoutTouching) {
 
 TEST(Field, RefusesMoreThanThereIsRoomFor) {
   EXPECT_EQ(finding_of("field: {objects: 12, nearest: 490, row: 10, half_angle: 0.0}"),
-            "test.yaml:1: field.objects = 12 are too many for the field: its rows end 500 m away");
+            "test.yaml:1: field.objects = 12: must be at most 1: rows end 500 m away");
   EXPECT_NE(finding_of("field: {objects: 5001}").find("1..5000"), std::string::npos);
   EXPECT_NE(finding_of("field: {nearest: 10}").find("missing"), std::string::npos);
   EXPECT_NE(finding_of("field: {objects: 3, depth: 2}").find("depth"), std::string::npos);
