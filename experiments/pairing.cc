@@ -12,9 +12,13 @@ std::vector<TruthPair> closest_pairs(std::span<const PlanePosition> truth, std::
     TruthPair pair;
   };
   std::vector<Candidate> candidates;
+  // On one axis alone, and no tighter than rounding: nearly all pairs of many objects are further apart.
+  const double reach = gate_m * (1.0 + 1e-9);
   for (std::size_t t = 0; t < truth.size(); ++t)
     for (std::size_t e = 0; e < estimates.size(); ++e) {
-      const double distance = std::hypot(truth[t].x - estimates[e].x, truth[t].y - estimates[e].y);
+      const double dx = truth[t].x - estimates[e].x, dy = truth[t].y - estimates[e].y;
+      if (std::abs(dx) > reach || std::abs(dy) > reach) continue;
+      const double distance = std::hypot(dx, dy);
       if (distance <= gate_m) candidates.push_back({distance, {t, e}});
     }
   std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {

@@ -23,7 +23,8 @@ std::string cycles_text(const FrameSlot& frame) {
   return fmt::format("base cycle {}, repetition {}", frame.base_cycle, frame.repetition);
 }
 
-// Each fragment once, in ascending order, and a list once in a cycle: a receiver takes a list from the beginning.
+// Each fragment once, in ascending order, and a list once in a cycle: so the last fragment is the last to leave. A slot
+// may carry the same one on both channels, or two of them, the smaller first: a list that is dealt out to both.
 void check_order(const PduLayout& layout, const Groups& groups, ClusterFindings& findings) {
   const auto wrong = [&](const FrameSlot& frame, const std::string& expected) {
     findings.at(frame.line, fmt::format("frames.slot {}", frame.slot),
@@ -34,8 +35,8 @@ void check_order(const PduLayout& layout, const Groups& groups, ClusterFindings&
     for (std::size_t i = 1; i < frames.size(); ++i) {
       const FrameSlot &before = *frames[i - 1], &frame = *frames[i];
       // One slot may be given channel by channel.
-      const bool rises = frame.slot == before.slot ? frame.fragment == before.fragment : frame.fragment > before.fragment;
-      if (rises) continue;
+      const bool repeated = frame.slot == before.slot && frame.fragment == before.fragment;
+      if (repeated || frame.fragment > before.fragment) continue;
       wrong(frame, fmt::format("must be above fragment {} of slot {} (line {}): a list's fragments are sent once each and in "
                                "ascending order",
                                before.fragment, before.slot, before.line));

@@ -32,9 +32,9 @@ bool activates(const Task& task, const PortBinding& read) {
   return task.activation.kind == ActivationKind::kMessage && task.activation.port == read.port;
 }
 
-bool continues(const FrameSlot& before, const FrameSlot& frame) {
+bool continues(const FrameSlot& before, const FrameSlot& frame, int step) {
   return frame.pdu != kNoPdu && frame.pdu == before.pdu && frame.slot == before.slot + 1 &&
-         frame.fragment == before.fragment + 1 && frame.sender == before.sender &&
+         frame.fragment == before.fragment + step && frame.sender == before.sender &&
          frame.channels == before.channels && frame.base_cycle == before.base_cycle &&
          frame.repetition == before.repetition && frame.network_management == before.network_management &&
          frame.message_id == before.message_id;

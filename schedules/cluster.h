@@ -71,8 +71,9 @@ constexpr int preamble_bytes(const GlobalParameters& flexray, const FrameSlot& f
 bool share_a_cycle(const FrameSlot& a, const FrameSlot& b);
 constexpr bool share_a_channel(Channels a, Channels b) { return (static_cast<unsigned>(a) & static_cast<unsigned>(b)) != 0; }
 
-// Whether `frame` is the next fragment of the same list in the next slot, otherwise like `before`.
-bool continues(const FrameSlot& before, const FrameSlot& frame);
+// Whether `frame` is the next fragment of the same list in the next slot, or the next but one where `step` is 2,
+// otherwise like `before`.
+bool continues(const FrameSlot& before, const FrameSlot& frame, int step = 1);
 
 // A PDU on a CAN: all fragments have the same identifier; the fragment number is in the data.
 struct CanMessage {

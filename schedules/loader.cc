@@ -352,10 +352,12 @@ class Loader {
     frame.sender = node(map, "sender");
     load_multiplexing(map, frame.base_cycle, frame.repetition);
     std::int64_t fragments = 1;
+    int step = 1;
     if (map.has("pdu")) {
       frame.pdu = pdu(map, "pdu");
       fragments = map.integer("fragments", {1, kLastStaticSlot});
       frame.fragment = static_cast<int>(map.integer_or("first_fragment", 0, {0, kLastStaticSlot - 1}));
+      step = static_cast<int>(map.integer_or("fragment_step", step, {1, 2}));
     }
     frame.network_management = map.boolean_or("network_management", false);
     if (map.has("message_id")) frame.message_id = static_cast<std::uint16_t>(map.integer("message_id", {0, 65535}));
@@ -369,7 +371,7 @@ class Loader {
     for (std::int64_t f = 0; f < fragments; ++f) {
       cluster_.frames.push_back(frame);
       ++frame.slot;
-      ++frame.fragment;
+      frame.fragment += step;
     }
   }
 

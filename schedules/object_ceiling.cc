@@ -56,6 +56,7 @@ ObjectCeiling object_ceiling(const Cluster& cluster) {
     for (const ListRoom& room : ceiling.lists) slots += cluster.pdu(room.pdu).fragments_of(objects);
     return slots;
   };
+  ceiling.with_all_static_slots = ceiling.carried;
   const int countable = fewest(&ListRoom::countable);
   while (ceiling.with_all_static_slots < countable &&
          slots_for(ceiling.with_all_static_slots + 1) <= ceiling.free_for_lists)

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "schedules/can_load.h"
 #include "schedules/dynamic_load.h"
@@ -76,19 +77,40 @@ std::string activation_text(const Cluster& cluster, const Task& task) {
   return {};
 }
 
+// Fragments of one list in slots one behind the other. Others may stand between them in the file's order: those of
+// other cycles, and of a list that is dealt out to both channels those on the other one.
+struct FrameRun {
+  const FrameSlot* last = nullptr;
+  int step = 1;
+};
+FrameRun run_from(const Cluster& cluster, std::size_t first, std::vector<char>& shown) {
+  FrameRun run{&cluster.frames[first], 1};
+  for (std::size_t i = first + 1; i < cluster.frames.size() && cluster.frames[i].slot <= run.last->slot + 1; ++i) {
+    const FrameSlot& frame = cluster.frames[i];
+    if (shown[i]) continue;
+    if (run.last == &cluster.frames[first] && continues(*run.last, frame, 2)) run.step = 2;
+    if (!continues(*run.last, frame, run.step)) continue;
+    shown[i] = 1;
+    run.last = &frame;
+  }
+  return run;
+}
+
 void show_slots(const Cluster& cluster, std::string& text) {
   const GlobalParameters& g = cluster.flexray;
   text += fmt::format("{:>9}  {:>15}  {:<2}  {:<12}{:<34}{}\n", "slot", "macroticks", "ch", "sender", "frame", "cycles");
-  for (std::size_t i = 0; i < cluster.frames.size();) {
+  std::vector<char> shown(cluster.frames.size());
+  for (std::size_t i = 0; i < cluster.frames.size(); ++i) {
+    if (shown[i]) continue;
     const FrameSlot& first = cluster.frames[i];
-    std::size_t end = i + 1;
-    while (end < cluster.frames.size() && continues(cluster.frames[end - 1], cluster.frames[end])) ++end;
-    const FrameSlot& last = cluster.frames[end - 1];
-    const std::string slots = end - i == 1 ? fmt::format("{}", first.slot) : fmt::format("{}-{}", first.slot, last.slot);
+    const FrameRun run = run_from(cluster, i, shown);
+    const FrameSlot& last = *run.last;
+    const bool alone = &first == &last;
+    const std::string slots = alone ? fmt::format("{}", first.slot) : fmt::format("{}-{}", first.slot, last.slot);
     std::string frame = "status";
     if (first.pdu != kNoPdu)
-      frame = fmt::format("{} {}{}", cluster.pdu(first.pdu).name, first.fragment,
-                          end - i == 1 ? "" : fmt::format("-{}", last.fragment));
+      frame = fmt::format("{} {}{}{}", cluster.pdu(first.pdu).name, first.fragment,
+                          alone ? "" : fmt::format("-{}", last.fragment), run.step == 2 ? ", every other" : "");
     const NodeParameters* sender = cluster.node(first.sender).flexray ? &*cluster.node(first.sender).flexray : nullptr;
     if (sender != nullptr && sender->pKeySlotId == first.slot)
       frame += sender->pKeySlotUsedForSync ? (sender->pKeySlotUsedForStartup ? " (sync, startup)" : " (sync)") : " (key)";
@@ -97,7 +119,6 @@ void show_slots(const Cluster& cluster, std::string& text) {
     const auto [begin, over] = macroticks(cluster, first, last);
     text += fmt::format("{:>9}  {:>7}-{:<7}  {:<2}  {:<12}{:<34}{}\n", slots, begin, over, channels_text(first.channels),
                         cluster.node(first.sender).name, frame, cycles_text(first.base_cycle, first.repetition));
-    i = end;
   }
   if (g.gdSymbolWindow > 0) {
     const int idle = g.gMacroPerCycle - g.gdNIT;

@@ -53,6 +53,7 @@ CameraConfig load_camera(YamlMap& yaml) {
   c.half_field_rad = yaml.number_or("half_field", c.half_field_rad, {0.01, 1.2}, "rad");
   c.max_range_m = yaml.number_or("max_range", c.max_range_m, {1.0, 500.0}, "m");
   c.miss_probability = yaml.number_or("miss_probability", c.miss_probability, {0.0, 1.0});
+  c.shadow = yaml.number_or("shadow", c.shadow, {0.0, 1e6});
   c.clutter_per_frame = yaml.number_or("clutter_per_frame", c.clutter_per_frame, {0.0, 10.0});
   c.bearing_bias.fixed = yaml.number_or("bearing_bias", 0.0, {-0.2, 0.2}, "rad");
   c.bearing_bias.sigma = yaml.number_or("bearing_bias_sigma", 0.0, {0.0, 0.2}, "rad");
@@ -85,10 +86,13 @@ void measure_camera(const CameraConfig& config, std::span<const ObjectState> obj
     if (missed || !seen || seen->depth <= 0.0 || std::abs(seen->bearing) > config.half_field_rad) continue;
     const double range = seen->depth / std::cos(seen->bearing);
     if (range > config.max_range_m) continue;
+    const double c = std::cos(seen->bearing), s = std::sin(seen->bearing);
     const bool hidden = std::any_of(objects.begin(), objects.end(), [&](const ObjectState& other) {
-      if (other.id == object.id) return false;
+      // Cheap bound, no tighter than rounding: the line of sight passes further from the centre than the outline reaches.
+      const double across = -s * other.x + c * other.y;
+      if (other.id == object.id || std::abs(across) > 0.5 * (other.length + other.width) + 1e-6) return false;
       const auto distance = ray_to(other, seen->bearing);
-      return distance && *distance < range;
+      return distance && *distance < range && range < *distance * (1.0 + config.shadow);
     });
     if (hidden || static_cast<int>(detections.size()) == config.max_detections) continue;
     const double width_px = config.focal_px * seen->silhouette / std::cos(seen->bearing);

@@ -3,10 +3,12 @@
 // Rectified pinhole pair: a point at depth z has the disparity f b / z, so depth noise grows with the square of the depth.
 // Defaults are of the class of the paper's stereo system (automotive baseline of some decimetres, sub-pixel matching). What
 // is seen of an object is the middle of its silhouette, at the mean depth of the outline that shows; an object whose
-// middle is hidden by another is missed, others are missed at random, and false detections appear anywhere in the field.
+// middle is hidden by another (`shadow`) is missed, others are missed at random, and false detections appear anywhere in
+// the field.
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -25,6 +27,9 @@ struct CameraConfig {
   double half_field_rad = 0.45;        // 26 degrees to either side
   double max_range_m = 90.0;
   double miss_probability = 0.05;
+  // An object hides what is behind it up to this share of its own distance: t / (h - t) for objects of height t, seen
+  // from a mast of height h. A camera no higher than they are, on a car, never sees over them.
+  double shadow = std::numeric_limits<double>::infinity();
   double clutter_per_frame = 0.1;      // mean number of false detections
   DriveError bearing_bias;             // systematic errors, none unless stated: [rad]
   DriveError disparity_bias;           // [px]

@@ -1,5 +1,7 @@
 #include "sim/world/world.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -93,6 +95,35 @@ void World::states_at(TrueTime since_start, std::vector<ObjectState>& out) const
     out.push_back(state_of(static_cast<ObjectId>(o), since_start));
 }
 
+namespace {
+
+constexpr Range<double> kPlace{-kFarthest_m, kFarthest_m};
+
+// How an object is, but for where.
+void load_kind(YamlMap& map, ObjectConfig& object) {
+  object.heading = map.number_or("heading", 0.0, {-7.0, 7.0}, "rad");
+  object.speed = map.number_or("speed", 0.0, {0.0, 100.0}, "m/s");
+  object.length = map.number_or("length", object.length, {0.1, 30.0}, "m");
+  object.width = map.number_or("width", object.width, {0.1, 5.0}, "m");
+}
+
+void load_field(YamlMap& map, std::vector<ObjectConfig>& objects) {
+  FieldConfig field;
+  field.objects = static_cast<int>(map.integer("objects", {1, 5000}));
+  field.nearest = map.number_or("nearest", field.nearest, {1.0, kFarthest_m}, "m");
+  field.row = map.number_or("row", field.row, {0.5, kFarthest_m}, "m");
+  field.across = map.number_or("across", field.across, {0.5, kFarthest_m}, "m");
+  field.half_angle = map.number_or("half_angle", field.half_angle, {0.0, 1.4}, "rad");
+  load_kind(map, field.each);
+  const std::vector<ObjectConfig> all = placed(field);
+  if (all.size() < static_cast<std::size_t>(field.objects))
+    map.fail("objects", fmt::format("must be at most {}: rows end {} m away", all.size(), kFarthest_m));
+  objects.insert(objects.end(), all.begin(), all.end());
+  map.finish();
+}
+
+}  // namespace
+
 WorldConfig load_world(YamlMap& yaml) {
   WorldConfig config;
   config.acceleration_noise = yaml.number_or("acceleration_noise", 0.0, {0.0, 50.0}, "m/s^2");
@@ -100,12 +131,9 @@ WorldConfig load_world(YamlMap& yaml) {
   for (YamlMap& map : yaml.maps_if("objects")) {
     ObjectConfig object;
     object.name = map.text("name");
-    object.x = map.number("x", {-500.0, 500.0}, "m");
-    object.y = map.number("y", {-500.0, 500.0}, "m");
-    object.heading = map.number_or("heading", 0.0, {-7.0, 7.0}, "rad");
-    object.speed = map.number_or("speed", 0.0, {0.0, 100.0}, "m/s");
-    object.length = map.number_or("length", object.length, {0.1, 30.0}, "m");
-    object.width = map.number_or("width", object.width, {0.1, 5.0}, "m");
+    object.x = map.number("x", kPlace, "m");
+    object.y = map.number("y", kPlace, "m");
+    load_kind(map, object);
     object.reference = map.boolean_or("reference", false);
     for (YamlMap& segment : map.maps_if("segments")) {
       object.segments.push_back(
@@ -120,6 +148,7 @@ WorldConfig load_world(YamlMap& yaml) {
     map.finish();
     config.objects.push_back(std::move(object));
   }
+  if (auto field = yaml.map_if("field")) load_field(*field, config.objects);
   const auto all = static_cast<std::int64_t>(config.objects.size());
   const std::int64_t count = yaml.integer_or("object_count", all, {std::min<std::int64_t>(all, 1), all});
   const auto reference = std::find_if(config.objects.begin(), config.objects.end(),

@@ -36,13 +36,28 @@ struct ObjectConfig {
 };
 
 struct WorldConfig {
-  std::vector<ObjectConfig> objects;   // of those in the file the first `object_count`, if it says how many
+  // Those of the file's `objects`, then those of its `field`: of them all the first `object_count`, if it says so.
+  std::vector<ObjectConfig> objects;
   // Standard deviations of the acceleration [m/s^2] and yaw rate [rad/s] added in each 10 ms step.
   double acceleration_noise = 0.0;
   double yaw_rate_noise = 0.0;
   Duration duration{};
 };
 WorldConfig load_world(YamlMap& yaml);
+
+// `field`: equal objects in rows across the x axis, so many that nobody wants to name them. The first row is at
+// `nearest`, the next ones `row` behind each other; within a row they are `across` apart, every other row by half of
+// that to the side, as far as `half_angle` on either side of the x axis. Rows are filled one after the other, each from
+// its middle.
+struct FieldConfig {
+  int objects = 0;
+  double nearest = 40.0, row = 6.0, across = 4.0;   // [m]
+  double half_angle = 0.7;                          // [rad]
+  ObjectConfig each;                                // all but where it is
+};
+inline constexpr double kFarthest_m = 500.0;        // that an object may be from either axis
+// As many as there is room for.
+std::vector<ObjectConfig> placed(const FieldConfig& field);
 
 // After `dt` >= 0 seconds of constant acceleration and yaw rate; a car that has come to a stop stays there.
 ObjectState moved(const ObjectState& state, double dt);

@@ -1,4 +1,4 @@
-// 1,000 objects: more than any bus here carries (docs/architecture.md), and nothing to the tracker.
+// 1,000 objects in the tracker alone; through a whole cluster: tests/sim/thousand_test.cc.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -2,6 +2,7 @@
 // exported bit positions are where the codec puts the bits.
 #include <gtest/gtest.h>
 
+#include <map>
 #include <pugixml.hpp>
 #include <utility>
 
@@ -163,33 +164,48 @@ struct Place {
   int position = 0, bits = 0;
 };
 
-// Where the PDU of that name has its signal, straight from the XML.
-Place place_of(const pugi::xml_document& xml, const std::string& pdu, const std::string& signal) {
-  const auto text = [](const pugi::xpath_node& node) { return std::stoi(node.node().text().get()); };
-  for (const pugi::xpath_node& found :
-       xml.select_nodes(("//fx:PDU[ho:SHORT-NAME='" + pdu + "']//fx:SIGNAL-INSTANCE").c_str())) {
-    const std::string id = found.node().child("fx:SIGNAL-REF").attribute("ID-REF").value();
-    const pugi::xml_node one = xml.select_node(("//fx:SIGNAL[@ID='" + id + "']").c_str()).node();
-    if (one.child("ho:SHORT-NAME").text().get() != signal) continue;
-    EXPECT_STREQ(found.node().child("fx:IS-HIGH-LOW-BYTE-ORDER").text().get(), "true");
-    const std::string coding = one.child("fx:CODING-REF").attribute("ID-REF").value();
-    return {std::stoi(found.node().child("fx:BIT-POSITION").text().get()),
-            text(xml.select_node(("//fx:CODING[@ID='" + coding + "']/ho:CODED-TYPE/ho:BIT-LENGTH").c_str()))};
+// Where PDUs have their signals, straight from the XML.
+class Places {
+ public:
+  explicit Places(const pugi::xml_document& xml) : xml_(xml) {
+    for (const char* kind : {"//fx:SIGNAL", "//fx:CODING"})
+      for (const pugi::xpath_node& found : xml.select_nodes(kind))
+        by_id_[found.node().attribute("ID").value()] = found.node();
   }
-  ADD_FAILURE() << pdu << " has no signal " << signal;
-  return {};
-}
+  // By the names of the signals.
+  std::map<std::string, Place> of(const std::string& pdu) const {
+    std::map<std::string, Place> places;
+    for (const pugi::xpath_node& found :
+         xml_.select_nodes(("//fx:PDU[ho:SHORT-NAME='" + pdu + "']//fx:SIGNAL-INSTANCE").c_str())) {
+      const pugi::xml_node signal = by_id_.at(found.node().child("fx:SIGNAL-REF").attribute("ID-REF").value());
+      const pugi::xml_node coding = by_id_.at(signal.child("fx:CODING-REF").attribute("ID-REF").value());
+      EXPECT_STREQ(found.node().child("fx:IS-HIGH-LOW-BYTE-ORDER").text().get(), "true");
+      const std::string name = signal.child("ho:SHORT-NAME").text().get();
+      EXPECT_FALSE(places.contains(name)) << pdu << " has two signals " << name;
+      places[name] = {std::stoi(found.node().child("fx:BIT-POSITION").text().get()),
+                      std::stoi(coding.child("ho:CODED-TYPE").child("ho:BIT-LENGTH").text().get())};
+    }
+    return places;
+  }
+
+ private:
+  const pugi::xml_document& xml_;
+  std::map<std::string, pugi::xml_node> by_id_;
+};
 
 TEST_P(FibexShipped, PutsSignalsWhereTheCodecPutsTheirBits) {
   pugi::xml_document xml;
   ASSERT_TRUE(xml.load_string(fibex_text(cluster_).c_str()));
+  const Places places(xml);
   RandomStream random({.seed = 9, .purpose = Purpose::kTest, .entity = 2, .index = 0});
   for (const PduLayout& layout : cluster_.pdus) {
+    const auto in_header = places.of(layout.name + "_header"), in_elements = places.of(layout.name + "_elements");
     std::vector<std::byte> payload(static_cast<std::size_t>(layout.fragment_bytes));
     for (std::byte& byte : payload) byte = static_cast<std::byte>(random.bits());
     for (std::size_t s = 0; s < layout.header.size(); ++s) {
       if (layout.header[s].name == "spare") continue;
-      const Place place = place_of(xml, layout.name + "_header", layout.header[s].name);
+      ASSERT_TRUE(in_header.contains(layout.header[s].name)) << layout.name << " " << layout.header[s].name;
+      const Place place = in_header.at(layout.header[s].name);
       EXPECT_EQ(bits_at(payload, place.position, place.bits), wire::read_header_raw(layout, payload, s));
     }
     const std::vector<std::byte> elements(payload.begin() + layout.header_bits / 8, payload.end());
@@ -197,7 +213,8 @@ TEST_P(FibexShipped, PutsSignalsWhereTheCodecPutsTheirBits) {
       for (std::size_t s = 0; s < layout.element.size(); ++s) {
         if (layout.element[s].name == "spare") continue;
         const std::string name = fmt::format("{}_{}", layout.element[s].name, e);
-        const Place place = place_of(xml, layout.name + "_elements", name);
+        ASSERT_TRUE(in_elements.contains(name)) << layout.name << " " << name;
+        const Place place = in_elements.at(name);
         EXPECT_EQ(bits_at(elements, place.position, place.bits),
                   wire::read_element_raw(layout, payload, e, s))
             << name;
@@ -228,8 +245,9 @@ TEST(FibexExport, ByHand) {
   EXPECT_EQ(at((timing + "fx:CYCLE-REPETITION").c_str()), "8");
   // Of an image object 60 bits stand before the speed, and 192 in the first object: bit 252 is the fifth of
   // byte 31.
-  EXPECT_EQ(place_of(xml, "image_elements", "speed_1").position, 31 * 8 + 3);
-  EXPECT_EQ(place_of(xml, "image_elements", "speed_1").bits, 14);
+  const Place speed = Places(xml).of("image_elements").at("speed_1");
+  EXPECT_EQ(speed.position, 31 * 8 + 3);
+  EXPECT_EQ(speed.bits, 14);
   EXPECT_EQ(at("//fx:PDU[ho:SHORT-NAME='image']/fx:MULTIPLEXER/fx:SWITCH/fx:BIT-POSITION"), "23");
   EXPECT_EQ(at("//fx:PDU[ho:SHORT-NAME='image']/fx:MULTIPLEXER//fx:SWITCHED-PDU-INSTANCE[13]/fx:SWITCH-CODE"),
             "12");

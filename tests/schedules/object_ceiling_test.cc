@@ -22,7 +22,8 @@ TEST(ObjectCeiling, OfTheShippedClusters) {
   };
   for (const Expected& expected : {Expected{"paper_synchronised", 25, 32}, Expected{"paper_unsynchronised", 25, 32},
                                    Expected{"laser_radar", 3, 32}, Expected{"laser_radar_synchronised", 3, 32},
-                                   Expected{"flexray_demo", 4, 8}}) {
+                                   Expected{"flexray_demo", 4, 8}, Expected{"thousand_unsynchronised", 1000, 1000},
+                                   Expected{"thousand_synchronised", 1000, 1000}}) {
     const ObjectCeiling ceiling = ceiling_of(expected.name);
     EXPECT_EQ(ceiling.carried, expected.carried) << expected.name;
     EXPECT_EQ(ceiling.with_all_static_slots, expected.with_all_static_slots) << expected.name;

@@ -129,6 +129,14 @@ TEST(Camera, HiddenFarAndOutsideObjectsAreNotSeen) {
   EXPECT_TRUE(frame(config, {car_at(0, -20.0, 0.0)}).truth.empty());
 }
 
+// From a mast one sees over what is near: behind it only the share of its distance that its shadow takes is hidden.
+TEST(Camera, FromAboveOnlyWhatIsInAShadowIsHidden) {
+  CameraConfig config = exact_camera();
+  config.shadow = 0.5;
+  EXPECT_EQ(frame(config, {car_at(0, 40.0, 0.0), car_at(1, 15.0, 0.2)}).truth.size(), 2U);
+  EXPECT_EQ(frame(config, {car_at(0, 21.0, 0.0), car_at(1, 15.0, 0.2)}).truth, std::vector<ObjectId>{ObjectId{1}});
+}
+
 TEST(Camera, OneObjectsVisibilityNeverShiftsAnothersNoise) {
   CameraConfig config;
   config.clutter_per_frame = config.miss_probability = 0.0;
