@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "cli/drive_setup.h"
+#include "cli/experiment_drives.h"
 #include "cli/experiment_options.h"
 #include "cli/output.h"
 #include "cli/progress.h"
@@ -60,19 +60,10 @@ results::RunKey key_of(const std::string& text, const SweepFile& sweep) {
 int replay(const ExperimentOptions& options, const SweepDrives& drives) {
   const SweepFile& sweep = drives.sweep();
   const results::RunKey key = key_of(*options.replay, sweep);
-  const experiments::PreparedDrive drive = drives.prepare(key);
-  std::unique_ptr<recording::LogWriter> log;
-  if (!options.out.empty()) {
-    create_folder(options.out);
-    log = begin_log(fmt::format("{}/{}.mcap", options.out, sweep.paradigms[key.paradigm].name),
-                    manifest_of(drive.scenario, drive.cluster, drive.strategy, sweep.seed, {}), drive.scenario,
-                    drive.cluster);
-  }
-  const results::Run run = drives.run(key, drive, log.get());
-  if (log) {
-    log->close();
-    fmt::print(stderr, "written to {}\n", options.out);
-  }
+  if (!options.out.empty()) create_folder(options.out);
+  const results::Run run =
+      options.out.empty() ? drives.run(key, drives.prepare(key)) : drive_again(drives, key, options.out);
+  if (!options.out.empty()) fmt::print(stderr, "written to {}\n", options.out);
   fmt::print("{}, {}, replication {}: {}\n", sweep.label_of(key.point), sweep.paradigms[key.paradigm].name,
              key.replication, run.status);
   const std::vector<std::string> columns = drives.columns();
@@ -144,8 +135,9 @@ nlohmann::ordered_json to_json(const results::Interval& interval) {
 }
 
 nlohmann::ordered_json to_json(const SweepFile& sweep, const experiments::SweepAnswer& answer) {
-  nlohmann::ordered_json json{{"experiment", sweep.name},     {"question", sweep.question},
-                              {"seed", sweep.seed},           {"confidence", sweep.confidence},
+  nlohmann::ordered_json json{{"experiment", sweep.name},     {"file", sweep.file},
+                              {"question", sweep.question},   {"seed", sweep.seed},
+                              {"confidence", sweep.confidence},
                               {"runs", answer.runs},          {"failed", answer.failed},
                               {"baseline", sweep.paradigms[sweep.baseline].name},
                               {"answer", experiments::answer_sentences(sweep, answer)}};

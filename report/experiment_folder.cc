@@ -141,6 +141,7 @@ ExperimentFolder read_experiment_folder(const std::string& path) {
   folder.question = reader.text(json, "", "question");
   folder.answer = reader.text(json, "", "answer");
   folder.baseline = reader.text(json, "", "baseline");
+  if (json.contains("file")) folder.file = reader.text(json, "", "file");
   folder.seed = reader.count(json, "", "seed");
   folder.runs = reader.count(json, "", "runs");
   folder.failed = reader.count(json, "", "failed");

@@ -43,6 +43,7 @@ struct ExperimentMeasure {
 
 struct ExperimentFolder {
   std::string path, name, question, answer, baseline;
+  std::string file;                                // the experiment's, as it was named then; "" in older ones
   std::uint64_t seed = 0, runs = 0, failed = 0;
   double confidence = 0.95;
   std::vector<std::string> axes, paradigms;        // in the file's order
