@@ -77,7 +77,10 @@ void check_same_experiment(const SweepDrives& drives, const report::ExperimentFo
     throw NoDrives(fmt::format("the runs are of version {} of the program, and this is {}", head.version, TTF_VERSION));
   std::vector<std::string> names;
   for (const experiments::Paradigm& paradigm : sweep.paradigms) names.push_back(paradigm.name);
-  if (head.identity != drives.identity() || head.measures != drives.columns() || names != folder.paradigms)
+  const std::size_t points = sweep.points();
+  const bool all_there = std::ranges::all_of(
+      folder.points, [&](const report::ExperimentPoint& point) { return point.point < points; });
+  if (!all_there || head.identity != drives.identity() || head.measures != drives.columns() || names != folder.paradigms)
     throw NoDrives(fmt::format("{}, or a file that it names, is not as it was when the experiment was driven",
                                sweep.file));
 }

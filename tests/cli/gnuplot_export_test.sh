@@ -35,6 +35,14 @@ head -c $(($(stat -c %s "$work/run/tt.mcap") * 2 / 3)) "$work/run/tt.mcap" >"$wo
 expect 0 'warning: .*cut.mcap' export "$work/cut.mcap" --format gnuplot -o "$work/cut"
 drawn "$work/cut"
 
+# ---- an image that is used once
+sed -e 's/^duration: .*/duration: 120 ms/' -e 's/^evaluate_from: .*/evaluate_from: 0 ms/' -e "s#\.\./#$source/#" \
+  "$source/scenarios/paper_scenario1.yaml" >"$work/once.yaml"
+"$program" run "$work/once.yaml" --strategy tt --no-pictures --out "$work/once" >/dev/null 2>&1 || fail "the short run fails"
+expect 0 '8 files written to' export "$work/once" --format gnuplot -o "$work/once_figures"
+[[ $(wc -l <"$work/once_figures/tt_errors.csv") -eq 2 ]] || fail "not one use"
+drawn "$work/once_figures"
+
 # ---- an experiment with an axis of numbers and one of labels, and one of a single run
 experiment() {
   cat <<END
