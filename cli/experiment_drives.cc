@@ -80,7 +80,8 @@ void check_same_experiment(const SweepDrives& drives, const report::ExperimentFo
   const std::size_t points = sweep.points();
   const bool all_there = std::ranges::all_of(
       folder.points, [&](const report::ExperimentPoint& point) { return point.point < points; });
-  if (!all_there || head.identity != drives.identity() || head.measures != drives.columns() || names != folder.paradigms)
+  if (!all_there || head.identity != drives.identity() || head.measures != drives.columns() ||
+      names != folder.paradigms)
     throw NoDrives(fmt::format("{}, or a file that it names, is not as it was when the experiment was driven",
                                sweep.file));
 }
@@ -103,7 +104,8 @@ std::vector<report::Drive> all_driven(const report::ExperimentFolder& folder, co
   const SweepDrives drives(sweep);
   check_same_experiment(drives, folder);
   const std::vector<results::Run> runs = first_done_by_all(*folder.store, point, folder.paradigms.size());
-  if (runs.empty()) throw NoDrives(fmt::format("at point {} there is no replication that every paradigm has done", point));
+  if (runs.empty())
+    throw NoDrives(fmt::format("at point {} there is no replication that every paradigm has done", point));
   replication = runs.front().key.replication;
   fmt::print(stderr, "{}: {} of point {}, replication {}, again ...\n", sweep.name, counted(runs.size(), "run"), point,
              replication);
@@ -139,7 +141,9 @@ report::ExperimentDrives drives_of(const report::ExperimentFolder& folder, const
     if (path.empty()) throw NoDrives("answer.json does not say where the experiment's file is (--file does)");
     result.drives = all_driven(folder, path, result.point, result.replication);
   } catch (const NoDrives& reason) {
-    if (file) throw InputError({"command line", 0, "--file", *file, std::string("cannot be driven again: ") + reason.what()});
+    if (file)
+      throw InputError(
+          {"command line", 0, "--file", *file, std::string("cannot be driven again: ") + reason.what()});
     result.why_none = fmt::format("No drive is shown here: {}.", reason.what());
   } catch (const InputError& error) {
     if (file) throw;

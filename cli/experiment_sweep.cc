@@ -48,13 +48,16 @@ results::RunKey key_of(const std::string& text, const SweepFile& sweep) {
     const std::string_view all = text;
     const std::string_view name = all.substr(first + 1, second - first - 1);
     for (std::uint32_t p = 0; p < sweep.paradigms.size(); ++p)
-      if (key.paradigm = p; sweep.paradigms[p].name == name && number(all.substr(0, first), sweep.points(), key.point) &&
+      if (key.paradigm = p; sweep.paradigms[p].name == name &&
+                            number(all.substr(0, first), sweep.points(), key.point) &&
                             number(all.substr(second + 1), sweep.replications, key.replication))
         return key;
   }
-  throw InputError({"command line", 0, "--replay", text,
-                    fmt::format("must be point/paradigm/replication, of points 0..{} and replications 0..{}; paradigms: {}",
-                                sweep.points() - 1, sweep.replications - 1, names_of(sweep))});
+  throw InputError(
+      {"command line", 0, "--replay", text,
+       fmt::format(
+           "must be point/paradigm/replication, of points 0..{} and replications 0..{}; paradigms: {}",
+           sweep.points() - 1, sweep.replications - 1, names_of(sweep))});
 }
 
 int replay(const ExperimentOptions& options, const SweepDrives& drives) {
@@ -124,7 +127,8 @@ void drive(const ExperimentOptions& options, const SweepDrives& drives, experime
   const Progress progress("runs");
   experiments::run_sweep(
       drives, store, shard, jobs,
-      [&](const experiments::SweepProgress& now) { progress(now.done, now.all, now.driven); }, alone ? nullptr : &ranks);
+      [&](const experiments::SweepProgress& now) { progress(now.done, now.all, now.driven); },
+      alone ? nullptr : &ranks);
 }
 
 nlohmann::ordered_json to_json(double value) {
@@ -190,7 +194,8 @@ int drive_and_answer(const ExperimentOptions& options, const SweepDrives& drives
   // All that can be wrong with what is asked for, before anything is written.
   const experiments::Shard shard = shard_of(options.shard);
   if (!options.shard.empty() && sweep.stop)
-    throw InputError({"command line", 0, "--shard", options.shard, "needs an experiment without `stop`: no shard sees enough"});
+    throw InputError({"command line", 0, "--shard", options.shard,
+                      "needs an experiment without `stop`: no shard sees enough"});
   std::vector<Store> shards;
   for (const std::string& from : options.merge) shards.push_back(opened(drives, from + "/results.sqlite"));
 

@@ -112,7 +112,8 @@ void add_report(CLI::App& app, Action& action) {
   command->add_option("--to", options->to_s, "End of the timing diagrams (default: 160 ms later; 2 s later at most)")
       ->check(CLI::NonNegativeNumber);
   auto* file = command->add_option(
-      "--file", options->file, "An experiment's file, where it is not where it was: a run of each paradigm is driven again");
+      "--file", options->file,
+      "An experiment's file, where it is not where it was: a run of each paradigm is driven again");
   auto* point = command->add_option("--point", options->point, "Of which point (default: the first)");
   auto* none = command->add_flag("--no-drives", options->no_drives, "Drive nothing again: no timing diagrams");
   none->excludes(file)->excludes(point);

@@ -159,9 +159,10 @@ void how_made(Page& page, const ExperimentFolder& folder) {
               {"identity of all inputs", head.identity},
               {"seed", std::to_string(folder.seed)},
               {"rows in results.sqlite", std::to_string(folder.store->count())}});
-  page.paragraph(std::string("The whole of it again, and one run with its log and a report of its own. The experiment's "
-                             "file is below") +
-                 (folder.file.empty() ? "; it may be in another folder than experiments/:" : ":"));
+  page.paragraph(
+      std::string("The whole of it again, and one run with its log and a report of its own. The experiment's "
+                  "file is below") +
+      (folder.file.empty() ? "; it may be in another folder than experiments/:" : ":"));
   page.command(fmt::format("ttfusion experiment {0} --out again\nttfusion experiment {0} --replay {1} --out one\n"
                            "ttfusion report one -o one.html\n",
                            file, shell_word(fmt::format("0/{}/0", folder.paradigms.front()))));

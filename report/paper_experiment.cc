@@ -209,7 +209,8 @@ class MeasureFigure {
 
   // `column`: 0 means, 2 differences.
   std::string panel(std::size_t k, const std::string& label, int column) const {
-    std::string text = fmt::format("set title {}\nset ylabel {}\n", gnuplot_text(cases_.names()[k]), gnuplot_text(label));
+    std::string text =
+        fmt::format("set title {}\nset ylabel {}\n", gnuplot_text(cases_.names()[k]), gnuplot_text(label));
     text += column == 0 && logarithmic_means() ? "set logscale y\n" : "unset logscale y\n";
     text += range_of(k, column);
     if (!x_.by_number) text += label_tics(k);

@@ -94,8 +94,9 @@ std::string range_of_errors(const PaperRun& run, bool any_of_one) {
 }
 
 PaperFile errors(const std::vector<PaperRun>& runs) {
-  const bool any_of_one = std::any_of(
-      runs.begin(), runs.end(), [](const PaperRun& run) { return run.errors && run.first_error_s == run.last_error_s; });
+  const bool any_of_one = std::any_of(runs.begin(), runs.end(), [](const PaperRun& run) {
+    return run.errors && run.first_error_s == run.last_error_s;
+  });
   GnuplotFigure figure;
   figure.name = "errors";
   figure.about = {"error of the image of the tracked car when it was used, against the truth, and ±2σ of the filter",

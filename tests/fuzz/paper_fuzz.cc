@@ -1,5 +1,5 @@
-// Any text as an experiment's summary.csv. Laws: it is refused in a line; or every table and script has a name that is a
-// file's, and no name in a script or table is a command, a line or a row of its own.
+// Any text as an experiment's summary.csv. Laws: it is refused in a line; or every table and script has a name that is
+// a file's, and no name in a script or table is a command, a line or a row of its own.
 #include <algorithm>
 
 #include "core/check.h"
@@ -17,7 +17,8 @@ void check_table(const std::string& text) {
   while (lines.next()) {
     TTF_CHECK(lines.broken().empty(), "line {}: {}", lines.line(), lines.broken());
     if (fields == 0) fields = lines.fields().size();
-    TTF_CHECK(lines.fields().size() == fields, "line {} has {} fields of {}", lines.line(), lines.fields().size(), fields);
+    TTF_CHECK(lines.fields().size() == fields, "line {} has {} fields of {}", lines.line(),
+              lines.fields().size(), fields);
   }
 }
 
@@ -59,9 +60,14 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
           kFile, [&] { files = report::paper_of_experiment(fuzz::text_of(data, size), kFile, "e\n\"`x`\\", words); }))
     return 0;
   for (const report::PaperFile& file : files) {
-    TTF_CHECK(!file.name.starts_with('.') && std::all_of(file.name.begin(), file.name.end(), [](char c) {
-                return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '.';
-              }), "a file called {}", file.name);
+    TTF_CHECK(!file.name.starts_with('.') && std::all_of(file.name.begin(), file.name.end(),
+                                                         [](char c) {
+                                                           return (c >= 'a' && c <= 'z') ||
+                                                                  (c >= 'A' && c <= 'Z') ||
+                                                                  (c >= '0' && c <= '9') || c == '_' ||
+                                                                  c == '.';
+                                                         }),
+              "a file called {}", file.name);
     if (file.name.ends_with(".csv"))
       check_table(file.text);
     else

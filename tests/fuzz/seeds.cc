@@ -192,7 +192,8 @@ void live_seeds(const fs::path& folder) {
 // A schedule's frames as pcapng and, from the same packets, as pcap; short enough to be edited.
 // A turn of every act, and one without.
 void turn_seeds(const fs::path& folder) {
-  const schedules::Cluster cluster = schedules::parse_cluster(fuzz::shipped("schedules/flexray_demo.yaml"), "flexray_demo");
+  const schedules::Cluster cluster =
+      schedules::parse_cluster(fuzz::shipped("schedules/flexray_demo.yaml"), "flexray_demo");
   std::array<std::byte, wire::kMaxFrameBytes> room{};
   wire::FrameHeader header;
   header.frame_id = 3;
@@ -206,13 +207,15 @@ void turn_seeds(const fs::path& folder) {
     const auto bytes = writer.finish({node, 1, Microticks{400}, {Microticks{900}, Microticks{}, Microticks{5}}});
     write(folder / "turn" / name, std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
   };
-  const bus::Transmission signal{schedules::Channel::kA, bus::Signal::kFrame, Microticks{400}, Microticks{500}, 3, frame};
+  const bus::Transmission signal{
+      schedules::Channel::kA, bus::Signal::kFrame, Microticks{400}, Microticks{500}, 3, frame};
   bus::Transmission symbol = signal;
   symbol.signal = bus::Signal::kWakeup;
   symbol.bytes = {};
   add("silent", NodeId{0}, {});
   add("host", cluster.sensor(sensor).host, {signal, symbol, sim::TriggerAct{sensor}});
-  add("device", cluster.sensor(sensor).device, {sim::StrobeAct{sensor, 7}, sim::CanAct{0, {0x20, false, frame.first(8)}}});
+  add("device", cluster.sensor(sensor).device,
+      {sim::StrobeAct{sensor, 7}, sim::CanAct{0, {0x20, false, frame.first(8)}}});
 }
 
 void capture_seeds(const fs::path& folder) {
@@ -238,8 +241,9 @@ void capture_seeds(const fs::path& folder) {
                                       recording::check_flexray_frame(channel, std::span(frame).first(size)));
         const std::int64_t at = i / 6 * 5'000'000 + header.frame_id * 84'000;
         writer.packet(1, at, packet, i % 6 == 0 ? "measurement laser 12" : "");
-        for (const std::int64_t field : {std::int64_t{0}, at / (nanoseconds ? 1 : 1000),
-                                         static_cast<std::int64_t>(packet.size()), static_cast<std::int64_t>(packet.size())})
+        for (const std::int64_t field :
+             {std::int64_t{0}, at / (nanoseconds ? 1 : 1000), static_cast<std::int64_t>(packet.size()),
+              static_cast<std::int64_t>(packet.size())})
           put(pcap, static_cast<std::uint32_t>(field));
         pcap += packet;
       }
@@ -389,9 +393,9 @@ void result_seeds(const fs::path& folder) {
   write(folder / "paper/grid", head + rows);
   write(folder / "paper/one", "point,paradigm,measure,count,mean,half_width,difference,difference_half_width\n"
                               "0,\"a \"\"b\"\"\",nees,1,2,,,\n");
-  write_dictionary(folder / "paper.dict",
-                   {"point", "paradigm", "measure", "count", "mean", "half_width", "difference",
-                    "difference_half_width", "nees", "e308", "nan", "-", "\\x22", "\\x60", "#", " ms", "\\x0d\\x0a", ",,"});
+  write_dictionary(folder / "paper.dict", {"point", "paradigm", "measure", "count", "mean", "half_width",
+                                           "difference", "difference_half_width", "nees", "e308", "nan", "-",
+                                           "\\x22", "\\x60", "#", " ms", "\\x0d\\x0a", ",,"});
 
   const fs::path path = folder / "store/small";
   fs::create_directories(path.parent_path());

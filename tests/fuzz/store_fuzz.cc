@@ -1,5 +1,5 @@
-// Any bytes as an experiment's results.sqlite, beside an answer of its own. Laws: it is refused in a line that names the
-// file, or makes a page whose tables are as whole as ever; what it is asked for, it answers.
+// Any bytes as an experiment's results.sqlite, beside an answer of its own. Laws: it is refused in a line that names
+// the file, or makes a page whose tables are as whole as ever; what it is asked for, it answers.
 #include <stdlib.h>
 #include <unistd.h>
 

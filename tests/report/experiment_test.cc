@@ -74,6 +74,22 @@ TEST_F(ExperimentReport, TheAnswerIsTheRunsOwn) {
     EXPECT_NE(html.find(words), std::string::npos) << words;
 }
 
+TEST_F(ExperimentReport, ItsCommandsNameTheFileThatWasDriven) {
+  EXPECT_NE(page().find("ttfusion experiment experiments/e.yaml --out again"), std::string::npos);
+  std::string answer = answer_of(point(0, "1", "1"));
+  write(answer.insert(1, R"("file": "my own/e.yaml", )"));
+  EXPECT_NE(page().find("ttfusion experiment 'my own/e.yaml' --out again"), std::string::npos);
+}
+
+TEST_F(ExperimentReport, WhyNoDriveIsShownIsSaid) {
+  EXPECT_EQ(page().find("One drive of each paradigm"), std::string::npos);
+  ExperimentDrives none;
+  none.why_none = "No drive is shown here: it <was> another.";
+  const std::string html = experiment_report_html(read_experiment_folder(folder_), none, {});
+  EXPECT_NE(html.find("No drive is shown here: it &lt;was&gt; another."), std::string::npos);
+  EXPECT_EQ(html.find("class=\"diagram\""), std::string::npos);
+}
+
 TEST_F(ExperimentReport, WithoutItsRunsNothingIsCertain) {
   std::filesystem::remove(folder_ + "/results.sqlite");
   EXPECT_EQ(experiment_answer(read_experiment_folder(folder_)), "tt has the smallest error at all 2 points.");
