@@ -244,6 +244,15 @@ expect 0 'warning: .*cut.mcap' export "$work/cut.mcap" --format perfetto -o "$wo
 protoc --decode=ttfusion.perfetto.Trace -I "$source/recording" "$source/recording/perfetto.proto" \
   <"$work/drive.pftrace" |
   grep -q 'name: "age of the newest measurement when used \[ms\]"' || fail "export --format perfetto leaves no trace"
+# As others read it, by Perfetto's own numbers: sound, and with all that the export says it wrote.
+said=$(python3 "$source/tests/cli/perfetto_reader.py" "$work/drive.pftrace") || fail "drive.pftrace: $said"
+told=$("$program" export "$work/a/tt.mcap" --format perfetto --json -o "$work/drive.pftrace" 2>/dev/null |
+  python3 -c 'import json, sys; t = json.load(sys.stdin); print("%d slices, %d instants, %d counts, %d flows" %
+    (t["slices"], t["instants"], t["counter_values"], t["flows"]))')
+[[ $said == *" tracks, $told" ]] || fail "the trace has $said, the export says $told"
+cat "$work/drive.pftrace" "$work/drive.pftrace" >"$work/twice.pftrace"
+python3 "$source/tests/cli/perfetto_reader.py" "$work/twice.pftrace" >"$work/said" && fail "two traces in one are sound"
+python3 "$source/tests/cli/perfetto_reader.py" "$work/cut.pftrace" >"$work/said" || fail "cut.pftrace: $(cat "$work/said")"
 expect 1 'absent/x.pftrace: cannot be written' export "$work/a/tt.mcap" --format perfetto -o "$work/absent/x.pftrace"
 if [[ -c /dev/full ]]; then
   expect 1 '/dev/full: cannot be written: No space left' export "$work/a/tt.mcap" --format perfetto -o /dev/full
