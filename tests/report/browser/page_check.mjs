@@ -262,6 +262,12 @@ async function looks(name, file) {
   await paper.emulateMedia({ media: "print" });
   const hidden = await paper.locator("nav").isHidden();
   check(`${name}: contents are not printed`, hidden);
+  const diagrams = paper.locator(".diagram"), all = await diagrams.count();
+  check(`${name}: all ${all} diagrams are printed`, await paper.locator(".diagram:visible").count() === all);
+  for (let i = 0; i < all; ++i) {
+    const label = await diagrams.nth(i).evaluate((box) => getComputedStyle(box, "::before").content);
+    check(`${name}: diagram ${i} is printed with its name: ${label}`, label.length > 3 && label !== "none");
+  }
   await paper.context().close();
 }
 
