@@ -35,6 +35,7 @@ int run_sweep_experiment(const ExperimentOptions& options, experiments::Ranks& a
 // A sweep, on more ranks than one: every rank reads it, and what is wrong is told once.
 int run_on_ranks(const ExperimentOptions& options, experiments::Ranks& ranks);
 // Drives what the store does not have yet, and writes and prints the answer. Of more ranks than one: on rank 0.
-int drive_and_answer(const ExperimentOptions& options, const experiments::SweepDrives& drives, experiments::Ranks& ranks);
+int drive_and_answer(const ExperimentOptions& options, const experiments::SweepDrives& drives,
+                     experiments::Ranks& ranks);
 
 }  // namespace ttf::cli

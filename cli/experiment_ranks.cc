@@ -24,7 +24,8 @@ int run_on_ranks(const ExperimentOptions& options, experiments::Ranks& ranks) {
     refuse(options.replay.has_value(), "--replay", "needs no mpirun: it is one run");
     refuse(!options.merge.empty(), "--merge", "needs no mpirun: nothing is driven");
     if (kind_of(options) != ExperimentKind::kSweep)
-      throw InputError({options.file, 0, "kind", "fault_campaign", "must be sweep under mpirun: a campaign has --shard"});
+      throw InputError(
+          {options.file, 0, "kind", "fault_campaign", "must be sweep under mpirun: a campaign has --shard"});
     sweep.emplace(experiments::load_sweep(options.file));
     drives.emplace(*sweep);
   } catch (const InputError& error) {

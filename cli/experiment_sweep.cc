@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "cli/drive_setup.h"
+#include "cli/experiment_drives.h"
 #include "cli/experiment_options.h"
 #include "cli/output.h"
 #include "cli/progress.h"
@@ -48,31 +48,25 @@ results::RunKey key_of(const std::string& text, const SweepFile& sweep) {
     const std::string_view all = text;
     const std::string_view name = all.substr(first + 1, second - first - 1);
     for (std::uint32_t p = 0; p < sweep.paradigms.size(); ++p)
-      if (key.paradigm = p; sweep.paradigms[p].name == name && number(all.substr(0, first), sweep.points(), key.point) &&
+      if (key.paradigm = p; sweep.paradigms[p].name == name &&
+                            number(all.substr(0, first), sweep.points(), key.point) &&
                             number(all.substr(second + 1), sweep.replications, key.replication))
         return key;
   }
-  throw InputError({"command line", 0, "--replay", text,
-                    fmt::format("must be point/paradigm/replication, of points 0..{} and replications 0..{}; paradigms: {}",
-                                sweep.points() - 1, sweep.replications - 1, names_of(sweep))});
+  throw InputError(
+      {"command line", 0, "--replay", text,
+       fmt::format(
+           "must be point/paradigm/replication, of points 0..{} and replications 0..{}; paradigms: {}",
+           sweep.points() - 1, sweep.replications - 1, names_of(sweep))});
 }
 
 int replay(const ExperimentOptions& options, const SweepDrives& drives) {
   const SweepFile& sweep = drives.sweep();
   const results::RunKey key = key_of(*options.replay, sweep);
-  const experiments::PreparedDrive drive = drives.prepare(key);
-  std::unique_ptr<recording::LogWriter> log;
-  if (!options.out.empty()) {
-    create_folder(options.out);
-    log = begin_log(fmt::format("{}/{}.mcap", options.out, sweep.paradigms[key.paradigm].name),
-                    manifest_of(drive.scenario, drive.cluster, drive.strategy, sweep.seed, {}), drive.scenario,
-                    drive.cluster);
-  }
-  const results::Run run = drives.run(key, drive, log.get());
-  if (log) {
-    log->close();
-    fmt::print(stderr, "written to {}\n", options.out);
-  }
+  if (!options.out.empty()) create_folder(options.out);
+  const results::Run run =
+      options.out.empty() ? drives.run(key, drives.prepare(key)) : drive_again(drives, key, options.out);
+  if (!options.out.empty()) fmt::print(stderr, "written to {}\n", options.out);
   fmt::print("{}, {}, replication {}: {}\n", sweep.label_of(key.point), sweep.paradigms[key.paradigm].name,
              key.replication, run.status);
   const std::vector<std::string> columns = drives.columns();
@@ -133,7 +127,8 @@ void drive(const ExperimentOptions& options, const SweepDrives& drives, experime
   const Progress progress("runs");
   experiments::run_sweep(
       drives, store, shard, jobs,
-      [&](const experiments::SweepProgress& now) { progress(now.done, now.all, now.driven); }, alone ? nullptr : &ranks);
+      [&](const experiments::SweepProgress& now) { progress(now.done, now.all, now.driven); },
+      alone ? nullptr : &ranks);
 }
 
 nlohmann::ordered_json to_json(double value) {
@@ -144,8 +139,9 @@ nlohmann::ordered_json to_json(const results::Interval& interval) {
 }
 
 nlohmann::ordered_json to_json(const SweepFile& sweep, const experiments::SweepAnswer& answer) {
-  nlohmann::ordered_json json{{"experiment", sweep.name},     {"question", sweep.question},
-                              {"seed", sweep.seed},           {"confidence", sweep.confidence},
+  nlohmann::ordered_json json{{"experiment", sweep.name},     {"file", sweep.file},
+                              {"question", sweep.question},   {"seed", sweep.seed},
+                              {"confidence", sweep.confidence},
                               {"runs", answer.runs},          {"failed", answer.failed},
                               {"baseline", sweep.paradigms[sweep.baseline].name},
                               {"answer", experiments::answer_sentences(sweep, answer)}};
@@ -198,7 +194,8 @@ int drive_and_answer(const ExperimentOptions& options, const SweepDrives& drives
   // All that can be wrong with what is asked for, before anything is written.
   const experiments::Shard shard = shard_of(options.shard);
   if (!options.shard.empty() && sweep.stop)
-    throw InputError({"command line", 0, "--shard", options.shard, "needs an experiment without `stop`: no shard sees enough"});
+    throw InputError({"command line", 0, "--shard", options.shard,
+                      "needs an experiment without `stop`: no shard sees enough"});
   std::vector<Store> shards;
   for (const std::string& from : options.merge) shards.push_back(opened(drives, from + "/results.sqlite"));
 

@@ -19,6 +19,7 @@
 #include "recording/csv.h"
 #include "recording/merge.h"
 #include "recording/records/tee.h"
+#include "recording/stored_log.h"
 #include "report/paper_experiment.h"
 #include "report/paper_run.h"
 #include "report/position_plot.h"
@@ -89,6 +90,8 @@ class RunTables {
         for (const double value : *values) text += ',' + table_number(value);
       text += ',' + table_number(row.nees) + '\n';
       if (static_cast<int>(index_of(row.object)) != has_.object) continue;
+      if (!has_.errors) has_.first_error_s = in_seconds(row.at);
+      has_.last_error_s = in_seconds(row.at);
       has_.errors = true;
       has_.sigmas = has_.sigmas || std::isfinite(row.sigma[0]);
     }
@@ -182,10 +185,7 @@ std::vector<std::string> export_gnuplot(const std::vector<std::string>& inputs, 
       files = of_experiment(summary);
       continue;
     }
-    std::vector<std::string> found;
-    for (const auto& entry : fs::directory_iterator(input, none))
-      if (entry.path().extension() == ".mcap") found.push_back(entry.path().string());
-    std::sort(found.begin(), found.end());
+    const std::vector<std::string> found = recording::logs_in(input);
     if (found.empty())
       throw InputError({input, 0, "", "", "holds neither logs (.mcap) nor an experiment's summary.csv"});
     logs.insert(logs.end(), found.begin(), found.end());

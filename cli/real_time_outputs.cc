@@ -157,7 +157,8 @@ nlohmann::ordered_json real_time_json(const StrategyResult& result) {
     one["sender_away"] = timing.missing.away;
     one["lost_on_the_way"] = timing.lost_on_the_way();
     one["medium"] = nullptr;
-    if (const auto told = found.medium.find(node); told != found.medium.end()) one["medium"] = medium_json(told->second);
+    if (const auto told = found.medium.find(node); told != found.medium.end())
+      one["medium"] = medium_json(told->second);
     one["largest_offset_correction_us"] = nullptr;
     if (timing.largest_offset_correction)
       one["largest_offset_correction_us"] = in_us(*timing.largest_offset_correction);

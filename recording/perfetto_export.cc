@@ -6,6 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include "recording/slot_status.h"
+
 namespace ttf::recording {
 namespace {
 
@@ -21,20 +23,19 @@ TrueTime shown(TrueTime at) { return {std::clamp<std::int64_t>(at.ns, 0, kTraceR
 std::string channel_lane(std::uint8_t channel) { return channel == 0 ? "channel A" : "channel B"; }
 std::string microseconds(Duration time) { return fmt::format("{:.1f} us", static_cast<double>(time.ns) * 1e-3); }
 
-template <class Bits>
-std::string named_bits(unsigned set, const Bits& names) {
-  std::string text;
-  for (const auto& [bit, name] : names)
-    if ((set & bit) != 0) text += (text.empty() ? "" : ", ") + std::string(name);
-  return text;
+
+// What became of a frame on a channel: bits of records::ChannelFrame.
+std::string channel_state_words(unsigned state) {
+  static constexpr std::pair<unsigned, const char*> kWords[] = {{records::kChannelHeaderCrc, "header CRC error"},
+                                                                {records::kChannelFrameCrc, "frame CRC error"},
+                                                                {records::kChannelCoding, "coding error"},
+                                                                {records::kChannelCut, "cut"},
+                                                                {records::kChannelNothing, "reached nobody"}};
+  std::string words;
+  for (const auto& [bit, word] : kWords)
+    if ((state & bit) != 0) words += (words.empty() ? "" : ", ") + std::string(word);
+  return words;
 }
-constexpr std::pair<unsigned, const char*> kSlotStatus[] = {
-    {1, "syntax error"}, {2, "content error"}, {4, "boundary violation"}, {8, "conflict"}, {16, "no frame"}};
-constexpr std::pair<unsigned, const char*> kChannelStates[] = {{records::kChannelHeaderCrc, "header CRC error"},
-                                                               {records::kChannelFrameCrc, "frame CRC error"},
-                                                               {records::kChannelCoding, "coding error"},
-                                                               {records::kChannelCut, "cut"},
-                                                               {records::kChannelNothing, "reached nobody"}};
 
 const char* words_of_loss(records::Hop hop) {
   switch (hop) {
@@ -176,7 +177,7 @@ void PerfettoExport::on(const records::SymbolSent& r) {
 }
 
 void PerfettoExport::on(const records::ChannelFrame& r) {
-  const std::string state = named_bits(r.state, kChannelStates);
+  const std::string state = channel_state_words(r.state);
   const std::string whose = r.slot != 0 ? fmt::format("slot {} of {}", r.slot, names_.node(r.sender))
                             : r.sender != kNoNode
                                 ? fmt::format("the controller of {} did not send it", names_.node(r.sender))
@@ -191,7 +192,7 @@ void PerfettoExport::on(const records::GuardianIntervention& r) {
 }
 
 void PerfettoExport::on(const records::SlotProblem& r) {
-  node_instant(r.stamp.node, "slot problems", r.stamp.true_time, named_bits(r.status, kSlotStatus),
+  node_instant(r.stamp.node, "slot problems", r.stamp.true_time, slot_status_words(r.status),
                {{"slot", std::int64_t{r.slot}}, {"cycle", r.cycle}, {"channel", channel_lane(r.channel)}});
 }
 

@@ -1,6 +1,8 @@
 #include "recording/stored_log.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "core/file_bytes.h"
@@ -44,6 +46,15 @@ class ChunkTimes final : public Placing {
 };
 
 }  // namespace
+
+std::vector<std::string> logs_in(const std::string& folder) {
+  std::vector<std::string> logs;
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, none))
+    if (entry.path().extension() == ".mcap") logs.push_back(entry.path().string());
+  std::sort(logs.begin(), logs.end());
+  return logs;
+}
 
 StoredLog::StoredLog(const std::string& path) : StoredLog(read_file(path), path) {}
 

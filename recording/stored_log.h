@@ -12,6 +12,9 @@
 
 namespace ttf::recording {
 
+// The logs (*.mcap) of a folder, by their names; none where it cannot be read.
+std::vector<std::string> logs_in(const std::string& folder);
+
 class StoredLog {
  public:
   // Throws InputError as read_log() does.

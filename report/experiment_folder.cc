@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/errors.h"
+#include "core/file_bytes.h"
 #include "report/run_folder.h"
 
 namespace ttf::report {
@@ -114,6 +115,8 @@ void read_points(const AnswerReader& reader, const Json& json, ExperimentFolder&
   }
 }
 
+}  // namespace
+
 void read_store(const std::string& path, ExperimentFolder& folder) {
   std::error_code none;
   if (!std::filesystem::exists(path, none)) return;
@@ -129,18 +132,15 @@ void read_store(const std::string& path, ExperimentFolder& folder) {
       throw InputError({path, 0, measure.name, "", "is no column of its runs: answer.json is of another experiment"});
 }
 
-}  // namespace
-
-ExperimentFolder read_experiment_folder(const std::string& path) {
-  const std::string file = path + "/answer.json";
-  const Json json = read_json(file);
+ExperimentFolder parse_answer(std::string_view text, const std::string& file) {
+  const Json json = parse_json(text, file);
   const AnswerReader reader(file);
   ExperimentFolder folder;
-  folder.path = path;
   folder.name = reader.text(json, "", "experiment");
   folder.question = reader.text(json, "", "question");
   folder.answer = reader.text(json, "", "answer");
   folder.baseline = reader.text(json, "", "baseline");
+  if (json.contains("file")) folder.file = reader.text(json, "", "file");
   folder.seed = reader.count(json, "", "seed");
   folder.runs = reader.count(json, "", "runs");
   folder.failed = reader.count(json, "", "failed");
@@ -169,6 +169,13 @@ ExperimentFolder read_experiment_folder(const std::string& path) {
       one.where_not.push_back(where.is_string() ? where.get<std::string>() : where.dump());
     folder.expectations.push_back(std::move(one));
   }
+  return folder;
+}
+
+ExperimentFolder read_experiment_folder(const std::string& path) {
+  const std::string file = path + "/answer.json";
+  ExperimentFolder folder = parse_answer(read_file(file), file);
+  folder.path = path;
   read_store(path + "/results.sqlite", folder);
   return folder;
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -43,6 +44,7 @@ struct ExperimentMeasure {
 
 struct ExperimentFolder {
   std::string path, name, question, answer, baseline;
+  std::string file;                                // the experiment's, as it was named then; "" in older ones
   std::uint64_t seed = 0, runs = 0, failed = 0;
   double confidence = 0.95;
   std::vector<std::string> axes, paradigms;        // in the file's order
@@ -55,5 +57,10 @@ struct ExperimentFolder {
 
 // Throws InputError: the file, the key and what it must be.
 ExperimentFolder read_experiment_folder(const std::string& path);
+
+// What answer.json says by itself; `file` is for messages. Throws InputError.
+ExperimentFolder parse_answer(std::string_view text, const std::string& file);
+// The runs that the answer is of, where there is such a file. Throws InputError.
+void read_store(const std::string& path, ExperimentFolder& folder);
 
 }  // namespace ttf::report

@@ -149,7 +149,7 @@ void failures(Page& page, const ExperimentFolder& folder) {
 
 void how_made(Page& page, const ExperimentFolder& folder) {
   page.section("How it was made");
-  const std::string file = shell_word("experiments/" + folder.name + ".yaml");
+  const std::string file = shell_word(folder.file.empty() ? "experiments/" + folder.name + ".yaml" : folder.file);
   if (!folder.store) {
     page.paragraph("There is no results.sqlite: what the runs are of is not known.");
     return;
@@ -160,12 +160,38 @@ void how_made(Page& page, const ExperimentFolder& folder) {
               {"seed", std::to_string(folder.seed)},
               {"rows in results.sqlite", std::to_string(folder.store->count())}});
   page.paragraph(
-      "The whole of it again, and one run with its log and a report of its own. The experiment's file, which is "
-      "below, may be in another folder than experiments/:");
+      std::string("The whole of it again, and one run with its log and a report of its own. The experiment's "
+                  "file is below") +
+      (folder.file.empty() ? "; it may be in another folder than experiments/:" : ":"));
   page.command(fmt::format("ttfusion experiment {0} --out again\nttfusion experiment {0} --replay {1} --out one\n"
                            "ttfusion report one -o one.html\n",
                            file, shell_word(fmt::format("0/{}/0", folder.paradigms.front()))));
   page.preformatted("The experiment's file", head.text);
+}
+
+// The sections of a run's page, of one run of every paradigm.
+void one_of_each(Page& page, const ExperimentFolder& folder, const ExperimentDrives& drives,
+                 const DiagramWindow& window) {
+  if (drives.drives.empty() && drives.why_none.empty()) return;
+  page.section("One drive of each paradigm");
+  if (drives.drives.empty()) {
+    page.paragraph(drives.why_none);
+    return;
+  }
+  const auto point = std::ranges::find(folder.points, drives.point, &ExperimentPoint::point);
+  std::vector<std::string> settings;
+  for (std::size_t a = 0; point != folder.points.end() && a < folder.axes.size(); ++a)
+    settings.push_back(folder.axes[a] + " " + point->settings[a]);
+  page.paragraph(fmt::format(
+      "The runs of point {}{}, replication {}, driven again for their logs: they came to the very figures in "
+      "results.sqlite. All paradigms had the same draws; it is one replication of many, and nothing is certain by it.",
+      drives.point, settings.empty() ? "" : " (" + joined(settings) + ")", drives.replication));
+  std::vector<ToldDrive> all;
+  for (const Drive& drive : drives.drives) all.push_back(told_of(drive));
+  errors_section(page, all);
+  timing_section(page, all, window);
+  time_base_section(page, all, window.most);
+  troubles_section(page, all);
 }
 
 }  // namespace
@@ -209,8 +235,8 @@ std::string experiment_answer(const ExperimentFolder& folder) {
   return text + ".";
 }
 
-std::string experiment_report_html(const std::string& path) {
-  const ExperimentFolder folder = read_experiment_folder(path);
+std::string experiment_report_html(const ExperimentFolder& folder, const ExperimentDrives& drives,
+                                   const DiagramWindow& window) {
   Page page(folder.name, "Report of an experiment");
   page.section("What was asked");
   page.lead(folder.question);
@@ -241,6 +267,7 @@ std::string experiment_report_html(const std::string& path) {
     if (folder.paradigms.size() > 1) page.table(differences_table(folder, m));
     page.close_details();
   }
+  one_of_each(page, folder, drives, window);
   failures(page, folder);
   how_made(page, folder);
   return page.html();

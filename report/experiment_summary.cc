@@ -6,7 +6,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <map>
 
 #include "core/errors.h"
 #include "recording/csv.h"
@@ -30,11 +29,10 @@ std::optional<std::pair<double, std::string>> number_with_unit(const std::string
   return std::pair(value, unit);
 }
 
-std::size_t place_in(std::vector<std::string>& names, const std::string& name) {
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
-  names.push_back(name);
-  return names.size() - 1;
+std::size_t NameList::place_of(const std::string& name) {
+  const auto [place, added] = places_.try_emplace(name, names_.size());
+  if (added) names_.push_back(name);
+  return place->second;
 }
 
 ExperimentSummary read_summary(std::string_view text, const std::string& file) {
@@ -51,7 +49,7 @@ ExperimentSummary read_summary(std::string_view text, const std::string& file) {
     throw refuse("must be the summary.csv of an experiment: point, its axes, paradigm, measure, count, mean, ...");
   ExperimentSummary summary;
   summary.axes.assign(names.begin() + 1, names.end() - static_cast<std::ptrdiff_t>(kValueColumns));
-  std::map<std::string, std::size_t> places;
+  NameList points, paradigms, measures;
   std::map<std::array<std::size_t, 3>, SummaryCell> cells;   // by point, measure and paradigm
   while (lines.next()) {
     const std::vector<std::string>& row = lines.fields();
@@ -66,16 +64,18 @@ ExperimentSummary read_summary(std::string_view text, const std::string& file) {
         throw InputError({file, lines.line(), values[column], field, "must be a number or empty"});
       return number->first;
     };
-    const auto [known, added] = places.try_emplace(row[0], summary.points.size());
-    if (added) summary.points.push_back({{row.begin() + 1, row.begin() + static_cast<std::ptrdiff_t>(first)}, {}});
+    const std::size_t point = points.place_of(row[0]);
+    if (point == summary.points.size())
+      summary.points.push_back({{row.begin() + 1, row.begin() + static_cast<std::ptrdiff_t>(first)}, {}});
     if (row[first + 1].empty() || row[first + 1].find_first_not_of(kNameOfAFile) != std::string::npos)
       throw InputError({file, lines.line(), "measure", row[first + 1], "must be letters, digits and underscores"});
-    const std::size_t paradigm = place_in(summary.paradigms, row[first]),
-                      measure = place_in(summary.measures, row[first + 1]);
+    const std::size_t paradigm = paradigms.place_of(row[first]), measure = measures.place_of(row[first + 1]);
     const SummaryCell cell{value(3), value(4), value(5), value(6)};
-    if (!cells.try_emplace({known->second, measure, paradigm}, cell).second)
+    if (!cells.try_emplace({point, measure, paradigm}, cell).second)
       throw refuse("must be the only row of its point, paradigm and measure");
   }
+  summary.paradigms = paradigms.names();
+  summary.measures = measures.names();
   if (summary.points.empty()) throw refuse("must have a row: the experiment has no result yet");
   if (summary.points.size() > kMostCellsARow * cells.size() / (summary.measures.size() * summary.paradigms.size()))
     throw InputError({file, 0, "", "", "must have a row for each point, paradigm and measure"});

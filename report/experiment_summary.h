@@ -1,7 +1,9 @@
 // An experiment's summary.csv as it is drawn: its grid of points, and of each what the measures came to.
 #pragma once
 
+#include <cstddef>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -30,7 +32,17 @@ ExperimentSummary read_summary(std::string_view text, const std::string& file);
 // "42 ms": the number, and what is behind it.
 std::optional<std::pair<double, std::string>> number_with_unit(const std::string& label);
 
-// Of a list of names, where `name` is; it is added where it is new.
-std::size_t place_in(std::vector<std::string>& names, const std::string& name);
+// Names in the order in which they came first, each once.
+class NameList {
+ public:
+  // Where it is in the list; added where it is new.
+  std::size_t place_of(const std::string& name);
+  const std::vector<std::string>& names() const { return names_; }
+  std::size_t size() const { return names_.size(); }
+
+ private:
+  std::vector<std::string> names_;
+  std::map<std::string, std::size_t> places_;
+};
 
 }  // namespace ttf::report

@@ -1,5 +1,5 @@
-// A damaged or foreign log may say anything. What no run can have is left out before it is computed with: up to these limits,
-// differences of times and products with a cycle fit their type.
+// A damaged or foreign log may say anything. What no run can have is left out before it is computed with: up to these
+// limits, differences of times and products with a cycle fit their type.
 #pragma once
 
 #include <cstdint>

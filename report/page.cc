@@ -201,7 +201,8 @@ std::string Page::html() const {
   out += fmt::format("<details><summary>Plots: uPlot, MIT licence</summary><pre>{}</pre></details></footer>\n",
                      escape(assets::kUplotLicence));
   out += "<script type=\"application/json\" id=\"plots\">" + script_data(plots_) + "</script>\n";
-  for (const std::string_view script : {assets::kUplot, assets::kPlotsScript, assets::kTimingScript}) {
+  for (const std::string_view script :
+       {assets::kUplot, assets::kPlotsScript, assets::kTimingDrawingScript, assets::kTimingScript}) {
     out += "<script>";
     out += script;
     out += "</script>\n";

@@ -28,12 +28,12 @@ struct AcrossAxis {
 AcrossAxis across(const ExperimentSummary& summary) {
   AcrossAxis found;
   for (std::size_t a = 0; a < summary.axes.size() && !found.by_number; ++a) {
-    std::vector<std::string> labels;
+    NameList labels;
     bool numbers = true;
     double least = std::numeric_limits<double>::infinity(), most = -least;
     std::optional<std::string> unit;
     for (const SummaryPoint& point : summary.points) {
-      place_in(labels, point.labels[a]);
+      labels.place_of(point.labels[a]);
       const auto number = number_with_unit(point.labels[a]);
       numbers = numbers && number && (!unit || *unit == number->second);
       if (!number) continue;
@@ -63,7 +63,7 @@ class MeasureFigure {
  public:
   MeasureFigure(const ExperimentSummary& summary, std::size_t measure)
       : summary_(summary), measure_(measure), x_(across(summary)) {
-    for (const SummaryPoint& point : summary_.points) place_in(cases_, others(point));
+    for (const SummaryPoint& point : summary_.points) cases_.place_of(others(point));
   }
 
   // Whether a measure has any value: some runs have none of it.
@@ -85,7 +85,7 @@ class MeasureFigure {
     for (std::size_t k = 0; k < cases_.size(); ++k) {
       std::size_t nth = 0;
       for (const SummaryPoint& point : summary_.points) {
-        if (others(point) != cases_[k]) continue;
+        if (others(point) != cases_.names()[k]) continue;
         text += std::to_string(k);
         for (const std::string& label : point.labels) text += ',' + recording::csv_field(label);
         const double x = x_.by_number ? number_with_unit(point.labels[*x_.axis])->first : static_cast<double>(nth++);
@@ -131,7 +131,7 @@ class MeasureFigure {
   // Whether there is something to draw of a paradigm in a case.
   bool any(std::size_t k, std::size_t paradigm, int column) const {
     return std::any_of(summary_.points.begin(), summary_.points.end(), [&](const SummaryPoint& point) {
-      return others(point) == cases_[k] && std::isfinite(value_of(point.cells[measure_][paradigm], column));
+      return others(point) == cases_.names()[k] && std::isfinite(value_of(point.cells[measure_][paradigm], column));
     });
   }
 
@@ -188,7 +188,7 @@ class MeasureFigure {
     for (const SummaryPoint& point : summary_.points)
       for (const SummaryCell& cell : point.cells[measure_]) {
         const double value = value_of(cell, column), width = column == 0 ? cell.half_width : cell.difference_half_width;
-        if (others(point) != cases_[k] || !std::isfinite(value)) continue;
+        if (others(point) != cases_.names()[k] || !std::isfinite(value)) continue;
         least = std::min(least, value - (std::isfinite(width) ? width : 0.0));
         most = std::max(most, value + (std::isfinite(width) ? width : 0.0));
       }
@@ -202,14 +202,15 @@ class MeasureFigure {
     std::string names;
     std::size_t nth = 0;
     for (const SummaryPoint& point : summary_.points)
-      if (x_.axis && others(point) == cases_[k])
+      if (x_.axis && others(point) == cases_.names()[k])
         names += fmt::format("{}{} {}", nth == 0 ? "" : ", ", gnuplot_text(point.labels[*x_.axis]), nth), ++nth;
     return names.empty() ? "unset xtics\n" : "set xtics (" + names + ")\n";
   }
 
   // `column`: 0 means, 2 differences.
   std::string panel(std::size_t k, const std::string& label, int column) const {
-    std::string text = fmt::format("set title {}\nset ylabel {}\n", gnuplot_text(cases_[k]), gnuplot_text(label));
+    std::string text =
+        fmt::format("set title {}\nset ylabel {}\n", gnuplot_text(cases_.names()[k]), gnuplot_text(label));
     text += column == 0 && logarithmic_means() ? "set logscale y\n" : "unset logscale y\n";
     text += range_of(k, column);
     if (!x_.by_number) text += label_tics(k);
@@ -240,7 +241,7 @@ class MeasureFigure {
   const ExperimentSummary& summary_;
   std::size_t measure_;
   AcrossAxis x_;
-  std::vector<std::string> cases_;
+  NameList cases_;
 };
 
 }  // namespace

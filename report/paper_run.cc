@@ -86,15 +86,26 @@ std::string error_panel(const PaperRun& run, const std::string& axis, int error,
   return labels(run.title, "time [s]", axis) + curves.command();
 }
 
+// Of one instant gnuplot finds no range to draw, and complains. Whoever follows has its own.
+std::string range_of_errors(const PaperRun& run, bool any_of_one) {
+  if (!any_of_one) return "";
+  if (!run.errors || run.first_error_s < run.last_error_s) return "set xrange [*:*]\n";
+  return fmt::format("set xrange [{}:{}]\n", run.first_error_s - 0.5, run.first_error_s + 0.5);
+}
+
 PaperFile errors(const std::vector<PaperRun>& runs) {
+  const bool any_of_one = std::any_of(runs.begin(), runs.end(), [](const PaperRun& run) {
+    return run.errors && run.first_error_s == run.last_error_s;
+  });
   GnuplotFigure figure;
   figure.name = "errors";
   figure.about = {"error of the image of the tracked car when it was used, against the truth, and ±2σ of the filter",
                   "from <run>_errors.csv"};
   figure.columns = 2;
   for (const PaperRun& run : runs) {
-    figure.panels.push_back(error_panel(run, "x error [m]", 3, 7));
-    figure.panels.push_back(error_panel(run, "y error [m]", 4, 8));
+    const std::string range = range_of_errors(run, any_of_one);
+    figure.panels.push_back(range + error_panel(run, "x error [m]", 3, 7));
+    figure.panels.push_back(range + error_panel(run, "y error [m]", 4, 8));
   }
   return gnuplot_script(figure);
 }

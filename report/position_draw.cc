@@ -215,7 +215,8 @@ void draw_data(Svg& svg, const PlotFrame& frame, const Selection& s, const Names
                  hover(fmt::format("{} #{}", name, v.id.sequence), v), "observation");
   }
   for (const Sample& v : s.unused)
-    svg.marker(Marker::kSquare, at(v), kMarker, {.stroke = kUnused, .width = 1.0}, hover("image that nobody used", v), "unused");
+    svg.marker(Marker::kSquare, at(v), kMarker, {.stroke = kUnused, .width = 1.0},
+               hover("image that nobody used", v), "unused");
   for (const Sample& v : s.fusion)
     svg.marker(Marker::kSquare, at(v), kMarker, {.stroke = kFusion, .width = 1.3}, hover("fusion", v),
                "fusion");

@@ -1,7 +1,7 @@
 // The paper's figures 5 to 8 from the records of a drive: the reference object's x and y over time and y over
 // x, with DGPS fixes (circles), laser (crosses), camera (triangles) and radar (diamonds) observations, the
-// fused real-time image (squares; grey where nobody used it), the truth (thin line), numbered fusion instants (boxed), and arrows from
-// each laser measurement to the fusion instant that integrated it.
+// fused real-time image (squares; grey where nobody used it), the truth (thin line), numbered fusion instants (boxed),
+// and arrows from each laser measurement to the fusion instant that integrated it.
 //
 // Axes follow ISO 8855 (x forward, y left, metres) and the pictures say so. Times are true times in seconds;
 // an instant known in global time is moved by the difference its record's stamp shows.

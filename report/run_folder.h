@@ -5,6 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "recording/merge.h"
@@ -18,6 +19,7 @@ FolderKind kind_of_folder(const std::string& path);
 // One strategy's drive.
 struct Drive {
   std::string folder, scenario, strategy;
+  std::string log_name;                                // the log's in the folder; "" where none was kept
   std::string label;                                   // tells it from the others of the page
   std::uint64_t seed = 0;
   nlohmann::ordered_json summary;                      // its part of summary.json; null without one
@@ -33,7 +35,9 @@ struct RunFolder {
 // Throws InputError: a summary that is none, a log that cannot be read.
 RunFolder read_run_folder(const std::string& path);
 
-// The file's JSON. Throws InputError with the file and what is wrong.
-nlohmann::ordered_json read_json(const std::string& path);
+// What summary.json says by itself, drives without their logs. `file` is for messages. Throws InputError.
+RunFolder parse_run_summary(std::string_view text, const std::string& file);
+// Throws InputError with the file and what is wrong.
+nlohmann::ordered_json parse_json(std::string_view text, const std::string& file);
 
 }  // namespace ttf::report

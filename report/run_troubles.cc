@@ -1,24 +1,14 @@
 // What went wrong in a run, or was made to.
 #include <fmt/format.h>
 
-#include <iterator>
 #include <utility>
 
+#include "recording/slot_status.h"
 #include "report/names.h"
 #include "report/run_tables.h"
 
 namespace ttf::report {
 namespace {
-
-// Receivers' status bits (records::SlotProblem).
-std::string status_words(std::uint8_t status) {
-  static constexpr const char* kWords[] = {"syntax error", "content error", "boundary violation",
-                                           "transmission conflict", "no frame"};
-  std::string words;
-  for (std::size_t bit = 0; bit < std::size(kWords); ++bit)
-    if ((status >> bit) & 1u) words += fmt::format("{}{}", words.empty() ? "" : ", ", kWords[bit]);
-  return words.empty() ? fmt::format("status {}", status) : words;
-}
 
 std::string seconds_cell(const std::optional<double>& t) { return t ? fmt::format("{:.6f}", *t) : "-"; }
 
@@ -41,7 +31,7 @@ std::vector<PageTable> trouble_tables(const ToldDrive& told) {
                   {}};
   for (const auto& [node, by_status] : series.slot_problems)
     for (const auto& [status, times] : by_status)
-      slots.rows.push_back({names.node(node), status_words(status), std::to_string(times)});
+      slots.rows.push_back({names.node(node), recording::slot_status_words(status), std::to_string(times)});
   PageTable guardian{label + ": what central guardians kept from the others", {"why", "times"}, {}};
   for (const auto& [why, times] : series.guardian) guardian.rows.push_back({why, std::to_string(times)});
   PageTable deadlines{label + ": deadlines missed", {"task", "times"}, {}};

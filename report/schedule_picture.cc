@@ -205,14 +205,15 @@ class SchedulePainter {
     const double part = kSlotLane / std::max<double>(1.0, static_cast<double>(here.size()));
     for (std::size_t i = 0; i < here.size(); ++i) {
       const FrameSlot& f = *here[i];
-      const std::int64_t over = schedules::latest_turn(c_, f) + schedules::minislots_of(g, schedules::dynamic_words(c_, f));
+      const std::int64_t over =
+          schedules::latest_turn(c_, f) + schedules::minislots_of(g, schedules::dynamic_words(c_, f));
       const double left = x(static_cast<double>(schedules::minislot_start(g, schedules::earliest_turn(g, f)).value));
       const double right = x(static_cast<double>(
           schedules::minislot_start(g, std::min<std::int64_t>(over, g.gNumberOfMinislots + 1)).value));
       svg_->rect({left, top + part * static_cast<double>(i), right - left, part},
                  {.fill = colour(f.pdu), .stroke = "#444444", .width = 0.5},
-                 fmt::format("slot {}; {} in cycles {} mod {}, when there is a list", f.slot, frame_text(f), f.base_cycle,
-                             f.repetition),
+                 fmt::format("slot {}; {} in cycles {} mod {}, when there is a list", f.slot, frame_text(f),
+                             f.base_cycle, f.repetition),
                  "slot");
       const std::string text = fmt::format("{}: {}", f.slot, frame_text(f));
       if (part >= 9)

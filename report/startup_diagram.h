@@ -1,11 +1,11 @@
-// The start-up diagram of a time window: what every node's protocol operation control was in and what it sent, so that one
-// can see who led, who followed and who integrated. Of a run that began integrated it shows who left and came back.
+// The start-up diagram of a time window: what every node's protocol operation control was in and what it sent, so that
+// one can see who led, who followed and who integrated. Of a run that began integrated it shows who left and came back.
 //
-// One lane per node that changed its state, was powered on or off or sent something: its states as labelled bars (hovering
-// over one tells why it was entered), below them what it sent on channel A and on channel B: startup frames, null frames,
-// other frames, symbols. Faults of the run's plan that are there in the window have lanes of their own, above. The grid
-// shows the communication cycles of the leading coldstart node, counted from its collision avoidance symbol. Time is
-// TrueTime.
+// One lane per node that changed its state, was powered on or off or sent something: its states as labelled bars
+// (hovering over one tells why it was entered), below them what it sent on channel A and on channel B: startup frames,
+// null frames, other frames, symbols. Faults of the run's plan that are there in the window have lanes of their own,
+// above. The grid shows the communication cycles of the leading coldstart node, counted from its collision avoidance
+// symbol. Time is TrueTime.
 #pragma once
 
 #include <optional>
@@ -21,7 +21,8 @@ namespace ttf::report {
 
 class StartupDiagram : public records::Sink {
  public:
-  // `cycle`: nominal length of the communication cycle, 0 for no grid. Frames and symbols after the window are passed over.
+  // `cycle`: nominal length of the communication cycle, 0 for no grid. Frames and symbols after the window are passed
+  // over.
   StartupDiagram(Names names, Duration cycle, TrueTime from, TrueTime to);
 
   using Sink::on;  // the kinds of record that are not shown
@@ -41,8 +42,9 @@ class StartupDiagram : public records::Sink {
   StartupData data_;
 };
 
-// When the start-up in a log happened: from the first record of it to the last of the nodes' first entries into normal active.
-// Of a run that began integrated: from the first return of a node, or, if none came back, from the first loss on.
+// When the start-up in a log happened: from the first record of it to the last of the nodes' first entries into normal
+// active. Of a run that began integrated: from the first return of a node, or, if none came back, from the first loss
+// on.
 struct StartupExtent final : records::Sink {
   using records::Sink::on;
   void on(const records::StateChanged& r) override;

@@ -13,7 +13,8 @@ std::vector<LegendEntry> startup_legend(const StartupData& data, const std::vect
   std::vector<LegendEntry> legend;
   std::set<std::string_view> phases;
   for (const StateSpan& span : spans)
-    if (const StatePhase phase = phase_of(span.state); visible(span.start, span.end) && phases.insert(phase.words).second)
+    if (const StatePhase phase = phase_of(span.state);
+        visible(span.start, span.end) && phases.insert(phase.words).second)
       legend.push_back({K::kBox, std::string(phase.words), phase.colour, {}, true});
   bool startup = false, null = false, other = false;
   for (const auto& f : data.frames) {

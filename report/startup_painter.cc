@@ -195,11 +195,12 @@ class StartupPainter {
   void frames() {
     for (const auto& f : data_.frames) {
       if (!visible(f.start, f.end)) continue;
-      const std::string hover = fmt::format("{}{}slot {}, cycle {}, {} ms", f.startup ? "startup frame, " : "",
-                                            f.null_frame ? "null frame, " : "", f.slot, f.cycle, number(in_ms(f.start)));
+      const std::string hover =
+          fmt::format("{}{}slot {}, cycle {}, {} ms", f.startup ? "startup frame, " : "",
+                      f.null_frame ? "null frame, " : "", f.slot, f.cycle, number(in_ms(f.start)));
       if (f.null_frame && !f.startup)
-        svg_->rect(row(f.node, f.channel, f.start, f.end, 1.5), {.fill = "#ffffff", .stroke = kGrey, .width = 0.5}, hover,
-                   "null");
+        svg_->rect(row(f.node, f.channel, f.start, f.end, 1.5),
+                   {.fill = "#ffffff", .stroke = kGrey, .width = 0.5}, hover, "null");
       else
         svg_->rect(row(f.node, f.channel, f.start, f.end, f.startup ? 2.0 : 1.2),
                    {.fill = f.startup ? kStartupFrameFill : kOtherFrameFill}, hover, f.startup ? "startup" : "frame");
@@ -212,7 +213,8 @@ class StartupPainter {
       if (!visible(s.start, s.end)) continue;
       Area area = row(s.node, s.channel, s.start, s.end, 2.5);
       area.x = x(s.end) - area.width;
-      svg_->rect(area, {.fill = kBlack}, fmt::format("{}, {} ms", symbol_name(s.kind), number(in_ms(s.start))), "symbol");
+      svg_->rect(area, {.fill = kBlack},
+                 fmt::format("{}, {} ms", symbol_name(s.kind), number(in_ms(s.start))), "symbol");
     }
   }
 
@@ -221,7 +223,8 @@ class StartupPainter {
       if (visible(p.at, p.at))
         svg_->marker(p.on ? Marker::kTriangle : Marker::kDownTriangle, {x(p.at), top(p.node) + kNotes - 2}, 9,
                      {.fill = p.on ? kGreen : kVermilion, .stroke = "#ffffff", .width = 0.6},
-                     fmt::format("{} {} at {} ms", names_.node(p.node), p.on ? "powered on" : "powered off", number(in_ms(p.at))),
+                     fmt::format("{} {} at {} ms", names_.node(p.node), p.on ? "powered on" : "powered off",
+                                 number(in_ms(p.at))),
                      "power");
   }
 

@@ -62,7 +62,8 @@ std::vector<StateSpan> state_spans(const StartupData& data, TrueTime begin, True
   }
   supply_until(end);
   while (!now.empty()) leave(now.begin()->first, end);
-  std::stable_sort(spans.begin(), spans.end(), [](const StateSpan& a, const StateSpan& b) { return a.start < b.start; });
+  std::stable_sort(spans.begin(), spans.end(),
+                   [](const StateSpan& a, const StateSpan& b) { return a.start < b.start; });
   return spans;
 }
 

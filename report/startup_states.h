@@ -23,9 +23,10 @@ struct StateSpan {
 // tell. They lose their supply without having been given one, or do nothing but send.
 std::set<NodeId> active_from_the_start(const StartupData& data);
 
-// The states of all nodes in the order they were entered, each until it was left, its node lost its supply, or `end`. What
-// a node was in before its first change is a state since `begin`, as is normal active of those above, but for a node
-// whose first change is out of default config: that was powered on with it. States that lasted no time are left out.
+// The states of all nodes in the order they were entered, each until it was left, its node lost its supply, or `end`.
+// What a node was in before its first change is a state since `begin`, as is normal active of those above, but for a
+// node whose first change is out of default config: that was powered on with it. States that lasted no time are left
+// out.
 std::vector<StateSpan> state_spans(const StartupData& data, TrueTime begin, TrueTime end);
 
 // What a node is about in a state: states of one phase have one colour.

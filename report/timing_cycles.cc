@@ -36,7 +36,8 @@ std::vector<Told> what_frames_tell(const TimingData& data, Duration cycle, TrueT
     ++frames[all.back().count];
   }
   if (all.empty()) return all;
-  const auto usual = std::max_element(frames.begin(), frames.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  const auto usual = std::max_element(frames.begin(), frames.end(),
+                                      [](const auto& a, const auto& b) { return a.second < b.second; });
   // In a window clocks drift from true time by far less than a cycle, and by nothing like a round.
   for (Told& told : all) told.rounds = rounded(told.count - usual->first, schedules::kCycles);
   return all;

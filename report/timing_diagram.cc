@@ -45,7 +45,8 @@ void TimingDiagram::on(const records::ListHop& r) {
 }
 void TimingDiagram::on(const records::TaskRun& r) {
   if (possible(r.start.true_time.ns) && near(r.activated.true_time, r.end.true_time))
-    data_.runs.push_back({r.activated.true_time, r.start.true_time, r.end.true_time, r.start.node, r.task, r.deadline_met});
+    data_.runs.push_back(
+        {r.activated.true_time, r.start.true_time, r.end.true_time, r.start.node, r.task, r.deadline_met});
 }
 void TimingDiagram::on(const records::ListFused& r) {
   if (possible(r.measured.ns) && near(r.stamp.true_time, r.stamp.true_time))

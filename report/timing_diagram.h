@@ -5,9 +5,9 @@
 // fusion node and of the feature services. The grid shows the communication cycles. Arrows follow each
 // measurement from its instant over CAN, preprocessing, gateway and slots to the fusion step that used it,
 // coloured per sensor and dashed where it arrived out of sequence (after a newer one); black arrows follow
-// the image to the feature service. Faults have a lane each on top, with marks where they act; frames that were on a channel
-// otherwise than they were sent are outlined, and crossed out if nothing of them arrived. In runs in real time, marks
-// show what was late, early or lost. Time is TrueTime.
+// the image to the feature service. Faults have a lane each on top, with marks where they act; frames that were on a
+// channel otherwise than they were sent are outlined, and crossed out if nothing of them arrived. In runs in real time,
+// marks show what was late, early or lost. Time is TrueTime.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// What a timing diagram in a page tells the page's script (report/page/timing.js) with each thing that stands in time:
+// What a timing diagram in a page tells the page's script (report/page/timing_drawing.js) with each thing that stands
+// in time:
 //
 //   data-a, data-b   from when to when it is, true time in ms; without data-b it is an instant, and only moves
 //   data-id          the list it is of: things of one list belong together

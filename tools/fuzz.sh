@@ -36,7 +36,7 @@ mkdir -p "$findings" "$build/fuzz-logs"
 max_length() {
   case $1 in
     *_text) echo 20000 ;;
-    log | capture) echo 16000 ;;
+    log | capture | store) echo 16000 ;;
     *) echo 4000 ;;
   esac
 }

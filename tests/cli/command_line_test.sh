@@ -20,14 +20,17 @@ cp "$source"/scenarios/*.yaml "$work/scenarios"
 expect 0 "Example: ttfusion run" run --help
 expect 2 "^error: command line: .*required" run
 expect 2 "^error: command line: A subcommand is required"
-expect 2 '^error: foo is no command: must be run, diagram, export, schedule, experiment, launch, node, report or track$' foo --help
+expect 2 \
+  '^error: foo is no command: must be run, diagram, export, schedule, experiment, launch, node, report or track$' foo \
+  --help
 expect 2 '^error: draw is no command of schedule: must be check, show or export$' schedule draw x.yaml
 expect 2 '^error: command line: .*--fast' run "$source/scenarios/paper_scenario1.yaml" --fast
 expect 2 "^error: command line: --strategy" run "$source/scenarios/paper_scenario1.yaml" --strategy best
 expect 2 "nothing.yaml: cannot be read" run "$work/nothing.yaml"
 
 for seed in 12x 010x 4611686018427387905 99999999999999999999999; do
-  expect 2 '--seed.*must be a whole number 0..4611686018427387904' run "$source/scenarios/paper_scenario1.yaml" "--seed=$seed"
+  expect 2 '--seed.*must be a whole number 0..4611686018427387904' run "$source/scenarios/paper_scenario1.yaml" \
+    "--seed=$seed"
 done
 
 drive=$work/scenarios/broken.yaml
@@ -80,16 +83,19 @@ expect 0 'laser_objects' schedule show "$source/schedules/paper_synchronised.yam
 expect 0 '' schedule show "$source/schedules/paper_synchronised.yaml" -o "$work/schedule.svg"
 [[ -s $work/schedule.svg ]] || fail "schedule show -o writes no picture"
 mutate schedules/paper_unsynchronised.yaml 's/fragment_bytes: 8$/fragment_bytes: 12/' "$cluster"
-expect 2 'broken.yaml:[0-9]+: can.camera_can.messages.camera_frame = 12 bytes: must fit a frame of this CAN, at most 8 bytes' \
+expect 2 \
+  'broken.yaml:[0-9]+: can.camera_can.messages.camera_frame = 12 bytes: must fit a frame of this CAN, at most 8 bytes' \
   schedule show "$cluster"
 expect 2 'png' schedule show "$source/schedules/paper_synchronised.yaml" -o "$work/schedule.bmp"
 
 # The CANs as DBC, all or one.
 expect 0 'BO_ 256 laser_scan: 64 laser' schedule export "$source/schedules/paper_synchronised.yaml" --format dbc
-expect 0 '' schedule export "$source/schedules/paper_synchronised.yaml" --format dbc --can camera_can -o "$work/camera.dbc"
+expect 0 '' schedule export "$source/schedules/paper_synchronised.yaml" --format dbc --can camera_can \
+  -o "$work/camera.dbc"
 [[ $(grep -c "^BO_ [0-9]* camera_" "$work/camera.dbc") -eq 3 && $(grep -c "^BO_ " "$work/camera.dbc") -eq 3 ]] ||
   fail "--can camera_can writes something else: a frame, its strobe and its trigger are there"
-expect 2 '--can = no_can: must be one of' schedule export "$source/schedules/paper_synchronised.yaml" --format dbc --can no_can
+expect 2 '--can = no_can: must be one of' schedule export "$source/schedules/paper_synchronised.yaml" --format dbc \
+  --can no_can
 expect 2 'command line: --can = laser_can: goes with --format dbc only' \
   schedule export "$source/schedules/paper_synchronised.yaml" --format fibex --can laser_can
 
@@ -118,7 +124,8 @@ for strategy in buff adva tt; do
   cmp -s "$work/a/$strategy.mcap" "$work/b/$strategy.mcap" || fail "$strategy: same seed, other log"
   cmp -s "$work/a/$strategy.mcap" "$work/c/$strategy.mcap" && fail "$strategy: other seed, same log"
 done
-for file in index.html summary.json tt_timing.svg tt_timing.png tt_timing.pdf adva_plane.svg buff_over_time.pdf comparison.png; do
+for file in index.html summary.json tt_timing.svg tt_timing.png tt_timing.pdf adva_plane.svg buff_over_time.pdf \
+  comparison.png; do
   [[ -s $work/a/$file ]] || fail "run leaves no $file"
 done
 "$program" run "$source/scenarios/paper_scenario1.yaml" --strategy tt --no-log --json --out "$work/j" 2>/dev/null |
@@ -127,8 +134,10 @@ done
 
 # A drive with faults says what they did, in words and as JSON; one without says nothing of faults.
 expect 0 'byzantine_clock +laser_pre' run "$source/scenarios/faulty_bus.yaml" --strategy tt --no-log --out "$work/f"
-expect 0 '^1 fault-free node to the end: fusion$' run "$source/scenarios/faulty_bus.yaml" --strategy tt --no-log --out "$work/f"
-expect 0 '^    discarded: no time of measuring +1$' run "$source/scenarios/faulty_bus.yaml" --strategy tt --no-log --out "$work/f"
+expect 0 '^1 fault-free node to the end: fusion$' run "$source/scenarios/faulty_bus.yaml" --strategy tt \
+  --no-log --out "$work/f"
+expect 0 '^    discarded: no time of measuring +1$' run "$source/scenarios/faulty_bus.yaml" --strategy tt \
+  --no-log --out "$work/f"
 expect 0 'No fault-free node was harmed' run "$source/scenarios/faulty_bus.yaml" --strategy tt --no-log --out "$work/f"
 python3 - "$work/f/summary.json" "$work/a/summary.json" <<'PY' || fail "the JSON does not say what the faults did"
 import json, sys
@@ -141,8 +150,10 @@ assert "faults" not in json.load(open(sys.argv[2]))["strategies"][0]
 PY
 
 # Where nothing was compared (nothing is judged before the end) there is a dash and a null, and no perfect zero.
-sed -e 's/^evaluate_from: .*/evaluate_from: 3 s/' "$source/scenarios/paper_scenario1.yaml" >"$work/scenarios/unjudged.yaml"
-expect 0 'position RMSE against truth \[m\] +-$' run "$work/scenarios/unjudged.yaml" --strategy tt --no-log --out "$work/u"
+sed -e 's/^evaluate_from: .*/evaluate_from: 3 s/' \
+  "$source/scenarios/paper_scenario1.yaml" >"$work/scenarios/unjudged.yaml"
+expect 0 'position RMSE against truth \[m\] +-$' run "$work/scenarios/unjudged.yaml" --strategy tt \
+  --no-log --out "$work/u"
 expect 0 '  95 % band +-$' run "$work/scenarios/unjudged.yaml" --strategy tt --no-log --out "$work/u"
 python3 - "$work/u/summary.json" <<'PY' || fail "where nothing was compared, the JSON has no null"
 import json, sys
@@ -156,10 +167,12 @@ PY
 
 # What cannot be written is said, and the run has failed.
 : >"$work/file"
-expect 1 'error: .*/file/x: cannot be created: Not a directory' run "$source/scenarios/paper_scenario2.yaml" --out "$work/file/x"
+expect 1 'error: .*/file/x: cannot be created: Not a directory' run "$source/scenarios/paper_scenario2.yaml" \
+  --out "$work/file/x"
 expect 1 'error: .*/file/x: cannot be created: Not a directory' \
   experiment "$source/experiments/fault_campaign.yaml" --out "$work/file/x"
-expect 1 'error: .*/file/x.csv: cannot be written: Not a directory' export "$work/a/tt.mcap" --format csv -o "$work/file/x.csv"
+expect 1 'error: .*/file/x.csv: cannot be written: Not a directory' export "$work/a/tt.mcap" --format csv \
+  -o "$work/file/x.csv"
 expect 1 'error: .*/file/x.svg: cannot be written' diagram "$work/a/tt.mcap" -o "$work/file/x.svg"
 expect 1 'error: .*/file/x.svg: cannot be written' \
   schedule show "$source/schedules/paper_synchronised.yaml" -o "$work/file/x.svg"
@@ -196,7 +209,8 @@ expect 2 'empty.mcap: holds nothing of a log but its beginning: 100 bytes, no ma
   diagram "$work/empty.mcap" -o "$work/none.svg"
 : >"$work/nothing.mcap"
 for file in empty nothing; do
-  expect 2 "error: .*$file.mcap: (is not a log|holds nothing of a log)" export "$work/$file.mcap" --format csv -o "$work/none.csv"
+  expect 2 "error: .*$file.mcap: (is not a log|holds nothing of a log)" export "$work/$file.mcap" --format csv \
+    -o "$work/none.csv"
   [[ -e $work/none.csv ]] && fail "an export of nothing leaves a file"
 done
 expect 2 "holds nothing of a log" diagram "$work/empty.mcap" -o "$work/none.svg"
@@ -221,13 +235,24 @@ expect 0 'Example: ttfusion export' export --help
 expect 2 'pcapng' export "$work/a/tt.mcap" --format asc -o "$work/drive.asc"
 expect 2 'README.md' export "$source/README.md" --format csv -o "$work/drive.csv"
 expect 1 'absent/drive.csv: cannot be written' export "$work/a/tt.mcap" --format csv -o "$work/absent/drive.csv"
-expect 0 '[1-9][0-9]* FlexRay and [1-9][0-9]* CAN frames and 0 symbols' export "$work/a/tt.mcap" --format pcapng -o "$work/drive.pcapng"
+expect 0 '[1-9][0-9]* FlexRay and [1-9][0-9]* CAN frames and 0 symbols' export "$work/a/tt.mcap" --format pcapng \
+  -o "$work/drive.pcapng"
 expect 0 '"can_frames": [1-9]' export "$work/a/tt.mcap" --format candump --json -o "$work/drive.log"
 expect 0 'warning: .*cut.mcap' export "$work/cut.mcap" --format csv -o "$work/drive.csv"
 expect 0 '"flows": [1-9]' export "$work/a/tt.mcap" --format perfetto --json -o "$work/drive.pftrace"
 expect 0 'warning: .*cut.mcap' export "$work/cut.mcap" --format perfetto -o "$work/cut.pftrace"
-protoc --decode=ttfusion.perfetto.Trace -I "$source/recording" "$source/recording/perfetto.proto" <"$work/drive.pftrace" |
+protoc --decode=ttfusion.perfetto.Trace -I "$source/recording" "$source/recording/perfetto.proto" \
+  <"$work/drive.pftrace" |
   grep -q 'name: "age of the newest measurement when used \[ms\]"' || fail "export --format perfetto leaves no trace"
+# As others read it, by Perfetto's own numbers: sound, and with all that the export says it wrote.
+said=$(python3 "$source/tests/cli/perfetto_reader.py" "$work/drive.pftrace") || fail "drive.pftrace: $said"
+told=$("$program" export "$work/a/tt.mcap" --format perfetto --json -o "$work/drive.pftrace" 2>/dev/null |
+  python3 -c 'import json, sys; t = json.load(sys.stdin); print("%d slices, %d instants, %d counts, %d flows" %
+    (t["slices"], t["instants"], t["counter_values"], t["flows"]))')
+[[ $said == *" tracks, $told" ]] || fail "the trace has $said, the export says $told"
+cat "$work/drive.pftrace" "$work/drive.pftrace" >"$work/twice.pftrace"
+python3 "$source/tests/cli/perfetto_reader.py" "$work/twice.pftrace" >"$work/said" && fail "two traces in one are sound"
+python3 "$source/tests/cli/perfetto_reader.py" "$work/cut.pftrace" >"$work/said" || fail "cut.pftrace: $(cat "$work/said")"
 expect 1 'absent/x.pftrace: cannot be written' export "$work/a/tt.mcap" --format perfetto -o "$work/absent/x.pftrace"
 if [[ -c /dev/full ]]; then
   expect 1 '/dev/full: cannot be written: No space left' export "$work/a/tt.mcap" --format perfetto -o /dev/full
@@ -247,7 +272,8 @@ at = data.index(b"\x01\x00\x38\x02", 50000)   # the startup frame of slot 2 on A
 data[at + 5] ^= 1
 open(sys.argv[2], "wb").write(data)
 END
-expect 1 '^1 contradiction$|in [0-9]+ cycles: 1 contradiction$' schedule check "$schedule" --against "$work/disturbed.pcapng"
+expect 1 '^1 contradiction$|in [0-9]+ cycles: 1 contradiction$' schedule check "$schedule" \
+  --against "$work/disturbed.pcapng"
 expect 1 'disturbed.pcapng: at packet [0-9]+: header CRC error: slot 2 on A' \
   schedule check "$schedule" --against "$work/disturbed.pcapng"
 expect 1 '"header CRC error": 1' schedule check "$schedule" --against "$work/disturbed.pcapng" --json
@@ -257,16 +283,23 @@ expect 2 'no FlexRay frame' schedule check "$schedule" --against "$work/drive.pc
 expect 2 '--against' schedule check "$schedule" --channels A
 
 # On real CAN FD: what does not hold, and the time scale at which all does.
-expect 1 'paper_synchronised on can-fd:1M/5M at time scale 1: 34 of 34 slots do not hold' schedule check "$schedule" --medium can-fd:1M/5M
+expect 1 'paper_synchronised on can-fd:1M/5M at time scale 1: 34 of 34 slots do not hold' schedule check "$schedule" \
+  --medium can-fd:1M/5M
 expect 1 '^ +1-5  AB +2 +232.2 +84.0$' schedule check "$schedule" --medium can-fd:1M/5M
 expect 1 '^smallest time scale at which all hold: 2.764286$' schedule check "$schedule" --medium can-fd:1000k/5000000
-expect 0 'at time scale 2.764286: all 34 slots hold$' schedule check "$schedule" --medium can-fd:1M/5M --time-scale 2.764286
-expect 1 'at time scale 2.764285: 5 of 34 slots do not hold$' schedule check "$schedule" --medium can-fd:1M/5M --time-scale 2.764285
-expect 1 '^ +21-24  AB +1 +168.6 +84.0  dynamic$' schedule check "$source/schedules/flexray_demo.yaml" --medium can-fd:1M/5M
+expect 0 'at time scale 2.764286: all 34 slots hold$' schedule check "$schedule" --medium can-fd:1M/5M \
+  --time-scale 2.764286
+expect 1 'at time scale 2.764285: 5 of 34 slots do not hold$' schedule check "$schedule" --medium can-fd:1M/5M \
+  --time-scale 2.764285
+expect 1 '^ +21-24  AB +1 +168.6 +84.0  dynamic$' schedule check "$source/schedules/flexray_demo.yaml" \
+  --medium can-fd:1M/5M
 mutate schedules/paper_synchronised.yaml 's/late: 500 us/late: 168599 ns/' "$cluster"
-expect 1 '^every frame of 168.6 us comes too late: real_time.late is 168.599 us' schedule check "$cluster" --medium can-fd:1M/5M --time-scale 3
-expect 0 'all 34 slots hold' schedule check "$source/schedules/paper_synchronised.yaml" --medium can-fd:1M/5M --time-scale 3
-"$program" schedule check "$source/schedules/flexray_demo.yaml" --medium can-fd:0.5M/8M --time-scale 2.5 --json >"$work/medium.json"
+expect 1 '^every frame of 168.6 us comes too late: real_time.late is 168.599 us' schedule check "$cluster" \
+  --medium can-fd:1M/5M --time-scale 3
+expect 0 'all 34 slots hold' schedule check "$source/schedules/paper_synchronised.yaml" --medium can-fd:1M/5M \
+  --time-scale 3
+"$program" schedule check "$source/schedules/flexray_demo.yaml" --medium can-fd:0.5M/8M --time-scale 2.5 \
+  --json >"$work/medium.json"
 [[ $? -eq 1 ]] || fail "slots that do not hold, as JSON, do not exit with 1"
 python3 - "$work/medium.json" <<'PY' || fail "slots that do not hold are no JSON"
 import json, sys
@@ -278,12 +311,16 @@ assert [slot["slot"] for slot in static] == list(range(1, 11)), static
 assert static[0] == {"slot": 1, "segment": "static", "channels": "AB", "can_frames": 2, "needs_us": 215.875, "has_us": 125.0}, static
 assert check["late_us"] is None and check["window_holds"] is True, check
 PY
-for medium in "" can-fd can-fd: can-fd:1M can-fd:1M/ can-fd:/5M can-fd:2M/5M can-fd:1M/8000001 can-fd:1M/0.9M can-fd:9999/1M \
+for medium in "" can-fd can-fd: can-fd:1M can-fd:1M/ can-fd:/5M can-fd:2M/5M can-fd:1M/8000001 can-fd:1M/0.9M \
+  can-fd:9999/1M \
               can-fd:1m/5M can-fd:1M/5M/2M dds vcan0; do
-  expect 2 "--medium( = .*)?: must be can-fd:NOMINAL/DATA in bit/s, as in can-fd:1M/5M" schedule check "$schedule" --medium "$medium"
+  expect 2 "--medium( = .*)?: must be can-fd:NOMINAL/DATA in bit/s, as in can-fd:1M/5M" schedule check "$schedule" \
+    --medium "$medium"
 done
-expect 2 '--medium = can:1M: must be can-fd: a frame of classic CAN holds 8 bytes' schedule check "$schedule" --medium can:1M
-expect 2 '--time-scale = 0.05: must be a decimal number 0.1..1000' schedule check "$schedule" --medium can-fd:1M/5M --time-scale 0.05
+expect 2 '--medium = can:1M: must be can-fd: a frame of classic CAN holds 8 bytes' schedule check "$schedule" \
+  --medium can:1M
+expect 2 '--time-scale = 0.05: must be a decimal number 0.1..1000' schedule check "$schedule" --medium can-fd:1M/5M \
+  --time-scale 0.05
 expect 2 '--time-scale requires --medium' schedule check "$schedule" --time-scale 2
 expect 2 '--medium excludes --against|--against excludes --medium' \
   schedule check "$schedule" --medium can-fd:1M/5M --against "$work/drive.pcapng"
@@ -297,7 +334,8 @@ expect 0 'are merged' export --help
 for kind in timing startup position plane; do
   expect 0 '' diagram "$work/a/tt.mcap" --kind $kind --from 1.5 --to 1.6 -o "$work/of_one.svg"
   expect 0 '' diagram "$work"/nodes/node{3,0,4,2,1}.mcap --kind $kind --from 1.5 --to 1.6 -o "$work/of_many.svg"
-  cmp -s "$work/of_one.svg" "$work/of_many.svg" || fail "the $kind diagram of a run's five logs is not that of its one log"
+  cmp -s "$work/of_one.svg" "$work/of_many.svg" ||
+    fail "the $kind diagram of a run's five logs is not that of its one log"
 done
 for format in pcapng candump csv perfetto; do
   expect 0 '' export "$work/a/tt.mcap" --format $format -o "$work/of_one"
@@ -309,11 +347,13 @@ expect 0 '' diagram "$work/a/tt.mcap" "$work/a/adva.mcap" --kind plane -o "$work
 cmp -s "$work/of_one.svg" "$work/of_many.svg" || fail "two runs side by side differ by how many logs one of them has"
 expect 2 'adva.mcap: cluster = paper_unsynchronised: must be paper_synchronised as in .*tt.mcap: only logs of one run' \
   diagram "$work/a/tt.mcap" "$work/a/adva.mcap" -o "$work/none.svg"
-expect 2 'c/tt.mcap: seed = 4: must be 3 as in .*a/tt.mcap' export "$work/a/tt.mcap" "$work/c/tt.mcap" --format csv -o "$work/none"
+expect 2 'c/tt.mcap: seed = 4: must be 3 as in .*a/tt.mcap' export "$work/a/tt.mcap" "$work/c/tt.mcap" --format csv \
+  -o "$work/none"
 expect 2 'b/tt.mcap: holds the same records as .*a/tt.mcap: each log may be given once' \
   diagram "$work/a/tt.mcap" "$work/b/tt.mcap" --kind plane -o "$work/none.svg"
 expect 2 'holds the same records as' export "$work/a/tt.mcap" "$work/nodes/node2.mcap" --format csv -o "$work/none"
-expect 2 'must be another file than the input' export "$work"/nodes/node{0,1}.mcap --format csv -o "$work/nodes/node1.mcap"
+expect 2 'must be another file than the input' export "$work"/nodes/node{0,1}.mcap --format csv \
+  -o "$work/nodes/node1.mcap"
 printf 'damage' | dd of="$work/nodes/node1.mcap" bs=1 seek=60000 conv=notrunc status=none
 expect 0 'warning: .*node1.mcap: the chunk at byte' export "$work"/nodes/*.mcap --format csv -o "$work/of_many"
 grep -vxFf "$work/of_one" "$work/of_many" | grep -q . && fail "a damaged log adds frames"
@@ -333,11 +373,13 @@ done
 # Frames that are lost are counted, whichever slots and senders they are of.
 sed "s#\.\./schedules#$source/schedules#" "$source/scenarios/paper_scenario1.yaml" >"$work/drowned.yaml"
 printf 'faults:\n  - {kind: transient, from: 1 s, duration: 4 ms}\n' >>"$work/drowned.yaml"
-expect 0 'HARMED by fault 0, 1\.0[0-9]+ s: fusion: [0-9]+ frames lost, the first: slot [0-9]+ of [a-z_]+ on any channel$' \
+expect 0 \
+  'HARMED by fault 0, 1\.0[0-9]+ s: fusion: [0-9]+ frames lost, the first: slot [0-9]+ of [a-z_]+ on any channel$' \
   run "$work/drowned.yaml" --strategy tt --no-log --out "$work/drowned"
 
 # What the pages show of a scenario loads as it stands there, and so do the keys they name.
-page_example() { awk -v key="    $2:" '$0 == key { on = 1 } on && !/^    / { exit } on { print substr($0, 5) }' "$source/docs/$1"; }
+page_example() \
+  { awk -v key="    $2:" '$0 == key { on = 1 } on && !/^    / { exit } on { print substr($0, 5) }' "$source/docs/$1"; }
 for example in faults startup; do
   grep -v '^faults:' "$work/scenarios/paper_scenario1.yaml" >"$work/scenarios/page.yaml"
   page_example $example.md $example >>"$work/scenarios/page.yaml"
@@ -369,13 +411,15 @@ PY
 
 # What is wrong with a scenario is found before an earlier run's log is written over.
 mkdir "$work/kept" && echo "an earlier log" >"$work/kept/tt.mcap"
-sed "s#\.\./schedules#$source/schedules#; 0,/node: camera_pre/s//node: camera_per/" "$source/scenarios/faulty_bus.yaml" >"$work/typo.yaml"
+sed "s#\.\./schedules#$source/schedules#; 0,/node: camera_pre/s//node: camera_per/" \
+  "$source/scenarios/faulty_bus.yaml" >"$work/typo.yaml"
 expect 2 'camera_per: must be a node' run "$work/typo.yaml" --strategy tt --out "$work/kept"
 [[ $(cat "$work/kept/tt.mcap") == "an earlier log" ]] || fail "a run that was refused has written over a log"
 
 # A fault campaign: the table, the same from shards put together; a replay in words; what is refused.
 campaign=$work/schedules/campaign.yaml
-sed -e 's#^cluster: .*#cluster: flexray_demo.yaml#' -e 's/^faults: .*/faults: 24/' "$source/experiments/fault_campaign.yaml" >"$campaign"
+sed -e 's#^cluster: .*#cluster: flexray_demo.yaml#' -e 's/^faults: .*/faults: 24/' \
+  "$source/experiments/fault_campaign.yaml" >"$campaign"
 expect 0 'Example' experiment --help
 expect 0 'variant guardian \(guardian and two channels\)' experiment "$campaign" --jobs 2 --out "$work/campaign"
 expect 0 '"holds": true' experiment "$campaign" --jobs 1 --json
@@ -387,10 +431,12 @@ awk -F, -v OFS=, '$2 == "guardian" && $7 == "yes" && !done { $12 = "frame_lost";
   "$work/merged/results.csv" >"$work/campaign/results.csv"
 expect 1 'does not hold' experiment "$campaign" --merge "$work/campaign"
 expect 1 'ttfusion experiment .*campaign.yaml --replay [0-9]+' experiment "$campaign" --merge "$work/campaign"
-expect 2 'campaign.yaml: --merge: lacks shard 2/2: give the folders of all shards' experiment "$campaign" --merge "$work/shard1"
+expect 2 'campaign.yaml: --merge: lacks shard 2/2: give the folders of all shards' experiment "$campaign" \
+  --merge "$work/shard1"
 expect 0 '' experiment "$campaign" --shard 3/5 --out "$work/shard3"
 expect 2 'lacks shard 1/5, 2/5, 4/5, 5/5' experiment "$campaign" --merge "$work/shard3"
-expect 2 '--merge = [0-9]+: is a fault that is (missing|there twice)' experiment "$campaign" --merge "$work/shard1" "$work/shard3"
+expect 2 '--merge = [0-9]+: is a fault that is (missing|there twice)' experiment "$campaign" --merge "$work/shard1" \
+  "$work/shard3"
 expect 0 'fault 3: [a-z_]+ ' experiment "$campaign" --replay 3
 for fault in 2 3 8; do
   "$program" experiment "$campaign" --replay $fault >"$work/replay.txt"
@@ -413,7 +459,8 @@ expect 2 'paper_scenario1.yaml: clusters = .*: takes no recording, so --input wo
 [[ -e $work/none/buff.mcap ]] && fail "a refused recording leaves a log"
 recording=${TTF_RECORDINGS:-$source/../shared/data}/laser_radar/measurements.txt
 if [[ -r $recording ]]; then
-  expect 0 'position RMSE' run "$source/scenarios/laser_radar_recorded.yaml" --input "$recording" --out "$work/r" --no-pictures
+  expect 0 'position RMSE' run "$source/scenarios/laser_radar_recorded.yaml" --input "$recording" --out "$work/r" \
+    --no-pictures
   sed '7s/[0-9]/x/' "$recording" >"$work/broken.txt"
   expect 2 'broken.txt:7' run "$source/scenarios/laser_radar_recorded.yaml" --input "$work/broken.txt" --out "$work/r"
 else

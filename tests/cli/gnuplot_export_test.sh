@@ -15,7 +15,8 @@ drawn() {
     said=$(cd "$1" && gnuplot "$(basename "$script")" 2>&1) || fail "gnuplot $script fails"
     [[ -z $said ]] || fail "gnuplot $script says: $said"
     [[ $(head -c 5 "$name.pdf") == %PDF- && $(stat -c %s "$name.pdf") -gt 4000 ]] || fail "$name.pdf is no picture"
-    [[ $(head -c 4 "$name.png" | tail -c 3) == PNG && $(stat -c %s "$name.png") -gt 8000 ]] || fail "$name.png is no picture"
+    [[ $(head -c 4 "$name.png" | tail -c 3) == PNG && $(stat -c %s "$name.png") -gt 8000 ]] ||
+      fail "$name.png is no picture"
   done
 }
 
@@ -34,6 +35,15 @@ done
 head -c $(($(stat -c %s "$work/run/tt.mcap") * 2 / 3)) "$work/run/tt.mcap" >"$work/cut.mcap"
 expect 0 'warning: .*cut.mcap' export "$work/cut.mcap" --format gnuplot -o "$work/cut"
 drawn "$work/cut"
+
+# ---- an image that is used once
+sed -e 's/^duration: .*/duration: 120 ms/' -e 's/^evaluate_from: .*/evaluate_from: 0 ms/' -e "s#\.\./#$source/#" \
+  "$source/scenarios/paper_scenario1.yaml" >"$work/once.yaml"
+"$program" run "$work/once.yaml" --strategy tt --no-pictures --out "$work/once" >/dev/null 2>&1 ||
+  fail "the short run fails"
+expect 0 '8 files written to' export "$work/once" --format gnuplot -o "$work/once_figures"
+[[ $(wc -l <"$work/once_figures/tt_errors.csv") -eq 2 ]] || fail "not one use"
+drawn "$work/once_figures"
 
 # ---- an experiment with an axis of numbers and one of labels, and one of a single run
 experiment() {
@@ -66,7 +76,8 @@ done
 
 # ---- what is refused
 head -c 20000 "$work/run/tt.mcap" >"$work/begun.mcap"
-expect 2 'begun.mcap: tells of no position, no use of an image' export "$work/begun.mcap" --format gnuplot -o "$work/none"
+expect 2 'begun.mcap: tells of no position, no use of an image' export "$work/begun.mcap" --format gnuplot \
+  -o "$work/none"
 mkdir "$work/empty"
 expect 2 'empty: holds neither logs' export "$work/empty" --format gnuplot -o "$work/none"
 expect 2 "small: must be alone" export "$work/small" "$work/run/tt.mcap" --format gnuplot -o "$work/none"

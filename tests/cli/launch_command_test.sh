@@ -22,7 +22,8 @@ for command in launch "node fusion"; do
     expect 2 '--seed = 1x: must be a whole number 0..4611686018427387904' $command "$drive" --seed 1x
     expect 2 '--bus = can: must be dds, or socketcan: with one or two different interfaces' $command "$drive" --bus can
     expect 2 '--bus = socketcan:vcan0,vcan0: must be dds, or' $command "$drive" --bus socketcan:vcan0,vcan0
-    expect 2 '--bus = socketcan:vcan0: must be dds with --virtual-time' $command "$drive" --bus socketcan:vcan0 --virtual-time
+    expect 2 '--bus = socketcan:vcan0: must be dds with --virtual-time' $command "$drive" --bus socketcan:vcan0 \
+      --virtual-time
     for scale in 0 0.09 1000.1 -1 nan 1e2; do
       expect 2 "--time-scale = $scale: must be a decimal number 0.1..1000" $command "$drive" "--time-scale=$scale"
     done
@@ -31,8 +32,10 @@ for command in launch "node fusion"; do
       expect 2 "--duration = $duration: must be a decimal number 1.5..3600 s \(.*paper_scenario1.yaml is evaluated from 1.5 s on\)" \
         $command "$drive" --duration "$duration"
     done
-    expect 2 '--duration = 1: must be a decimal number 1.5..3600 s \(the default scene is evaluated from' $command "$cluster" --duration 1
-    expect 2 '--bus = socketcan:sixteen_letters_: must be dds, or .* \(each 1..15 characters' $command "$drive" --bus socketcan:sixteen_letters_
+    expect 2 '--duration = 1: must be a decimal number 1.5..3600 s \(the default scene is evaluated from' $command \
+      "$cluster" --duration 1
+    expect 2 '--bus = socketcan:sixteen_letters_: must be dds, or .* \(each 1..15 characters' $command "$drive" \
+      --bus socketcan:sixteen_letters_
     expect 2 '--session: must be 1 to 64 letters' $command "$drive" --session ''
     expect 2 '--session = a b: must be 1 to 64 letters' $command "$drive" --session 'a b'
     expect 2 '--out: must not be empty' $command "$drive" --out ''
@@ -52,8 +55,10 @@ for command in launch "node fusion"; do
   }
 done
 # In real time: what the cluster must be fit for, at the time scale; no faults.
-edited() { sed "$1" "$cluster" >"$work/edited.yaml"; cmp -s "$cluster" "$work/edited.yaml" && fail "'$1' changes nothing"; }
-expect 2 'flexray_demo.yaml:[0-9]+: topology = star: must be bus in real time' launch "$source/schedules/flexray_demo.yaml" --dry-run
+edited() \
+  { sed "$1" "$cluster" >"$work/edited.yaml"; cmp -s "$cluster" "$work/edited.yaml" && fail "'$1' changes nothing"; }
+expect 2 'flexray_demo.yaml:[0-9]+: topology = star: must be bus in real time' launch \
+  "$source/schedules/flexray_demo.yaml" --dry-run
 expect 0 'node fusion' launch "$source/schedules/flexray_demo.yaml" --virtual-time --dry-run
 edited '/^real_time:/d'
 expect 2 'edited.yaml:[0-9]+: real_time: is missing: .* for virtual time only' launch "$work/edited.yaml" --dry-run
@@ -65,20 +70,25 @@ expect 2 'must be at most 1999.999 us at time scale 3.44234,' \
   node fusion "$work/edited.yaml" --time-scale 3.44234
 expect 0 'node fusion .* --time-scale 3.442341 ' launch "$work/edited.yaml" --time-scale 3.442341 --dry-run
 edited 's/observation_can/observation_can_/g'
-expect 2 'edited.yaml:[0-9]+: can.observation_can_: needs --can NAME=IF on SocketCAN' launch "$work/edited.yaml" --bus socketcan:vcan0 --dry-run
-expect 1 'can observation_can_=vcan_absent' launch "$work/edited.yaml" --bus socketcan:vcan0 --can observation_can_=vcan_absent --dry-run
+expect 2 'edited.yaml:[0-9]+: can.observation_can_: needs --can NAME=IF on SocketCAN' launch "$work/edited.yaml" \
+  --bus socketcan:vcan0 --dry-run
+expect 1 'can observation_can_=vcan_absent' launch "$work/edited.yaml" --bus socketcan:vcan0 \
+  --can observation_can_=vcan_absent --dry-run
 edited '0,/slot: 6, channels: AB/s//slot: 6, channels: B/'
-expect 2 '--bus = socketcan:vcan0: must name an interface for channel B, too: slot 6 of .*edited.yaml is sent on B alone' \
+expect 2 \
+  '--bus = socketcan:vcan0: must name an interface for channel B, too: slot 6 of .*edited.yaml is sent on B alone' \
   launch "$work/edited.yaml" --bus socketcan:vcan0 --dry-run
 expect 1 'node fusion' launch "$work/edited.yaml" --bus socketcan:vcan0,vcan_absent --dry-run
-expect 2 'faulty_bus.yaml:[0-9]+: faults: must be run in virtual time' launch "$source/scenarios/faulty_bus.yaml" --dry-run
+expect 2 'faulty_bus.yaml:[0-9]+: faults: must be run in virtual time' launch "$source/scenarios/faulty_bus.yaml" \
+  --dry-run
 expect 0 'node fusion' launch "$source/scenarios/faulty_bus.yaml" --virtual-time --dry-run
 
 # A node without a supervisor.
 expect 2 '--start-at = 1: must not be given with --virtual-time' node fusion "$drive" --start-at 1 --virtual-time
 expect 2 '--rejoin: must not be given with --virtual-time' node fusion "$drive" --rejoin --virtual-time
 expect 2 '--host = a: must not be given with --virtual-time' node fusion "$drive" --host a --virtual-time
-expect 2 '--host = two words: must be 1..255 letters, digits or signs, without blanks' node fusion "$drive" --host 'two words'
+expect 2 '--host = two words: must be 1..255 letters, digits or signs, without blanks' node fusion "$drive" \
+  --host 'two words'
 expect 2 '--host: 1 required TEXT missing' node fusion "$drive" "--host="
 expect 2 'not expected: .*--host' launch "$drive" --host a
 for start in -1 1e9 4102444801 now 0.0000000001; do
@@ -89,7 +99,8 @@ for rejoin in '' --rejoin; do
   expect 2 'command line: --start-at: must be given to a node in real time that has no supervisor' \
     node fusion "$drive" $rejoin --out "$work/by_hand"
 done
-expect 2 '--start-at = 1: must be ahead' node fusion "$drive" --start-at 1 --no-topics --session "refused-$$" --out "$work/by_hand"
+expect 2 '--start-at = 1: must be ahead' node fusion "$drive" --start-at 1 --no-topics --session "refused-$$" \
+  --out "$work/by_hand"
 [[ $(ls "$work/by_hand" 2>/dev/null) == '' ]] || fail "a node that is refused leaves a log"
 expect 2 'not expected: --rejoin' launch "$drive" --rejoin
 expect 2 'not expected: .*--start-at' launch "$drive" --start-at 1
@@ -106,14 +117,16 @@ for domain in 232 -1 0.5 one; do
 done
 unset ROS_DOMAIN_ID
 
-expect 2 'NAME = fusoin: must be a node of .*paper_synchronised.yaml: .*laser_pre, .*fusion' node fusoin "$drive" --virtual-time
+expect 2 'NAME = fusoin: must be a node of .*paper_synchronised.yaml: .*laser_pre, .*fusion' node fusoin "$drive" \
+  --virtual-time
 expect 2 '--policy = fusion: must be NODE=required, NODE=restart or NODE=optional' launch "$drive" --policy fusion
 expect 2 '--policy = fusion=never: must be NODE=' launch "$drive" --policy fusion=never
 expect 2 'NAME = fusoin: must be a node of' launch "$drive" --policy fusoin=optional
 expect 2 'must be given once for each node' launch "$drive" --policy fusion=optional --policy fusion=restart
 sed 's/gdNIT: 386/gdNIT: 380/' "$cluster" >"$work/broken.yaml"
 expect 2 'broken.yaml:[0-9]+: .*(gdNIT|gMacroPerCycle)' launch "$work/broken.yaml" --dry-run
-sed "s#\.\./schedules#$source/schedules#; 0,/node: camera_pre/s//node: camera_per/" "$source/scenarios/faulty_bus.yaml" >"$work/typo.yaml"
+sed "s#\.\./schedules#$source/schedules#; 0,/node: camera_pre/s//node: camera_per/" \
+  "$source/scenarios/faulty_bus.yaml" >"$work/typo.yaml"
 expect 2 'camera_per: must be a node' launch "$work/typo.yaml" --dry-run
 
 # What cannot run says so, and starts nothing.
@@ -121,7 +134,8 @@ for dry in '' --dry-run; do
   # shellcheck disable=SC2086
   {
     expect 1 'ip link add dev vcan_absent type vcan' launch "$drive" --bus socketcan:vcan_absent $dry --out "$work/real"
-    expect 1 'without any CAN: --bus dds .* tools/test_bed.sh' launch "$drive" --bus socketcan:vcan_absent $dry --out "$work/real"
+    expect 1 'without any CAN: --bus dds .* tools/test_bed.sh' launch "$drive" --bus socketcan:vcan_absent $dry \
+      --out "$work/real"
   }
 done
 [[ -x $source/tools/test_bed.sh ]] || fail "there is no test bed"
@@ -159,7 +173,8 @@ exec 9>&-
 
 # What DDS is told is tried before anything is started.
 export CYCLONEDDS_URI=file://$work/absent.xml
-for arguments in "launch $drive" "launch $drive --virtual-time" "launch $drive --dry-run" "node fusion $drive --virtual-time" \
+for arguments in "launch $drive" \
+  "launch $drive --virtual-time" "launch $drive --dry-run" "node fusion $drive --virtual-time" \
   "node fusion $drive --start-at 4000000000"; do
   # shellcheck disable=SC2086
   expect 2 "environment: CYCLONEDDS_URI = file://.*absent.xml: must be a configuration .* it says: can't open configuration file" \
@@ -187,14 +202,17 @@ expect 2 '--out: must not be empty' run "$drive" --out ''
 # Who rejoins a drive that has not begun says that it waits.
 timeout 3 "$program" node fusion "$drive" --no-topics --session "early-$$" --rejoin --start-at $(($(date +%s) + 100)) \
   --out "$work/early" >"$work/early.words" 2>&1
-grep -Eq '^the drive begins in (9[0-9]|100)\.[0-9] s \(--start-at\): until then there is no cluster to rejoin$' "$work/early.words" ||
+grep -Eq '^the drive begins in (9[0-9]|100)\.[0-9] s \(--start-at\): until then there is no cluster to rejoin$' \
+  "$work/early.words" ||
   fail "nobody says what is waited for: $(cat "$work/early.words")"
 
 # The dry run: one command per node on standard output, words on the other; each command is taken as it stands.
-"$program" launch "$drive" --virtual-time --seed 5 --duration 2.50 --out "$work/it's dry" --dry-run >"$work/commands" 2>"$work/words" ||
+"$program" launch "$drive" --virtual-time --seed 5 --duration 2.50 --out "$work/it's dry" \
+  --dry-run >"$work/commands" 2>"$work/words" ||
   fail "the dry run fails"
 [[ -e "$work/it's dry" ]] && fail "the dry run leaves a folder"
-grep -q 'paper_synchronised.yaml is consistent' "$work/words" || fail "the dry run does not say that the schedule is consistent"
+grep -q 'paper_synchronised.yaml is consistent' "$work/words" ||
+  fail "the dry run does not say that the schedule is consistent"
 nodes=$(sed -n '/^nodes:/,/^[a-z_]*:$/p' "$cluster" | grep -c '^  [a-z_]*:')
 [[ $(wc -l <"$work/commands") -eq $nodes ]] || fail "$(wc -l <"$work/commands") commands for $nodes nodes"
 grep -Eq -- " node fusion .*paper_scenario1.yaml --strategy tt --seed 5 --bus dds --session [^ ]* --duration 2.5 --virtual-time --out '" "$work/commands" ||
@@ -203,7 +221,8 @@ while IFS= read -r line; do
   bash -c "$line --dry" >/dev/null 2>"$work/refused"
   grep -q 'not expected: --dry' "$work/refused" || fail "a shell does not take: $line"
 done <"$work/commands"
-"$program" launch "$drive" --strategy buff --time-scale 2.50 --bus socketcan:vcan_absent --can camera_can=can7 --policy fusion=restart --dry-run --json \
+"$program" launch "$drive" --strategy buff --time-scale 2.50 --bus socketcan:vcan_absent --can camera_can=can7 \
+  --policy fusion=restart --dry-run --json \
   >"$work/plan.json"
 [[ $? -eq 1 ]] || fail "the dry run's JSON does not fail where no CAN is"
 python3 - "$work/plan.json" <<'PY' || fail "the dry run's JSON is another"

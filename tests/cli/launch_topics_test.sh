@@ -16,7 +16,8 @@ hear() {
   shift
   "$listen" "$ROS_DOMAIN_ID" >"$work/$name.heard" 2>"$work/$name.err" &
   listener=$!
-  "$program" launch "$drive" --time-scale 4 --duration 1.6 --no-pictures --out "$work/$name" "$@" >"$work/$name.out" 2>&1 ||
+  "$program" launch "$drive" --time-scale 4 --duration 1.6 --no-pictures --out "$work/$name" \
+    "$@" >"$work/$name.out" 2>&1 ||
     fail "a launch that is listened to exits with $?: $(cat "$work/$name.out")"
   kill -INT "$listener"
   wait "$listener" || fail "the listener exits with $?: $(cat "$work/$name.err")"

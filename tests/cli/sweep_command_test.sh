@@ -57,10 +57,12 @@ sed 's/seed: 3/seed: 4/' "$file" >"$work/other.yaml"
 expect 2 'must be of this experiment: the file, a file that it names or the program was another then' \
   experiment "$work/other.yaml" --out "$work/whole" --resume
 expect 2 'must be of this experiment' experiment "$work/other.yaml" --merge "$work/first" --out "$work/none"
-expect 2 'none/results.sqlite: cannot be opened' experiment "$file" --merge "$work/first" "$work/none" --out "$work/none"
+expect 2 'none/results.sqlite: cannot be opened' experiment "$file" --merge "$work/first" "$work/none" \
+  --out "$work/none"
 expect 2 '--shard = 3/2' experiment "$file" --shard 3/2 --out "$work/none"
 [[ -e $work/none ]] && fail "what is refused leaves a folder behind"
-expect 1 '80 of 160 runs are not among them: --resume drives them' experiment "$file" --merge "$work/first" --out "$work/half"
+expect 1 '80 of 160 runs are not among them: --resume drives them' experiment "$file" --merge "$work/first" \
+  --out "$work/half"
 expect 0 '' experiment "$file" --out "$work/half" --resume
 cmp "$work/whole/runs.csv" "$work/half/runs.csv" || fail "a shard and the rest are not the whole"
 cp -r "$work/first" "$work/foreign"

@@ -1,8 +1,8 @@
 // Any records as the pictures of a log. Laws: a picture comes out, whatever the log says; it is text without control
 // characters; and the same log gives the same picture.
 //
-// Input: start of the window (8 bytes, ns), its length and the cycle (4 bytes each, us), which names are known (1 byte),
-// then messages: kind (1 byte), length (2 bytes), payload.
+// Input: start of the window (8 bytes, ns), its length and the cycle (4 bytes each, us), which names are known (1
+// byte), then messages: kind (1 byte), length (2 bytes), payload.
 #include <algorithm>
 
 #include "core/check.h"

@@ -1,5 +1,5 @@
-// Any bytes as a FlexRay frame. Laws: an error is a value, never anything else; a frame that is accepted is the one that
-// encoding its header and payload makes; and no frame of one channel passes on the other.
+// Any bytes as a FlexRay frame. Laws: an error is a value, never anything else; a frame that is accepted is the one
+// that encoding its header and payload makes; and no frame of one channel passes on the other.
 //
 // First byte: channel (bit 0), whether both CRCs are made right first (bit 1), for they would stop nearly everything.
 #include <algorithm>

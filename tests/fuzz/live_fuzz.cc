@@ -1,7 +1,7 @@
-// Anything that may arrive in real time, at any instant and in any order, at a node that is at work (nodes/runner/arrivals.h):
-// frames of any slot and cycle, sound or broken, sync frames with and without follow-ups, symbols of any length, CAN frames
-// and strobes. Laws: arrivals are handed over in the order in which they are due, none before it; the node stops for
-// none of them, and its clock goes on.
+// Anything that may arrive in real time, at any instant and in any order, at a node that is at work
+// (nodes/runner/arrivals.h): frames of any slot and cycle, sound or broken, sync frames with and without follow-ups,
+// symbols of any length, CAN frames and strobes. Laws: arrivals are handed over in the order in which they are due,
+// none before it; the node stops for none of them, and its clock goes on.
 //
 // Input: how the node begins (a byte), then acts: what (a byte), and what it takes.
 #include <algorithm>
@@ -59,9 +59,17 @@ class Node {
     port_.arrivals = &arrivals_;
     now_ = oscillator.ticks_at(first);
     const nodes::ExecutiveConfig config{
-        &cluster, kNode, oscillator,
-        integrated ? std::optional(nodes::integrated_clock(oscillator, cluster, cluster.node(kNode), first)) : std::nullopt,
-        1, 0, now_, {}, {}, nullptr};
+        &cluster,
+        kNode,
+        oscillator,
+        integrated ? std::optional(nodes::integrated_clock(oscillator, cluster, cluster.node(kNode), first))
+                   : std::nullopt,
+        1,
+        0,
+        now_,
+        {},
+        {},
+        nullptr};
     std::vector<std::shared_ptr<nodes::Step>> steps(cluster.node(kNode).tasks.size());
     for (auto& step : steps) step = std::make_shared<Idle>();
     std::vector<bus::CanPort*> cans;

@@ -23,8 +23,8 @@ bool check_scenario(const std::string& text) {
   TTF_CHECK(scenario.evaluate_from <= scenario.duration, "evaluated from {}, {} long", scenario.evaluate_from.ns,
             scenario.duration.ns);
   for (const nodes::Fault& fault : scenario.faults.faults) {
-    TTF_CHECK(fault.from >= Duration{} && fault.from <= scenario.duration && fault.duration > Duration{}, "{} from {} for {}",
-              nodes::name_of(fault.kind), fault.from.ns, fault.duration.ns);
+    TTF_CHECK(fault.from >= Duration{} && fault.from <= scenario.duration && fault.duration > Duration{},
+              "{} from {} for {}", nodes::name_of(fault.kind), fault.from.ns, fault.duration.ns);
     TTF_CHECK(fault.probability >= 0.0 && fault.probability <= 1.0 && fault.every >= 1 && fault.flips >= 1 &&
                   fault.flips <= 24 && fault.shift >= Duration{-9'000} && fault.interval >= Duration{} &&
                   std::is_sorted(fault.bits.begin(), fault.bits.end()),

@@ -11,6 +11,7 @@
 #include "bus/wire/flexray_frame.h"
 #include "core/check.h"
 #include "core/random.h"
+#include "experiments/results/store.h"
 #include "recording/capture_packet.h"
 #include "recording/capture_writer.h"
 #include "recording/log_writer.h"
@@ -191,7 +192,8 @@ void live_seeds(const fs::path& folder) {
 // A schedule's frames as pcapng and, from the same packets, as pcap; short enough to be edited.
 // A turn of every act, and one without.
 void turn_seeds(const fs::path& folder) {
-  const schedules::Cluster cluster = schedules::parse_cluster(fuzz::shipped("schedules/flexray_demo.yaml"), "flexray_demo");
+  const schedules::Cluster cluster =
+      schedules::parse_cluster(fuzz::shipped("schedules/flexray_demo.yaml"), "flexray_demo");
   std::array<std::byte, wire::kMaxFrameBytes> room{};
   wire::FrameHeader header;
   header.frame_id = 3;
@@ -205,13 +207,15 @@ void turn_seeds(const fs::path& folder) {
     const auto bytes = writer.finish({node, 1, Microticks{400}, {Microticks{900}, Microticks{}, Microticks{5}}});
     write(folder / "turn" / name, std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
   };
-  const bus::Transmission signal{schedules::Channel::kA, bus::Signal::kFrame, Microticks{400}, Microticks{500}, 3, frame};
+  const bus::Transmission signal{
+      schedules::Channel::kA, bus::Signal::kFrame, Microticks{400}, Microticks{500}, 3, frame};
   bus::Transmission symbol = signal;
   symbol.signal = bus::Signal::kWakeup;
   symbol.bytes = {};
   add("silent", NodeId{0}, {});
   add("host", cluster.sensor(sensor).host, {signal, symbol, sim::TriggerAct{sensor}});
-  add("device", cluster.sensor(sensor).device, {sim::StrobeAct{sensor, 7}, sim::CanAct{0, {0x20, false, frame.first(8)}}});
+  add("device", cluster.sensor(sensor).device,
+      {sim::StrobeAct{sensor, 7}, sim::CanAct{0, {0x20, false, frame.first(8)}}});
 }
 
 void capture_seeds(const fs::path& folder) {
@@ -237,8 +241,9 @@ void capture_seeds(const fs::path& folder) {
                                       recording::check_flexray_frame(channel, std::span(frame).first(size)));
         const std::int64_t at = i / 6 * 5'000'000 + header.frame_id * 84'000;
         writer.packet(1, at, packet, i % 6 == 0 ? "measurement laser 12" : "");
-        for (const std::int64_t field : {std::int64_t{0}, at / (nanoseconds ? 1 : 1000),
-                                         static_cast<std::int64_t>(packet.size()), static_cast<std::int64_t>(packet.size())})
+        for (const std::int64_t field :
+             {std::int64_t{0}, at / (nanoseconds ? 1 : 1000), static_cast<std::int64_t>(packet.size()),
+              static_cast<std::int64_t>(packet.size())})
           put(pcap, static_cast<std::uint32_t>(field));
         pcap += packet;
       }
@@ -330,6 +335,7 @@ void log_seeds(const fs::path& folder) {
     put(window, std::uint32_t{5'000});
     put(window, std::uint8_t{1});
     write(folder / "diagram" / name, window + payloads.messages);
+    write(folder / "trace" / name, payloads.messages);
   };
   constexpr int kKinds = recording::kRecordKinds;
   add("empty", Values::kZero, 1, 0, 1);
@@ -338,6 +344,67 @@ void log_seeds(const fs::path& folder) {
     add("smallest_" + std::to_string(kind), Values::kSmallest, kind, kind, 1);
   }
   add("drawn", Values::kDrawn, 1, kKinds, 3);
+}
+
+// What a run and an experiment leave for the report, small.
+void result_seeds(const fs::path& folder) {
+  const auto interval = [](const std::string& mean, const std::string& more) {
+    return R"({"count": 3, "mean": )" + mean + R"(, "half_width": 0.5)" + more + "}";
+  };
+  const std::string difference = ", \"difference\": " + interval("-0.25", "");
+  const auto point = [&](int number, const std::string& noise) {
+    return R"({"point": )" + std::to_string(number) + R"(, "axes": {"noise": ")" + noise +
+           R"(", "road": "dry"}, "paradigms": {"adva": {"error": )" + interval("1", "") + R"(, "age": )" +
+           interval("null", "") + R"(}, "tt": {"error": )" + interval("0.75", difference) + R"(, "age": )" +
+           interval("3", difference) + "}}}";
+  };
+  const std::string begin = R"({"experiment": "e", "file": "e.yaml", "question": "<q>?", "seed": 1, "confidence": 0.95,
+"runs": 12, "failed": 1, "baseline": "adva", "answer": "one\ntwo\n",
+"measures": {"error": {"unit": "m", "meaning": "how far"}, "age": {"unit": "", "meaning": ""}},
+"points": [)";
+  const std::string ends = R"(], "crossings": [{"paradigm": "tt", "axis": "noise", "at": 3.5, "others": "road dry",
+"certain": false}], "expectations": [{"expected": "less", "holds": false, "where_not": ["noise 1", 2]}]})";
+  write(folder / "answer/grid", begin + point(0, "1 m") + "," + point(1, "100 m") + ends);
+  write(folder / "answer/labels", begin + point(0, "slow") + ends);
+  write_dictionary(folder / "answer.dict",
+                   {"experiment", "file", "question", "answer", "baseline", "seed", "runs", "failed", "confidence",
+                    "points", "axes", "paradigms", "count", "mean", "half_width", "difference", "measures", "unit",
+                    "meaning", "crossings", "expectations", "where_not", "null", "true", "1e308", "-1", "\\u0000",
+                    "</script>", "<img>", "{}", "[]", "nan", " ms"});
+
+  const std::string drive = R"({"strategy": "tt", "log": "out/tt.mcap", "rmse_truth": {"position_m": 0.1,
+"velocity_mps": 0.7}, "nees": {"mean": 1.2, "band_95": [3.1, 5]}, "age_when_used": {"mean_ms": 60, "worst_ms": 100},
+"observations": {"received": 111, "lost": 1}, "uses": 37, "objects": {"compared": 37, "missed": 2}, "slot_problems": 3,
+"deadlines_missed": 1, "flexray_load": 0.29})";
+  const std::string run = R"({"scenario": "drive", "seed": 7, "duration_s": 3, "strategies": [)";
+  write(folder / "run_summary/one", run + drive + "]}");
+  write(folder / "run_summary/three", run + drive + ",{\"strategy\": \"<b>\"}," + drive + "]}");
+  write_dictionary(folder / "run_summary.dict",
+                   {"scenario", "seed", "duration_s", "strategies", "strategy", "log", "rmse_truth", "position_m",
+                    "velocity_mps", "rmse_reference", "nees", "mean", "band_95", "age_when_used", "mean_ms", "worst_ms",
+                    "observations", "received", "lost", "objects", "compared", "missed", "slot_problems", "null", "..",
+                    "1e308", "-1", "</script>", "{}", "[]"});
+
+  const std::string head = "point,noise,road,paradigm,measure,count,mean,half_width,difference,difference_half_width\n";
+  std::string rows;
+  for (const char* at : {"0,1 m,dry", "1,100 m,dry", "2,1 m,icy", "3,100 m,icy"})
+    for (const char* of : {",adva,nees,3,1,0.5,,", ",tt,nees,3,2,,-1,0.5", ",adva,age,3,,,,", ",tt,age,3,4,1,2,1"})
+      rows += std::string(at) + of + "\n";
+  write(folder / "paper/grid", head + rows);
+  write(folder / "paper/one", "point,paradigm,measure,count,mean,half_width,difference,difference_half_width\n"
+                              "0,\"a \"\"b\"\"\",nees,1,2,,,\n");
+  write_dictionary(folder / "paper.dict", {"point", "paradigm", "measure", "count", "mean", "half_width",
+                                           "difference", "difference_half_width", "nees", "e308", "nan", "-",
+                                           "\\x22", "\\x60", "#", " ms", "\\x0d\\x0a", ",,"});
+
+  const fs::path path = folder / "store/small";
+  fs::create_directories(path.parent_path());
+  results::Store store = results::Store::create(path, {"e", "id", "1", "name: e", {"m"}});
+  store.add({{{0, 0, 0}, results::kDone, {1.0}},
+             {{0, 0, 1}, results::kDone, {2.0}},
+             {{0, 1, 0}, "went <wrong>", {2.5}},
+             {{0, 1, 1}, results::kDone, {3.0}},
+             {{7, 1, 9}, "of nobody", {4.0}}});
 }
 
 }  // namespace
@@ -361,5 +428,6 @@ int main(int argc, char** argv) {
   capture_seeds(folder);
   drawn_seeds(folder);
   log_seeds(folder);
+  result_seeds(folder);
   return 0;
 }

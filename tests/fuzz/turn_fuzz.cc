@@ -1,5 +1,5 @@
-// Any bytes as a turn (sim/turn.h). Laws: what is none is refused, with a sentence; what is one is the same after writing
-// and reading it again, and says nothing that could not be simulated.
+// Any bytes as a turn (sim/turn.h). Laws: what is none is refused, with a sentence; what is one is the same after
+// writing and reading it again, and says nothing that could not be simulated.
 #include <algorithm>
 #include <span>
 #include <stdexcept>
@@ -14,7 +14,8 @@
 using namespace ttf;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const schedules::Cluster cluster = schedules::parse_cluster(fuzz::shipped("schedules/flexray_demo.yaml"), "flexray_demo");
+  static const schedules::Cluster cluster =
+      schedules::parse_cluster(fuzz::shipped("schedules/flexray_demo.yaml"), "flexray_demo");
   const std::span<const std::byte> bytes(reinterpret_cast<const std::byte*>(data), size);
   std::vector<sim::Act> acts;
   try {

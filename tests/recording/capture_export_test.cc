@@ -164,13 +164,14 @@ Exported disturbed() {
 }
 
 TEST(CaptureExport, FramesAreAsTheyWereOnTheChannel) {
-  EXPECT_EQ(disturbed().csv(), std::string(kCsvHeader) +
-                                   "7,FlexRay,A,73,7,gateway,frame,frame_crc_error,laser_objects,12,0,laser 12,01AA\n"
-                                   "8,FlexRay,A,73,8,gateway,frame,coding_error+frame_end_error,laser_objects,12,0,laser 12,01\n"
-                                   "10,FlexRay,A,73,10,gateway,frame,coding_error,laser_objects,12,0,laser 12,\n"
-                                   "11,FlexRay,A,,6,gateway,frame,,,,,,01AB\n"
-                                   "12,FlexRay,B,,,gateway,noise,coding_error,,,,,\n"
-                                   "16,FlexRay,A,73,6,gateway,frame,,laser_objects,12,0,laser 12,01AB\n");
+  EXPECT_EQ(disturbed().csv(),
+            std::string(kCsvHeader) +
+                "7,FlexRay,A,73,7,gateway,frame,frame_crc_error,laser_objects,12,0,laser 12,01AA\n"
+                "8,FlexRay,A,73,8,gateway,frame,coding_error+frame_end_error,laser_objects,12,0,laser 12,01\n"
+                "10,FlexRay,A,73,10,gateway,frame,coding_error,laser_objects,12,0,laser 12,\n"
+                "11,FlexRay,A,,6,gateway,frame,,,,,,01AB\n"
+                "12,FlexRay,B,,,gateway,noise,coding_error,,,,,\n"
+                "16,FlexRay,A,73,6,gateway,frame,,laser_objects,12,0,laser 12,01AB\n");
 }
 
 TEST(CaptureExport, PacketsOfFramesThatWereNotAsTheyWereSentSayWhoseTheyAre) {
@@ -184,10 +185,12 @@ TEST(CaptureExport, PacketsOfFramesThatWereNotAsTheyWereSentSayWhoseTheyAre) {
     sizes.push_back(packet.data_size);
   }
   const std::string list = "measurement laser 12: laser_objects, fragment 0";
-  EXPECT_THAT(comments, testing::ElementsAre("slot 7 of gateway; " + list, "slot 8 of gateway; " + list,
-                                             "slot 10 of gateway; " + list, "the controller of gateway did not send it",
-                                             "the controller of gateway did not send it", "slot 6 of gateway; " + list));
-  EXPECT_THAT(errors, testing::ElementsAre(kFrameCrcError, kCodingError | kFrameEndError, kCodingError, 0, kCodingError, 0));
+  EXPECT_THAT(comments, testing::ElementsAre(
+                            "slot 7 of gateway; " + list, "slot 8 of gateway; " + list,
+                            "slot 10 of gateway; " + list, "the controller of gateway did not send it",
+                            "the controller of gateway did not send it", "slot 6 of gateway; " + list));
+  EXPECT_THAT(errors, testing::ElementsAre(kFrameCrcError, kCodingError | kFrameEndError, kCodingError, 0,
+                                           kCodingError, 0));
   EXPECT_THAT(sizes, testing::ElementsAre(9u, 8u, 2u, 9u, 2u, 9u));
 }
 

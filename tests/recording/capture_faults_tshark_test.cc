@@ -75,8 +75,8 @@ class FaultyExpectation final : public Expectation {
     const auto found = sent_.find({record.sent.ns, record.sent_channel, record.sender});
     ASSERT_NE(found, sent_.end()) << record.sent.ns;
     Sent& sent = found->second;
-    const std::string comment =
-        fmt::format("slot {} of {}{}{}", record.slot, node(record.sender), sent.comment.empty() ? "" : "; ", sent.comment);
+    const std::string comment = fmt::format("slot {} of {}{}{}", record.slot, node(record.sender),
+                                            sent.comment.empty() ? "" : "; ", sent.comment);
     if (record.state == records::kChannelNothing) {
       ++nowhere;
       sent_.erase(found);
@@ -196,7 +196,8 @@ TEST(CaptureTshark, EveryFrameOfADriveWithFaultsIsAsItWasOnTheChannel) {
   EXPECT_GE(coding, expected.acts["noise"] + expected.acts["transient"]);
 
   // And the schedule is held against it, packet by packet.
-  const CaptureVerdict verdict = check_capture(parse_capture(bytes, "faulty.pcapng"), "faulty.pcapng", drive.cluster, {});
+  const CaptureVerdict verdict =
+      check_capture(parse_capture(bytes, "faulty.pcapng"), "faulty.pcapng", drive.cluster, {});
   ASSERT_LT(verdict.findings.size(), kMostFindings);
   std::set<std::pair<Contradiction, std::uint64_t>> found;
   for (const CaptureFinding& finding : verdict.findings) found.emplace(finding.kind, finding.packet);

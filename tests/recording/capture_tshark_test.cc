@@ -33,7 +33,8 @@ SymbolCounts compare(const testing_support::Drive& drive, std::size_t flip_every
     out << export_pcapng(collector, collector.in_order(), LogNames(info.manifest));
   }
   std::vector<CapturedLine>& lines = expected.lines;
-  std::stable_sort(lines.begin(), lines.end(), [](const CapturedLine& a, const CapturedLine& b) { return a.time_ns < b.time_ns; });
+  std::stable_sort(lines.begin(), lines.end(),
+                   [](const CapturedLine& a, const CapturedLine& b) { return a.time_ns < b.time_ns; });
   const std::vector<std::string> seen = tshark(file);
   EXPECT_EQ(seen.size(), lines.size());
   int differing = 0;

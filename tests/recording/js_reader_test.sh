@@ -6,7 +6,8 @@ sample=$1 tools=$2 work=$3
 
 skip() { echo "skipped: $*"; exit 77; }
 command -v node >/dev/null || skip "node is not installed"
-node -e 'process.exit(Number(process.versions.node.split(".")[0]) < 18 ? 1 : 0)' || skip "node $(node --version) is older than 18"
+node -e 'process.exit(Number(process.versions.node.split(".")[0]) < 18 ? 1 : 0)' ||
+  skip "node $(node --version) is older than 18"
 
 mkdir -p "$work"
 if [[ -d $tools/node_modules/@mcap/core ]]; then

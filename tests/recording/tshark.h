@@ -42,7 +42,8 @@ struct Flags {
 };
 
 // As tshark should print a packet with these bytes of a frame, trailer included where the frame has come to its end.
-inline std::string flexray_text(const std::string& comment, int channel, std::span<const std::byte> bytes, const Flags& flags) {
+inline std::string flexray_text(const std::string& comment, int channel, std::span<const std::byte> bytes,
+                                const Flags& flags) {
   const std::string errors = fmt::format("{:d}\t{:d}\t{:d}\t{:d}\t0", flags.header_crc, flags.frame_crc,
                                          flags.frame_end, flags.coding);
   if (bytes.empty())

@@ -147,7 +147,8 @@ TEST(WrongSlot, AClockThatIsSetTripsNothing) {
   }
 }
 
-// Microseconds are good enough for slots of 84 us. Milliseconds are not: nothing is said then but what was said without.
+// Microseconds are good enough for slots of 84 us. Milliseconds are not: nothing is said then but what was said
+// without.
 TEST(WrongSlot, CoarseStampsTellWhatTheyCan) {
   const auto resolved = [](std::int64_t unit) {
     return [unit](std::int64_t time) { return time / unit * unit; };

@@ -51,6 +51,7 @@ class ExperimentReport : public testing::Test {
       [{"expected": "tt less than adva", "holds": false, "where_not": ["noise 40 m"]}]})";
   }
   void write(const std::string& answer) { std::ofstream(folder_ + "/answer.json") << answer; }
+  std::string page() { return experiment_report_html(read_experiment_folder(folder_), {}, {}); }
   std::string refusal() {
     try {
       read_experiment_folder(folder_);
@@ -66,17 +67,33 @@ class ExperimentReport : public testing::Test {
 TEST_F(ExperimentReport, TheAnswerIsTheRunsOwn) {
   const ExperimentFolder folder = read_experiment_folder(folder_);
   EXPECT_EQ(experiment_answer(folder), "tt has the smallest error at all 2 points, for certain at 1.");
-  const std::string html = experiment_report_html(folder_);
+  const std::string html = page();
   for (const char* words :
        {"Is &lt;it&gt; so?", "a sentence.", "Expected: tt less than adva. It does not hold for certain at noise 40 m",
         "text &lt;&amp;&gt;", "+0.500 undecided", "--replay 0/adva/0"})
     EXPECT_NE(html.find(words), std::string::npos) << words;
 }
 
+TEST_F(ExperimentReport, ItsCommandsNameTheFileThatWasDriven) {
+  EXPECT_NE(page().find("ttfusion experiment experiments/e.yaml --out again"), std::string::npos);
+  std::string answer = answer_of(point(0, "1", "1"));
+  write(answer.insert(1, R"("file": "my own/e.yaml", )"));
+  EXPECT_NE(page().find("ttfusion experiment 'my own/e.yaml' --out again"), std::string::npos);
+}
+
+TEST_F(ExperimentReport, WhyNoDriveIsShownIsSaid) {
+  EXPECT_EQ(page().find("One drive of each paradigm"), std::string::npos);
+  ExperimentDrives none;
+  none.why_none = "No drive is shown here: it <was> another.";
+  const std::string html = experiment_report_html(read_experiment_folder(folder_), none, {});
+  EXPECT_NE(html.find("No drive is shown here: it &lt;was&gt; another."), std::string::npos);
+  EXPECT_EQ(html.find("class=\"diagram\""), std::string::npos);
+}
+
 TEST_F(ExperimentReport, WithoutItsRunsNothingIsCertain) {
   std::filesystem::remove(folder_ + "/results.sqlite");
   EXPECT_EQ(experiment_answer(read_experiment_folder(folder_)), "tt has the smallest error at all 2 points.");
-  EXPECT_NE(experiment_report_html(folder_).find("There is no results.sqlite"), std::string::npos);
+  EXPECT_NE(page().find("There is no results.sqlite"), std::string::npos);
 }
 
 TEST_F(ExperimentReport, WhoIsAloneIsComparedWithNobody) {
@@ -85,14 +102,14 @@ TEST_F(ExperimentReport, WhoIsAloneIsComparedWithNobody) {
   const auto at = [&](int number) { return std::string(alone).replace(alone.find('%'), 1, std::to_string(number)); };
   write(answer_of(at(0) + "," + at(1)));
   EXPECT_EQ(experiment_answer(read_experiment_folder(folder_)), "There is nobody to compare error of tt with.");
-  EXPECT_EQ(experiment_report_html(folder_).find("Along no axis"), std::string::npos);
+  EXPECT_EQ(page().find("Along no axis"), std::string::npos);
 }
 
 TEST_F(ExperimentReport, AnExpectationMayFailNowhereInParticular) {
   std::string answer = answer_of(point(0, "1", "1"));
   const std::string where = R"(["noise 40 m"])";
   write(answer.replace(answer.find(where), where.size(), "[]"));
-  EXPECT_NE(experiment_report_html(folder_).find("It does not hold for certain."), std::string::npos);
+  EXPECT_NE(page().find("It does not hold for certain."), std::string::npos);
 }
 
 // The last page of the file is of rows that nobody reads to open it.

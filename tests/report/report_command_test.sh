@@ -20,7 +20,8 @@ has run.html 'A car ahead accelerates along the sensor vehicle'
 has run.html 'has the smallest position error here: 0.115 m'
 has run.html 'One drive is one draw of the noise'
 has run.html "ttfusion run scenarios/paper_scenario1.yaml --strategy tt --seed 1"
-has run.html "$(python3 -c 'import json; print(json.load(open("seed1/summary.json"))["strategies"][2]["content_hash"])')"
+has run.html \
+  "$(python3 -c 'import json; print(json.load(open("seed1/summary.json"))["strategies"][2]["content_hash"])')"
 # Nothing is fetched by it.
 lacks run.html '(src|href)="(https?:)?//|@import|url\(["'"'"']?http'
 # The same folder makes the same page.
@@ -88,7 +89,75 @@ expect 0 'written to' report small -o small.html
 has small.html 'Is it &lt;so&gt;?'
 has small.html 'has the smallest position_rmse_truth at '
 has small.html 'root mean square of the position error against the truth'
-has small.html 'ttfusion experiment experiments/small.yaml --replay 0/adva/0 --out one'
+has small.html 'ttfusion experiment small.yaml --replay 0/adva/0 --out one'
+# A run of each paradigm is driven again, with the draws of the first replication that all of them have done.
+mkdir scratch
+export TMPDIR=$PWD/scratch
+expect 0 '^small: 2 runs of point 0, replication 0, again' report small -o small.html
+has small.html 'The runs of point 0 (noise 1), replication 0, driven again'
+has small.html '160 ms are drawn, from 0.4 s on'
+for words in 'data-label="adva"' 'data-label="tt"' 'How old measurements are' '"heading":"Precision"' \
+  'No fault was injected, no slot had a problem'; do
+  has small.html "$words"
+done
+expect 0 'written to' report small -o small_again.html
+cmp small.html small_again.html || fail "the same experiment makes another page"
+[[ -z $(ls -A scratch) ]] || fail "the runs that were driven again are left behind"
+unset TMPDIR
+# Its curves are those of the run's own page.
+expect 0 'written to tt' experiment small.yaml --replay 0/tt/0 --out tt
+expect 0 'written to' report tt -o tt.html
+python3 - <<'END' || fail "the curves in the experiment's page are not those of the run"
+import json, re
+def views(name):
+    plots = json.loads(re.search(r'id="plots">(.*?)</script>', open(name, encoding="utf-8").read(), re.S)[1])
+    return {(plot["heading"], view["label"]): view["curves"] for plot in plots for view in plot["views"]}
+of_all, alone = views("small.html"), views("tt.html")
+for key in [("Age over time", "newest of the sensors"), ("Error over time", "position"), ("Precision", "precision")]:
+    curve = next(c for c in of_all[key] if c["label"] == "tt")
+    assert curve["x"] and [curve["x"], curve["y"]] == [alone[key][0]["x"], alone[key][0]["y"]], key
+END
+expect 0 'written to' report small --point 1 --from 0.5 --to 0.52 -o point.html
+has point.html 'The runs of point 1 (noise 40), replication 0'
+has point.html 'only 20 ms are drawn, from 0.5 s on'
+expect 0 'written to' report small --no-drives -o none.html
+lacks none.html 'One drive of each paradigm|class="diagram"'
+
+# ---- what is not what it was is not driven as if it were, and the page says so
+mkdir changed away
+sed 's/^replications: .*/replications: 5/' small.yaml >changed/small.yaml
+(cd changed && "$program" report ../small -o page.html >/dev/null 2>said) || fail "no page where the file is another"
+grep -q '^warning: No drive is shown here: small.yaml, or a file that it names, is not as it was' changed/said ||
+  fail "another file is not told of: $(cat changed/said)"
+has changed/page.html 'No drive is shown here: small.yaml, or a file that it names, is not as it was'
+lacks changed/page.html 'class="diagram"'
+(cd away && "$program" report ../small -o page.html >/dev/null 2>&1) || fail "no page where there is no file"
+has away/page.html 'No drive is shown here: the experiment cannot be driven again (small.yaml'
+(cd away && "$program" report ../small --file ../small.yaml -o page.html >/dev/null 2>&1) || fail "--file is not taken"
+has away/page.html 'class="diagram"'
+expect 2 '^error: command line: --file = changed/small.yaml: cannot be driven again: ' \
+  report small --file changed/small.yaml -o x.html
+expect 2 '^error: nowhere.yaml: ' report small --file nowhere.yaml -o x.html
+expect 2 '^error: command line: --point = 2: must be a point of small, 0 to 1' report small --point 2 -o x.html
+expect 2 '^error: command line: --point: goes with an experiment' report seed1 --point 0 -o x.html
+# Other figures than the rows': whoever wrote them, it was not this drive.
+cp -r small forged
+cp -r small holes
+python3 - <<'END'
+import sqlite3
+first = "WHERE point = 0 AND replication = 0 AND paradigm = 1"
+for name, changes in [("forged", [f"UPDATE runs SET age_fused = age_fused + 1e-9 {first}"]),
+                      ("holes", [f"UPDATE runs SET status = 'failed' {first}",
+                                 "DELETE FROM runs WHERE point = 0 AND replication = 1 AND paradigm = 0"])]:
+    store = sqlite3.connect(f"{name}/results.sqlite")
+    for change in changes:
+        store.execute(change)
+    store.commit()
+END
+expect 0 'written to' report forged -o forged.html
+has forged.html 'No drive is shown here: tt, driven again, came to other figures than in results.sqlite.'
+# A replication that one of them has not done is passed over.
+expect 0 '^small: 2 runs of point 0, replication 2, again' report holes -o holes.html
 # The commands it shows do what they say.
 expect 0 'written to one' experiment small.yaml --replay 0/adva/0 --out one
 expect 0 'written to' report one -o one.html
@@ -109,7 +178,6 @@ mkdir nothing
 expect 2 '^error: nothing: is neither a run .* nor an experiment' report nothing -o x.html
 expect 2 '^error: nowhere: must be a folder of results' report nowhere -o x.html
 expect 2 '^error: .*small: must be one experiment, or runs alone' report small seed1 -o x.html
-expect 2 '^error: command line: --from = 1 s: goes with runs' report small --from 1 -o x.html
 expect 2 '^error: .*--out' report seed1
 mkdir damaged
 head -c 1000 small/answer.json >damaged/answer.json

@@ -121,7 +121,7 @@ TEST(RunSeries, AThinnedSeriesKeepsItsExtremes) {
 }
 
 Drive drive_of(std::uint64_t seed, const std::string& strategy, double error) {
-  Drive drive{"out", "bend", strategy, strategy, seed, {}, nullptr};
+  Drive drive{"out", "bend", strategy, {}, strategy, seed, {}, nullptr};
   drive.summary["rmse_truth"]["position_m"] = error;
   return drive;
 }
@@ -157,7 +157,7 @@ TEST(RunAnswer, OfSeveralSeedsDifferencesArePaired) {
 TEST(RunAnswer, AStrategyWithoutAFigureWinsNothing) {
   std::vector<Drive> drives;
   for (const std::uint64_t seed : {1u, 2u}) {
-    drives.push_back({"out", "bend", "adva", "adva", seed, {}, nullptr});
+    drives.push_back({"out", "bend", "adva", {}, "adva", seed, {}, nullptr});
     drives.back().summary["deadlines_missed"] = -3;   // no count
     drives.push_back(drive_of(seed, "buff", 0.2 + 0.01 * static_cast<double>(seed)));
     drives.push_back(drive_of(seed, "tt", 0.1));

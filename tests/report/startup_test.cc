@@ -23,8 +23,8 @@ struct SyntheticStartup {
 
   static void change(records::Sink& sink, std::int64_t us, int node, int from, const char* from_name, int to,
                      const char* to_name, const char* why, const char* consequence = "") {
-    sink.on(records::StateChanged{stamp(us, node), static_cast<std::uint8_t>(from), static_cast<std::uint8_t>(to), from_name,
-                                  to_name, why, consequence});
+    sink.on(records::StateChanged{stamp(us, node), static_cast<std::uint8_t>(from),
+                                  static_cast<std::uint8_t>(to), from_name, to_name, why, consequence});
   }
   static void frame(records::Sink& sink, int c, int slot, int node, bool startup, bool null) {
     const std::array<std::byte, 5> header{startup ? std::byte{0x18} : std::byte{}};
@@ -56,8 +56,9 @@ struct SyntheticStartup {
     for (int c = 0; c < 10; ++c) {
       if (c == 0)
         for (const int node : {1, 2})
-          change(sink, cycle(0) + 100, node, node == 1 ? 0x21 : 0x27, node == 1 ? "coldstart listen" : "integration listen",
-                 0x29, "initialise schedule", "a startup frame was heard");
+          change(sink, cycle(0) + 100, node, node == 1 ? 0x21 : 0x27,
+                 node == 1 ? "coldstart listen" : "integration listen", 0x29, "initialise schedule",
+                 "a startup frame was heard");
       if (c == 2) {
         change(sink, cycle(2), 1, 0x29, "initialise schedule", 0x26, "integration coldstart check", "pair");
         change(sink, cycle(2), 2, 0x29, "initialise schedule", 0x28, "integration consistency check", "pair");
@@ -66,7 +67,9 @@ struct SyntheticStartup {
         change(sink, cycle(4), 0, 0x22, "coldstart collision resolution", 0x23, "coldstart consistency check", "alone");
         change(sink, cycle(4), 1, 0x26, "integration coldstart check", 0x25, "coldstart join", "confirmed");
       }
-      if (c == 6) change(sink, cycle(6), 0, 0x23, "coldstart consistency check", 0x02, "normal active", "joined by <others>");
+      if (c == 6)
+        change(sink, cycle(6), 0, 0x23, "coldstart consistency check", 0x02, "normal active",
+               "joined by <others>");
       if (c == 7) change(sink, cycle(7), 1, 0x25, "coldstart join", 0x02, "normal active", "joined");
       if (c == 8) change(sink, cycle(8), 2, 0x28, "integration consistency check", 0x02, "normal active", "integrated");
       frame(sink, c, 1, 0, true, c < 6);
@@ -101,10 +104,10 @@ TEST(StartupDiagram, ShowsEveryStateThatLastsAndSaysWhy) {
   // Nodes 0..2: listening, then two or three states, and active; node 3 was active from the start.
   EXPECT_EQ(count_class(svg, "state"), 4u + 5u + 4u + 1u);
   for (const auto& [name, times] :
-       {std::pair{"coldstart listen", 2u}, std::pair{"integration listen", 1u}, std::pair{"coldstart collision resolution", 1u},
-        std::pair{"coldstart consistency check", 1u}, std::pair{"initialise schedule", 2u},
-        std::pair{"integration coldstart check", 1u}, std::pair{"coldstart join", 1u},
-        std::pair{"integration consistency check", 1u}})
+       {std::pair{"coldstart listen", 2u}, std::pair{"integration listen", 1u},
+        std::pair{"coldstart collision resolution", 1u}, std::pair{"coldstart consistency check", 1u},
+        std::pair{"initialise schedule", 2u}, std::pair{"integration coldstart check", 1u},
+        std::pair{"coldstart join", 1u}, std::pair{"integration consistency check", 1u}})
     EXPECT_EQ(count(svg, std::string(">") + name + "</text>"), times) << name;
   EXPECT_NE(svg.find("coldstart listen from 3 ms on: RUN; it may start the cluster"), std::string::npos);
   EXPECT_NE(svg.find("normal active from 50 ms on: joined by &lt;others&gt;"), std::string::npos);
@@ -126,7 +129,8 @@ TEST(StartupDiagram, DrawsFramesSymbolsAndPower) {
   EXPECT_EQ(count_class(svg, "symbol"), 2u);
   EXPECT_EQ(count_class(svg, "power"), 3u);
   EXPECT_EQ(count(svg, ">CAS</text>"), 1u) << "one note for both channels";
-  for (const char* entry : {"startup frame", "null frame", "other frame", "symbol", "power on", "listens", "leads", "joins"})
+  for (const char* entry :
+       {"startup frame", "null frame", "other frame", "symbol", "power on", "listens", "leads", "joins"})
     EXPECT_EQ(count(svg, std::string(">") + entry + "</text>"), 1u) << entry;
   EXPECT_EQ(count(svg, ">power off</text>"), 0u) << "only what occurs is explained";
 }
@@ -134,9 +138,11 @@ TEST(StartupDiagram, DrawsFramesSymbolsAndPower) {
 TEST(StartupDiagram, AFaultHasALaneFromItsBeginToItsEnd) {
   StartupDiagram d(four(), Duration::milliseconds(5), {}, {70'000'000});
   SyntheticStartup::drive(d);
-  d.on(records::FaultActivity{{10'000'000}, 0, records::kFaultBegins, NodeId{1}, "babbling_idiot", "camera_pc babbles"});
+  d.on(records::FaultActivity{
+      {10'000'000}, 0, records::kFaultBegins, NodeId{1}, "babbling_idiot", "camera_pc babbles"});
   d.on(records::FaultActivity{{11'000'000}, 0, records::kFaultActs, NodeId{1}, "babbling_idiot", "it sends in slot 3"});
-  d.on(records::FaultActivity{{30'000'000}, 0, records::kFaultEnds, NodeId{1}, "babbling_idiot", "camera_pc is quiet again"});
+  d.on(records::FaultActivity{
+      {30'000'000}, 0, records::kFaultEnds, NodeId{1}, "babbling_idiot", "camera_pc is quiet again"});
   d.on(records::FaultActivity{{40'000'000}, 1, records::kFaultBegins, kNoNode, "noise", "noise on channel A"});
   const std::string svg = d.svg();
   EXPECT_EQ(count(svg, ">babbling_idiot, camera_pc</text>"), 1u);
@@ -148,7 +154,8 @@ TEST(StartupDiagram, AFaultHasALaneFromItsBeginToItsEnd) {
 }
 
 TEST(StartupDiagram, NoLabelsOverlapInAnyWindow) {
-  for (const auto& [from, to] : {std::pair{2, 68}, std::pair{0, 20}, std::pair{19, 21}, std::pair{0, 600}, std::pair{0, 60'000}}) {
+  for (const auto& [from, to] :
+       {std::pair{2, 68}, std::pair{0, 20}, std::pair{19, 21}, std::pair{0, 600}, std::pair{0, 60'000}}) {
     SCOPED_TRACE(fmt::format("{} to {} ms", from, to));
     const std::string svg = startup_diagram(from, to);
     expect_no_overlaps(svg);
@@ -307,7 +314,8 @@ TEST(StartupCycles, TheLeadingNodeIsTheOneThatWasActiveOutOfTheConsistencyCheck)
   EXPECT_FALSE(leading_node(StartupData{}).has_value());
 }
 
-// Cycles of nominally 1000; the node's clock is slow, so its frames, 70 into the cycle, come 1010 apart. Cycle 2 has none.
+// Cycles of nominally 1000; the node's clock is slow, so its frames, 70 into the cycle, come 1010 apart. Cycle 2 has
+// none.
 TEST(StartupCycles, BeginWhereTheLeadingNodesFramesSay) {
   StartupData data;
   const LeadingNode leader{NodeId{0}, {500}};
@@ -321,7 +329,8 @@ TEST(StartupCycles, BeginWhereTheLeadingNodesFramesSay) {
   frame(3, 3'650, 0, 4);
   frame(4, 9'999);   // of another schedule
   const auto starts = cycles_of(data, leader, Duration{1000}, {4'600});
-  EXPECT_EQ(starts, (std::map<std::int64_t, TrueTime>{{0, {500}}, {1, {1'510}}, {2, {2'510}}, {3, {3'530}}, {4, {4'530}}}));
+  EXPECT_EQ(starts, (std::map<std::int64_t, TrueTime>{
+                        {0, {500}}, {1, {1'510}}, {2, {2'510}}, {3, {3'530}}, {4, {4'530}}}));
 }
 
 }  // namespace

@@ -201,6 +201,25 @@ async function diagram_zooms(name, page) {
   await page.keyboard.press("Escape");
 }
 
+// Of an experiment a drive of each paradigm: a diagram each, chosen from a list, and their ages and clocks in one plot.
+async function side_by_side(name, page) {
+  const figure = page.locator("figure.timing"), select = figure.locator("select");
+  const labels = await select.locator("option").allTextContents();
+  check(`${name}: a diagram of each paradigm: ${labels}`, labels.join() === "adva,tt");
+  check(`${name}: one diagram is seen`, await figure.locator(".diagram:visible").count() === 1);
+  await select.selectOption("1");
+  check(`${name}: the list chooses the diagram`,
+    await figure.locator(".diagram:visible").getAttribute("data-label") === "tt");
+  const frames = figure.locator(".diagram:visible rect.frame:not([display])");
+  check(`${name}: the other diagram is drawn`, await frames.count() > 10);
+  await select.selectOption("0");
+  for (const heading of ["How old measurements are", "Precision", "Error over time"]) {
+    const plot = page.locator("figure.plot").filter({ has: page.locator("strong", { hasText: heading }) }).first();
+    const names = await plot.locator(".legend").innerText();
+    check(`${name}: "${heading}" has a curve each: ${names}`, /adva/.test(names) && /tt/.test(names));
+  }
+}
+
 // Everything that can be operated is reached with the Tab key.
 async function reached(name, page) {
   await page.locator(".skip").focus();
@@ -243,6 +262,12 @@ async function looks(name, file) {
   await paper.emulateMedia({ media: "print" });
   const hidden = await paper.locator("nav").isHidden();
   check(`${name}: contents are not printed`, hidden);
+  const diagrams = paper.locator(".diagram"), all = await diagrams.count();
+  check(`${name}: all ${all} diagrams are printed`, await paper.locator(".diagram:visible").count() === all);
+  for (let i = 0; i < all; ++i) {
+    const label = await diagrams.nth(i).evaluate((box) => getComputedStyle(box, "::before").content);
+    check(`${name}: diagram ${i} is printed with its name: ${label}`, label.length > 3 && label !== "none");
+  }
   await paper.context().close();
 }
 
@@ -262,7 +287,8 @@ for (const one of named) {
   check(`${name}: commands`, /ttfusion (run|experiment)/.test(await page.locator("pre.command").first().textContent()));
   check(`${name}: uPlot's licence`, (await page.locator("footer").textContent()).includes("Leon Sorokin"));
   await plot_zooms(name, page);
-  if (name !== "experiment") await diagram_zooms(name, page);
+  await diagram_zooms(name, page);
+  if (name === "experiment") await side_by_side(name, page);
   await reached(name, page);
   await page.context().close();
   await looks(name, file);

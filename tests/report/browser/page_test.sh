@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
 # Opens the report of a drive, of two side by side, of an experiment, and one with hostile names, in headless Chromium.
-#   page_test.sh PROGRAM SOURCE_DIR WORK_DIR      exit 77: skipped, with the reason. Screenshots stay in WORK_DIR/pictures.
+# page_test.sh PROGRAM SOURCE_DIR WORK_DIR exit 77: skipped, with the reason. Screenshots stay in WORK_DIR/pictures.
 set -euo pipefail
 program=$1 source=$2 work=$3
 here=$(cd "$(dirname "$0")" && pwd)
 
 skip() { echo "skipped: $*"; exit 77; }
-chromium=$(command -v chromium || command -v chromium-browser) || skip "chromium is not installed (tools/install_deps.sh --gates)"
+chromium=$(command -v chromium || command -v chromium-browser) \
+  || skip "chromium is not installed (tools/install_deps.sh --gates)"
 command -v node >/dev/null || skip "node is not installed"
 command -v npm >/dev/null || skip "npm is not installed"
 
@@ -23,7 +24,8 @@ fi
 cd "$work"
 rm -rf runs pictures
 for seed in 1 2; do
-  "$program" run "$source/scenarios/paper_scenario1.yaml" --seed "$seed" --no-pictures --out "runs/seed$seed" >/dev/null 2>&1
+  "$program" run "$source/scenarios/paper_scenario1.yaml" --seed "$seed" --no-pictures --out "runs/seed$seed" \
+    >/dev/null 2>&1
 done
 cat >small.yaml <<END
 kind: sweep
@@ -60,5 +62,6 @@ cp runs/seed1/*.mcap runs/hostile/
 "$program" report runs/hostile -o hostile.html
 # Of a drive of 3 s; each further timing diagram is half a megabyte.
 [[ $(stat -c %s run.html) -lt 3000000 ]] || { echo "FAILED: run.html is larger than 3 MB"; exit 1; }
-timeout 300 node page_check.mjs "$chromium" pictures run=run.html compared=compared.html experiment=experiment.html hostile=hostile.html
+timeout 300 node page_check.mjs "$chromium" pictures run=run.html compared=compared.html experiment=experiment.html \
+  hostile=hostile.html
 echo "screenshots: $work/pictures"

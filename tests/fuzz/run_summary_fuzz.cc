@@ -1,0 +1,22 @@
+// Any text as a run's summary.json, of a run without logs. Laws: it is refused in a line, or makes a page, the same
+// each time, in which no name is markup; and so it does beside another run of it.
+#include "report/run_report.h"
+#include "tests/fuzz/harness.h"
+#include "tests/fuzz/page_laws.h"
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace ttf;
+  constexpr char kFile[] = "summary.json";
+  report::RunFolder folder;
+  if (!fuzz::accepted(kFile, [&] { folder = report::parse_run_summary(fuzz::text_of(data, size), kFile); })) return 0;
+  for (const report::Drive& drive : folder.drives)
+    TTF_CHECK(drive.log_name.find('/') == std::string::npos, "a log elsewhere: {}", drive.log_name);
+  const std::string page = report::run_report_html({folder}, {});
+  fuzz::check_page(page);
+  TTF_CHECK(page == report::run_report_html({folder}, {}), "another page of the same run");
+  report::RunFolder other = folder;
+  other.path = "other";
+  for (report::Drive& drive : other.drives) ++drive.seed;
+  fuzz::check_page(report::run_report_html({folder, other}, {}));
+  return 0;
+}
