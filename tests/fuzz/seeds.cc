@@ -369,7 +369,7 @@ void result_seeds(const fs::path& folder) {
   write_dictionary(folder / "answer.dict",
                    {"experiment", "file", "question", "answer", "baseline", "seed", "runs", "failed", "confidence",
                     "points", "axes", "paradigms", "count", "mean", "half_width", "difference", "measures", "unit",
-                    "meaning", "crossings", "expectations", "where_not", "null", "true", "1e308", "-1", "\\u0000",
+                    "meaning", "crossings", "expectations", "where_not", "null", "true", "1e308", "-1", "\\\\u0000",
                     "</script>", "<img>", "{}", "[]", "nan", " ms"});
 
   const std::string drive = R"({"strategy": "tt", "log": "out/tt.mcap", "rmse_truth": {"position_m": 0.1,

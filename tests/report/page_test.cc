@@ -33,8 +33,8 @@ TEST(Page, NothingOfANameIsMarkup) {
   page.preformatted(kHostile, kHostile);
   const std::string html = page.html();
   EXPECT_EQ(count(html, "<img"), 0u);
-  EXPECT_EQ(count(html, "<script>"), 3u);   // uPlot and ours
-  EXPECT_EQ(count(html, "</script>"), 4u);  // and the data
+  EXPECT_EQ(count(html, "<script>"), 4u);   // uPlot and ours
+  EXPECT_EQ(count(html, "</script>"), 5u);  // and the data
   EXPECT_EQ(count(html, "<!--"), 0u);
   EXPECT_GT(count(html, "&lt;/script&gt;"), 10u);
 }
