@@ -2,11 +2,13 @@
 
 #include <charconv>
 #include <memory>
+#include <string>
 
 #include "cli/commands.h"
 #include "cli/experiment_options.h"
 #include "core/errors.h"
 #include "core/strict_yaml.h"
+#include "experiments/sweep_file.h"
 
 namespace ttf::cli {
 
@@ -39,7 +41,12 @@ namespace {
 int run_experiment(const ExperimentOptions& options) {
   experiments::Ranks ranks;
   if (ranks.size() > 1) return run_on_ranks(options, ranks);
-  if (kind_of(options) == ExperimentKind::kFaultCampaign) return run_fault_campaign(options);
+  if (kind_of(options) == ExperimentKind::kFaultCampaign) {
+    if (options.replications > 0)
+      throw InputError({"command line", 0, "--replications", std::to_string(options.replications),
+                        "is for sweeps: a campaign has faults, each once"});
+    return run_fault_campaign(options);
+  }
   return run_sweep_experiment(options, ranks);
 }
 
@@ -57,9 +64,12 @@ void add_experiment(CLI::App& app, Action& action) {
       "          ttfusion experiment experiments/fault_campaign.yaml --replay 17\n"
       "          ttfusion experiment FILE --shard 1/2 --out a; ttfusion experiment FILE --shard 2/2 --out b;\n"
       "          ttfusion experiment FILE --merge a b --out both\n"
+      "          ttfusion experiment FILE --replications 20 --out quick\n"
       "          mpirun -n 8 ttfusion experiment FILE --out all");
   command->add_option("file", options->file, "Experiment file")->required();
   command->add_option("--jobs", options->jobs, "Workers (default: one per processor)")->check(CLI::Range(1u, 1024u));
+  command->add_option("--replications", options->replications, "As many of every point, whatever the file says")
+      ->check(CLI::Range(1u, experiments::kMostReplications));
   auto* shard = command->add_option("--shard", options->shard,
                                     "i/n: every n-th fault or replication only, from the i-th on");
   auto* merge = command->add_option("--merge", options->merge, "Folders of all shards, whose results are put together");

@@ -11,14 +11,15 @@
 
 namespace ttf::cli {
 
-int run_on_ranks(const ExperimentOptions& options, experiments::Ranks& ranks) {
+int run_on_ranks(const ExperimentOptions& given, experiments::Ranks& ranks) {
+  ExperimentOptions options = given;
   std::optional<experiments::SweepFile> sweep;
   std::optional<experiments::SweepDrives> drives;
   std::exception_ptr mine;
   std::string words;
   try {
-    const auto refuse = [](bool given, const char* option, const char* why) {
-      if (given) throw InputError({"command line", 0, option, "", why});
+    const auto refuse = [](bool asked, const char* option, const char* why) {
+      if (asked) throw InputError({"command line", 0, option, "", why});
     };
     refuse(options.jobs > 0, "--jobs", "must not be given under mpirun: each rank is a worker");
     refuse(options.replay.has_value(), "--replay", "needs no mpirun: it is one run");
@@ -27,6 +28,7 @@ int run_on_ranks(const ExperimentOptions& options, experiments::Ranks& ranks) {
       throw InputError(
           {options.file, 0, "kind", "fault_campaign", "must be sweep under mpirun: a campaign has --shard"});
     sweep.emplace(experiments::load_sweep(options.file));
+    if (ranks.rank() == 0) settle_replications(options, *sweep);   // the others are told which runs
     drives.emplace(*sweep);
   } catch (const InputError& error) {
     mine = std::current_exception();

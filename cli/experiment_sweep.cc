@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -26,6 +27,11 @@ using experiments::SweepFile;
 using results::Store;
 
 constexpr std::size_t kShownFailures = 10;   // the others are in runs.csv
+
+std::string folder_of(const ExperimentOptions& options, const SweepFile& sweep) {
+  return options.out.empty() ? "out/" + sweep.name : options.out;
+}
+std::string store_in(const std::string& folder) { return folder + "/results.sqlite"; }
 
 std::string key_text(const SweepFile& sweep, const results::RunKey& key) {
   return fmt::format("{}/{}/{}", key.point, sweep.paradigms[key.paradigm].name, key.replication);
@@ -93,10 +99,12 @@ Store opened(const SweepDrives& drives, const std::string& path) {
 Store store_of(const ExperimentOptions& options, const SweepDrives& drives, const std::string& path) {
   const SweepFile& sweep = drives.sweep();
   if (!std::filesystem::exists(path))
-    return Store::create(path, {sweep.name, drives.identity(), TTF_VERSION, sweep.text, drives.columns()});
+    return Store::create(path, {sweep.name, drives.identity(), TTF_VERSION, sweep.text, drives.columns(), sweep.replications});
   if (!options.resume)
     throw InputError({path, 0, "", "", "is there already: --resume goes on with it, another --out begins anew"});
-  return opened(drives, path);
+  Store store = opened(drives, path);
+  if (store.head().replications != sweep.replications) store.ask_for(sweep.replications);
+  return store;
 }
 
 // Whether all of it is there.
@@ -109,7 +117,7 @@ bool merge(const std::vector<Store>& shards, const SweepFile& sweep, Store& stor
     });
     store.add(some);
   }
-  const std::uint64_t all = std::uint64_t{sweep.replications} * sweep.paradigms.size() * sweep.points();
+  const std::uint64_t all = sweep.runs();
   if (sweep.stop || store.count() == all) return true;
   fmt::print(stderr, "error: {} of {} runs are not among them: --resume drives them\n", all - store.count(), all);
   return false;
@@ -180,8 +188,9 @@ std::string failures_text(const ExperimentOptions& options, const SweepFile& swe
   std::size_t shown = 0;
   store.for_each([&](const results::Run& run) {
     if (run.status == results::kDone || ++shown > kShownFailures) return;
-    text += fmt::format("{}: {}\n  ttfusion experiment {} --replay {} --out one\n", sweep.label_of(run.key.point),
-                        run.status, options.file, key_text(sweep, run.key));
+    const std::string more = options.replications > 0 ? fmt::format(" --replications {}", options.replications) : "";
+    text += fmt::format("{}: {}\n  ttfusion experiment {} --replay {}{} --out one\n", sweep.label_of(run.key.point),
+                        run.status, options.file, key_text(sweep, run.key), more);
   });
   if (shown > kShownFailures) text += fmt::format("and {} more, in runs.csv\n", shown - kShownFailures);
   return text;
@@ -197,11 +206,11 @@ int drive_and_answer(const ExperimentOptions& options, const SweepDrives& drives
     throw InputError({"command line", 0, "--shard", options.shard,
                       "needs an experiment without `stop`: no shard sees enough"});
   std::vector<Store> shards;
-  for (const std::string& from : options.merge) shards.push_back(opened(drives, from + "/results.sqlite"));
+  for (const std::string& from : options.merge) shards.push_back(opened(drives, store_in(from)));
 
-  const std::string folder = options.out.empty() ? "out/" + sweep.name : options.out;
+  const std::string folder = folder_of(options, sweep);
   create_folder(folder);
-  Store store = store_of(options, drives, folder + "/results.sqlite");
+  Store store = store_of(options, drives, store_in(folder));
   if (shards.empty())
     drive(options, drives, shard, store, ranks);
   else if (!merge(shards, sweep, store))
@@ -223,8 +232,31 @@ int drive_and_answer(const ExperimentOptions& options, const SweepDrives& drives
   return answer.holds() && answer.failed == 0 ? 0 : 1;
 }
 
-int run_sweep_experiment(const ExperimentOptions& options, experiments::Ranks& alone) {
-  const SweepFile sweep = experiments::load_sweep(options.file);
+void settle_replications(ExperimentOptions& options, SweepFile& sweep) {
+  std::vector<std::string> paths;
+  for (const std::string& from : options.merge) paths.push_back(store_in(from));
+  if (const std::string own = store_in(folder_of(options, sweep)); options.resume && std::filesystem::exists(own))
+    paths.push_back(own);
+  std::uint32_t there = 0;
+  for (const std::string& path : paths) {
+    const std::uint32_t asked_for = Store::open(path).head().replications;
+    if (options.replications > 0 && options.replications < asked_for)
+      throw InputError({"command line", 0, "--replications", std::to_string(options.replications),
+                        fmt::format("must be {} at least: so many were asked for in {}", asked_for, path)});
+    there = std::max(there, asked_for);
+  }
+  const std::uint32_t files = sweep.replications;
+  sweep.replications = options.replications > 0 ? options.replications : there > 0 ? there : files;
+  options.replications = sweep.replications == files ? 0 : sweep.replications;
+  if (sweep.runs() > experiments::kMostRuns)
+    throw InputError({"command line", 0, "--replications", std::to_string(sweep.replications),
+                      fmt::format("must make {} runs at most, and make {}", experiments::kMostRuns, sweep.runs())});
+}
+
+int run_sweep_experiment(const ExperimentOptions& given, experiments::Ranks& alone) {
+  ExperimentOptions options = given;
+  SweepFile sweep = experiments::load_sweep(options.file);
+  settle_replications(options, sweep);
   const SweepDrives drives(sweep);
   if (options.replay) return replay(options, drives);
   return drive_and_answer(options, drives, alone);

@@ -74,12 +74,29 @@ function(ttf_as_test name)
   target_precompile_headers(${name} REUSE_FROM ttf_test_headers)
 endfunction()
 
-# ttf_test(<name> SOURCES <files...> [DEPS <targets...>] [UNSANITIZED | UNSANITIZED_TESTS <patterns...>] [UNINSTRUMENTED]
-# [COST <n>]): one GoogleTest program, one ctest entry per test program. Sanitizers are spared what they would only make
-# longer: UNSANITIZED, statistics over thousands of runs and whole drives of which others run, the program or these tests of
-# it are not run; UNINSTRUMENTED, headers full of arithmetic take the compiler minutes, its own code is as ever.
+# What takes longest to build or to run is labelled slow: .ci/run has it, tools/test.sh has not. ttf_slow(<targets...>)
+# leaves programs out of what is built by default; their tests, which have the fixture slow_tests, have them built.
+# Sanitizers have a build of their own, in which nothing is left out.
+if(TTF_BUILD_TESTS AND NOT TTF_SANITIZE)
+  add_custom_target(slow_tests)
+  add_test(NAME build_slow_tests COMMAND ${CMAKE_COMMAND} --build ${CMAKE_BINARY_DIR} --target slow_tests)
+  set_tests_properties(build_slow_tests PROPERTIES LABELS slow FIXTURES_SETUP slow_tests COST 1000)
+endif()
+function(ttf_slow)
+  if(NOT TTF_SANITIZE)
+    set_target_properties(${ARGN} PROPERTIES EXCLUDE_FROM_ALL ON)
+    add_dependencies(slow_tests ${ARGN})
+  endif()
+endfunction()
+
+# ttf_test(<name> SOURCES <files...> [DEPS <targets...>] [SLOW | SLOW_TESTS <patterns...>]
+# [UNSANITIZED | UNSANITIZED_TESTS <patterns...>] [UNINSTRUMENTED] [COST <n>]): one GoogleTest program, one ctest entry per
+# test program; SLOW, it is as ttf_slow() has it; SLOW_TESTS, these of it are another entry, <name>_slow, labelled slow.
+# Sanitizers are spared what they would only make longer: UNSANITIZED, statistics over thousands of runs and whole drives of
+# which others run, the program or these tests of it are not run; UNINSTRUMENTED, headers full of arithmetic take the
+# compiler minutes, its own code is as ever.
 function(ttf_test name)
-  cmake_parse_arguments(TEST "UNSANITIZED;UNINSTRUMENTED" "COST" "SOURCES;DEPS;UNSANITIZED_TESTS" ${ARGN})
+  cmake_parse_arguments(TEST "UNSANITIZED;UNINSTRUMENTED;SLOW" "COST" "SOURCES;DEPS;SLOW_TESTS;UNSANITIZED_TESTS" ${ARGN})
   add_executable(${name} ${TEST_SOURCES})
   target_link_libraries(${name} PRIVATE ${TEST_DEPS} ttf_options GTest::gmock GTest::gtest_main)
   target_compile_definitions(${name} PRIVATE TTF_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
@@ -88,12 +105,26 @@ function(ttf_test name)
   if(TEST_UNSANITIZED AND TTF_SANITIZE)
     return()
   endif()
+  set(elsewhere ${TEST_SLOW_TESTS})
+  if(TTF_SANITIZE)
+    set(elsewhere ${TEST_UNSANITIZED_TESTS})
+  endif()
+  list(JOIN elsewhere ":" patterns)
   set(filter)
-  if(TTF_SANITIZE AND TEST_UNSANITIZED_TESTS)
-    list(JOIN TEST_UNSANITIZED_TESTS ":" patterns)
+  if(patterns)
     set(filter --gtest_filter=-${patterns})
   endif()
   add_test(NAME ${name} COMMAND ${name} ${filter} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+  if(patterns AND NOT TTF_SANITIZE)
+    add_test(NAME ${name}_slow COMMAND ${name} --gtest_filter=${patterns} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+    set_tests_properties(${name}_slow PROPERTIES LABELS slow)
+  endif()
+  if(TEST_SLOW)
+    ttf_slow(${name})
+    if(NOT TTF_SANITIZE)
+      set_tests_properties(${name} PROPERTIES LABELS slow FIXTURES_REQUIRED slow_tests)
+    endif()
+  endif()
   if(TEST_COST)
     set_tests_properties(${name} PROPERTIES COST ${TEST_COST})   # about its seconds: the longest begin first
   endif()

@@ -1,5 +1,5 @@
-// How much of each bus a drive took, from the records of those who sent: what a simulation's media know of themselves, and
-// the records of a drive on real media still tell.
+// How much of each bus a drive took, from the records of those who sent: what a simulation's media know of themselves,
+// and the records of a drive on real media still tell.
 #pragma once
 
 #include <array>

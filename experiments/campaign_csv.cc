@@ -14,10 +14,11 @@ namespace {
 
 constexpr std::string_view kHeader =
     "fault,variant,class,phase,node,parameters,hypothesis,activated,starts_without,seen_by_others,seen_by_itself,harms,"
-    "harmed,sender,slot,still_out,detected_after_ns,passive_after_ns,halt_after_ns,harmed_after_ns,reintegrated_after_ns";
+    "harmed,sender,slot,still_out,detected_after_ns,passive_after_ns,halt_after_ns,harmed_after_ns,reintegrated_after_"
+    "ns";
 constexpr std::size_t kColumns = 21;
 
-std::string number(const std::optional<std::int64_t>& value) { return value ? fmt::to_string(*value) : ""; }
+std::string or_nothing(const std::optional<std::int64_t>& value) { return value ? fmt::to_string(*value) : ""; }
 
 std::string_view node_name(NodeId node, const schedules::Cluster& cluster) {
   return node == kNoNode ? std::string_view() : std::string_view(cluster.node(node).name);
@@ -46,7 +47,9 @@ class Line {
     throw InputError({name_, line_, "line", std::string(value), std::move(expected)});
   }
   std::string_view cell(std::size_t column) const { return cells_[column]; }
-  bool begins_with(std::string_view start) const { return text_.substr(0, start.size() + 1) == std::string(start) + ','; }
+  bool begins_with(std::string_view start) const {
+    return text_.substr(0, start.size() + 1) == std::string(start) + ',';
+  }
 
   std::int64_t integer(std::size_t column, std::int64_t low, std::int64_t high) const {
     const std::string_view text = cells_[column];
@@ -104,9 +107,10 @@ std::string campaign_csv(const CampaignFile& campaign, const CampaignClusters& c
       out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
                          drawn_text(result, campaign.variants[v], clusters.base), o.activated ? "yes" : "no",
                          o.starts_without ? "yes" : "no", names_of(o.seen_by_others, kAllChecks),
-                         names_of(o.seen_by_itself, kAllChecks), names_of(o.harms, kAllHarms), node_name(o.harmed, clusters.base),
-                         node_name(o.sender, clusters.base), o.slot, o.still_out, number(o.detected_after),
-                         number(o.passive_after), number(o.halt_after), number(o.harmed_after), number(o.reintegrated_after));
+                         names_of(o.seen_by_itself, kAllChecks), names_of(o.harms, kAllHarms),
+                         node_name(o.harmed, clusters.base), node_name(o.sender, clusters.base), o.slot, o.still_out,
+                         or_nothing(o.detected_after), or_nothing(o.passive_after), or_nothing(o.halt_after),
+                         or_nothing(o.harmed_after), or_nothing(o.reintegrated_after));
     }
   return out;
 }
@@ -120,7 +124,8 @@ std::vector<FaultResult> read_campaign_csv(const CampaignFile& campaign, const C
     const std::string_view row = left.substr(0, left.find('\n'));
     left.remove_prefix(std::min(left.size(), row.size() + 1));
     if (++number_of_line == 1) {
-      if (row != kHeader) throw InputError({name, 1, "header", std::string(row), "must be that of a campaign's results"});
+      if (row != kHeader)
+        throw InputError({name, 1, "header", std::string(row), "must be that of a campaign's results"});
       continue;
     }
     const Line line(row, name, number_of_line);
@@ -128,7 +133,8 @@ std::vector<FaultResult> read_campaign_csv(const CampaignFile& campaign, const C
     if (results.empty() || results.back().outcomes.size() == campaign.variants.size())
       results.push_back({index, draw_fault(campaign, clusters.base, index), {}});
     FaultResult& result = results.back();
-    if (result.index != index || !line.begins_with(drawn_text(result, campaign.variants[result.outcomes.size()], clusters.base)))
+    if (result.index != index ||
+        !line.begins_with(drawn_text(result, campaign.variants[result.outcomes.size()], clusters.base)))
       line.fail(row, "is of another campaign, or out of order");
     FaultOutcome o;
     o.activated = line.yes(7);
@@ -162,7 +168,8 @@ std::string missing_shards(const CampaignFile& campaign, const std::vector<std::
     if (shard.size() < 2) return "";
     const std::uint32_t first = shard[0].index, step = shard[1].index - first;
     const auto faults = static_cast<std::uint32_t>(campaign.faults);
-    const bool whole = first < step && step <= faults && (count == 0 || step == count) && shard.back().index >= faults - step;
+    const bool whole =
+        first < step && step <= faults && (count == 0 || step == count) && shard.back().index >= faults - step;
     for (std::size_t i = 0; i < shard.size(); ++i)
       if (!whole || shard[i].index != first + i * step) return "";
     count = step;
@@ -178,7 +185,8 @@ std::string missing_shards(const CampaignFile& campaign, const std::vector<std::
 
 std::vector<FaultResult> merged(const CampaignFile& campaign, std::vector<std::vector<FaultResult>> shards) {
   if (const std::string missing = missing_shards(campaign, shards); !missing.empty())
-    throw InputError({campaign.file, 0, "--merge", "", fmt::format("lacks shard {}: give the folders of all shards", missing)});
+    throw InputError(
+        {campaign.file, 0, "--merge", "", fmt::format("lacks shard {}: give the folders of all shards", missing)});
   std::vector<FaultResult> all;
   for (auto& shard : shards) std::move(shard.begin(), shard.end(), std::back_inserter(all));
   std::sort(all.begin(), all.end(), [](const FaultResult& a, const FaultResult& b) { return a.index < b.index; });

@@ -12,12 +12,13 @@ namespace ttf::experiments {
 std::string campaign_csv(const CampaignFile& campaign, const CampaignClusters& clusters,
                          std::span<const FaultResult> results);
 
-// The results of one such table, of this very campaign: each line's fault is drawn again, and must be the same. `name`: for
-// messages. Throws InputError.
+// The results of one such table, of this very campaign: each line's fault is drawn again, and must be the same. `name`:
+// for messages. Throws InputError.
 std::vector<FaultResult> read_campaign_csv(const CampaignFile& campaign, const CampaignClusters& clusters,
                                            const std::string& text, const std::string& name);
 
-// Puts the results of several shards together, by index. Throws InputError where a fault is there twice, or some is missing.
+// Puts the results of several shards together, by index. Throws InputError where a fault is there twice, or some is
+// missing.
 std::vector<FaultResult> merged(const CampaignFile& campaign, std::vector<std::vector<FaultResult>> shards);
 
 }  // namespace ttf::experiments

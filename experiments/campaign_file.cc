@@ -85,7 +85,8 @@ schedules::Cluster cluster_of(const CampaignFile& campaign, const Variant& varia
   Findings findings;
   for (schedules::Node& node : cluster.nodes) {
     if (!node.flexray) {
-      findings.add({cluster.file, node.line, "nodes." + node.name, "", "must be on FlexRay: a campaign has controllers only"});
+      findings.add(
+          {cluster.file, node.line, "nodes." + node.name, "", "must be on FlexRay: a campaign has controllers only"});
       continue;
     }
     if (variant.channels == Channels::kA) {

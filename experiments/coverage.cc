@@ -81,13 +81,14 @@ Coverage coverage_of(const CampaignFile& campaign, std::span<const FaultResult> 
 }
 
 std::string coverage_text(const Coverage& coverage, Duration cycle) {
-  std::string out = fmt::format("variant {}{}\n{:<22}{:>9}{:>10}{:>9}", coverage.variant,
-                                coverage.guarded ? " (guardian and two channels)" : "", "class", "injected", "activated",
-                                "detected");
+  std::string out =
+      fmt::format("variant {}{}\n{:<22}{:>9}{:>10}{:>9}", coverage.variant,
+                  coverage.guarded ? " (guardian and two channels)" : "", "class", "injected", "activated", "detected");
   for (const Check check : kAllChecks) out += fmt::format("{:>9}", short_name(check));
   out += fmt::format("{:>9}{:>9}\n", "itself", "harmed");
   for (const ClassCoverage& row : coverage.classes) {
-    out += fmt::format("{:<22}{:>9}{:>10}{:>9}", class_text(row.kind, row.in_hypothesis), row.injected, row.activated, row.detected);
+    out += fmt::format("{:<22}{:>9}{:>10}{:>9}", class_text(row.kind, row.in_hypothesis), row.injected, row.activated,
+                       row.detected);
     for (const std::uint64_t count : row.by_check) out += fmt::format("{:>9}", count);
     out += fmt::format("{:>9}{:>9}\n", row.by_itself, row.harmed);
   }
@@ -96,8 +97,9 @@ std::string coverage_text(const Coverage& coverage, Duration cycle) {
   for (const Harm harm : kAllHarms) out += fmt::format("{:>14}", name_of(harm));
   out += '\n';
   for (const ClassCoverage& row : coverage.classes) {
-    out += fmt::format("{:<22}{:>17}{:>17}{:>17}{:>17}", class_text(row.kind, row.in_hypothesis), in_cycles(row.detect, cycle),
-                       in_cycles(row.passive, cycle), in_cycles(row.halt, cycle), in_cycles(row.reintegrate, cycle));
+    out += fmt::format("{:<22}{:>17}{:>17}{:>17}{:>17}", class_text(row.kind, row.in_hypothesis),
+                       in_cycles(row.detect, cycle), in_cycles(row.passive, cycle), in_cycles(row.halt, cycle),
+                       in_cycles(row.reintegrate, cycle));
     for (const std::uint64_t count : row.by_harm) out += fmt::format("{:>14}", count);
     out += '\n';
   }
@@ -113,7 +115,8 @@ std::string harm_text(const FaultOutcome& outcome, const schedules::Cluster& clu
   if (outcome.harmed != kNoNode) out += fmt::format(" at {}", cluster.node(outcome.harmed).name);
   if (outcome.sender != kNoNode) out += fmt::format(", {}'s slot {}", cluster.node(outcome.sender).name, outcome.slot);
   if (outcome.harmed_after)
-    out += fmt::format(", {:.1f} cycles after the fault's first act", in_units_of(cluster.cycle(), {*outcome.harmed_after}));
+    out += fmt::format(", {:.1f} cycles after the fault's first act",
+                       in_units_of(cluster.cycle(), {*outcome.harmed_after}));
   return out;
 }
 

@@ -1,4 +1,5 @@
-// What a campaign shows, class by class: how many faults did something, who noticed them, whom they harmed, and how long it took.
+// What a campaign shows, class by class: how many faults did something, who noticed them, whom they harmed, and how
+// long it took.
 #pragma once
 
 #include <array>

@@ -47,7 +47,7 @@ inline constexpr Duration kAgeBin = Duration::milliseconds(1);
 
 class DriveRows final : public records::Sink {
  public:
-  explicit DriveRows(double gate_m = 4.0) : gate_(gate_m) {}
+  explicit DriveRows(double gate_m = kGate_m) : gate_(gate_m) {}
   void finish();   // completes what waits for its truth; once, at the end
 
   const std::vector<ErrorRow>& errors() const { return errors_; }

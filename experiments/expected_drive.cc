@@ -4,12 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "experiments/pairing.h"
 #include "sim/drive.h"
 
 namespace ttf::experiments {
 namespace {
 
-constexpr double kGate_m = 4.0;            // as an image and the truth (experiments/measures.h)
 constexpr double kWorldStep_s = 0.01;      // in each of which the world draws (sim/world/world.h)
 constexpr std::size_t kMostTruths = 128, kMostSeen = 128, kMostImages = 8;
 

@@ -2,7 +2,6 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <numeric>
 
 #include "core/check.h"
 
@@ -67,48 +66,6 @@ Eigen::Matrix4d ErrorRecursion::at(GlobalTime use) const {
   const double dt = seconds_between(last.look.measured, use);
   TTF_CHECK(dt >= 0.0, "a measurement {} s after it is used", -dt);
   return moved_on(last.actual, motion_.actual, dt);
-}
-
-std::vector<GlobalTime> fused_at(fusion::StrategyKind strategy, std::span<const ListTimes> lists,
-                                 std::span<const Duration> longest) {
-  // Each on its own, then behind all that are older.
-  const auto certain = [&](const ListTimes& list) {
-    GlobalTime at = list.arrival;
-    if (strategy != fusion::StrategyKind::kBuff) return at;
-    for (std::size_t s = 0; s < longest.size(); ++s) {
-      if (s == index_of(list.sensor)) continue;
-      GlobalTime there = list.measured + longest[s];
-      for (const ListTimes& other : lists)
-        if (index_of(other.sensor) == s && other.measured >= list.measured) there = std::min(there, other.arrival);
-      at = std::max(at, there);
-    }
-    return at;
-  };
-  std::vector<GlobalTime> fused;
-  for (const ListTimes& list : lists) fused.push_back(certain(list));
-  if (strategy == fusion::StrategyKind::kAdva) return fused;
-  std::vector<std::size_t> order(lists.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return lists[a].measured < lists[b].measured; });
-  for (std::size_t i = 1; i < order.size(); ++i) fused[order[i]] = std::max(fused[order[i]], fused[order[i - 1]]);
-  return fused;
-}
-
-std::vector<Eigen::Matrix4d> expected_errors(const PointMotion& motion, std::span<const Look> looks,
-                                             std::span<const GlobalTime> fused, std::span<const Use> uses) {
-  TTF_CHECK(looks.size() == fused.size(), "{} looks, {} instants", looks.size(), fused.size());
-  std::vector<std::size_t> order(looks.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return fused[a] < fused[b]; });
-  ErrorRecursion recursion(motion);
-  std::vector<Eigen::Matrix4d> errors;
-  auto next = order.begin();
-  for (const Use& use : uses) {
-    for (; next != order.end() && fused[*next] <= use.known; ++next) recursion.fuse(looks[*next]);
-    errors.push_back(recursion.at(use.at));
-  }
-  return errors;
 }
 
 }  // namespace ttf::experiments

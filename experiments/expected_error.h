@@ -14,12 +14,9 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <span>
 #include <vector>
 
-#include "core/ids.h"
 #include "core/time.h"
-#include "fusion/strategy.h"
 
 namespace ttf::experiments {
 
@@ -61,25 +58,5 @@ class ErrorRecursion {
   PointMotion motion_;
   std::vector<Step> steps_;            // in the order of measurement
 };
-
-// A list on its way, and when a strategy lets it in.
-struct ListTimes {
-  SensorId sensor{};
-  GlobalTime measured{}, arrival{};
-};
-// By list, where fusion may take place at any instant and all lists arrive. ADVA: as it arrives. TT: when all have that
-// were measured before, for the schedule says which there are. BUFF: when besides, of every other sensor, one has that
-// is not older, or none can be any more: `longest`, by sensor, how long a list is under way at most.
-std::vector<GlobalTime> fused_at(fusion::StrategyKind strategy, std::span<const ListTimes> lists,
-                                 std::span<const Duration> longest);
-
-// The image shows what is known at `known`, and is of the instant `at`.
-struct Use {
-  GlobalTime known{}, at{};
-};
-// One for every use: both in the order of their instants. `fused[i]`: when looks[i] is. Throws nothing; looks must not
-// be newer than the uses that know them, and every use must know one.
-std::vector<Eigen::Matrix4d> expected_errors(const PointMotion& motion, std::span<const Look> looks,
-                                             std::span<const GlobalTime> fused, std::span<const Use> uses);
 
 }  // namespace ttf::experiments

@@ -13,7 +13,7 @@
 namespace ttf::experiments {
 namespace {
 
-constexpr std::size_t kAtATime = 16;                        // faults a worker takes
+constexpr std::size_t kFaultsAtATime = 16;                  // faults a worker takes
 constexpr std::chrono::milliseconds kProgressInterval{500};
 
 }  // namespace
@@ -39,8 +39,9 @@ std::vector<FaultResult> run_campaign(const CampaignFile& campaign, const Campai
 
   const auto work = [&] {
     try {
-      for (std::size_t first = next.fetch_add(kAtATime); first < results.size(); first = next.fetch_add(kAtATime)) {
-        const std::size_t end = std::min(first + kAtATime, results.size());
+      for (std::size_t first = next.fetch_add(kFaultsAtATime); first < results.size();
+           first = next.fetch_add(kFaultsAtATime)) {
+        const std::size_t end = std::min(first + kFaultsAtATime, results.size());
         for (std::size_t r = first; r < end; ++r) {
           FaultResult& result = results[r];
           result.drawn = draw_fault(campaign, clusters.base, result.index);

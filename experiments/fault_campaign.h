@@ -1,5 +1,5 @@
-// A whole campaign: every fault in every variant, on as many workers as there are. Results are gathered by index, so they are the
-// same for any number of workers, and those of shards put together the same as of one run.
+// A whole campaign: every fault in every variant, on as many workers as there are. Results are gathered by index, so
+// they are the same for any number of workers, and those of shards put together the same as of one run.
 #pragma once
 
 #include <cstdint>

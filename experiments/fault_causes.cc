@@ -79,7 +79,9 @@ void FaultCauses::is_back(NodeId node) {
   for (Suspect& suspect : suspects_) suspect.out[index_of(node)] = false;
 }
 
-bool FaultCauses::begun(const Suspect& suspect, TrueTime by) { return suspect.began && *suspect.began <= by + kRounded; }
+bool FaultCauses::begun(const Suspect& suspect, TrueTime by) {
+  return suspect.began && *suspect.began <= by + kRounded;
+}
 
 bool FaultCauses::any_begun(TrueTime by) const {
   return std::any_of(suspects_.begin(), suspects_.end(), [&](const Suspect& suspect) { return begun(suspect, by); });

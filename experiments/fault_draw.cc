@@ -155,7 +155,9 @@ class Drawing {
       case nodes::WrongSchedule::kShiftedSlots: fault.by = number(1, g_.gNumberOfStaticSlots - 1); return;
       case nodes::WrongSchedule::kCycleLength: fault.by = number(1, 100); return;
       case nodes::WrongSchedule::kStaticSlot: fault.by = number(1, room_in_slots()); return;
-      case nodes::WrongSchedule::kPayloadLength: fault.by = number(1, kMostPayloadWords - g_.gPayloadLengthStatic); return;
+      case nodes::WrongSchedule::kPayloadLength:
+        fault.by = number(1, kMostPayloadWords - g_.gPayloadLengthStatic);
+        return;
       case nodes::WrongSchedule::kKeySlot: fault.slot = one_of(slots_of_others(fault.node, false)); return;
     }
   }
@@ -181,7 +183,8 @@ class Drawing {
   void receivers(Fault& fault) {
     if (draw_.uniform() < 0.5) return;
     for (std::size_t n = 0; n < cluster_.nodes.size(); ++n)
-      if (static_cast<NodeId>(n) != fault.node && draw_.uniform() < 0.5) fault.receivers.push_back(static_cast<NodeId>(n));
+      if (static_cast<NodeId>(n) != fault.node && draw_.uniform() < 0.5)
+        fault.receivers.push_back(static_cast<NodeId>(n));
   }
   std::vector<int> slots_of_others(NodeId node, bool coldstart) const {
     std::vector<int> slots;

@@ -1,8 +1,9 @@
-// Which fault a campaign injects as its n-th: a pure function of the campaign's seed and n, the same in every variant and for
-// any number of workers.
+// Which fault a campaign injects as its n-th: a pure function of the campaign's seed and n, the same in every variant
+// and for any number of workers.
 //
-// The hypothesis is FlexRay's: one node fails, in whatever way, or one channel does. Outside of it, and counted apart: noise and
-// transients on both channels at once, and a lone coldstart node, for which all the others have to be without supply.
+// The hypothesis is FlexRay's: one node fails, in whatever way, or one channel does. Outside of it, and counted apart:
+// noise and transients on both channels at once, and a lone coldstart node, for which all the others have to be without
+// supply.
 #pragma once
 
 #include <cstdint>

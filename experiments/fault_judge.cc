@@ -13,7 +13,6 @@ namespace {
 using bus::PocKind;
 using schedules::Channel;
 
-constexpr std::array kChannels = {Channel::kA, Channel::kB};
 constexpr int kCyclesUntilOverdue = 2;
 
 bool same_bytes(std::span<const std::byte> a, std::span<const std::byte> b) {
@@ -179,8 +178,9 @@ void FaultJudge::frame_sent(NodeId id, int slot, Channel channel, const wire::De
   const Sent& other = owed.as_sent[1 - index_of(channel)];
   const bool same_content = other.any && same_bytes(other.payload(), frame.payload);
   const bool dynamic = slot > cluster_.flexray.gNumberOfStaticSlots;
-  const bool copy = owed.sender == id &&
-                    (dynamic ? same_content && when - owed.sent <= cluster_.cycle() * kCyclesUntilOverdue : owed.sent == when);
+  const bool copy =
+      owed.sender == id &&
+      (dynamic ? same_content && when - owed.sent <= cluster_.cycle() * kCyclesUntilOverdue : owed.sent == when);
   if (!copy) {
     collect(owed, slot);
     owed.sender = id;
@@ -189,9 +189,10 @@ void FaultJudge::frame_sent(NodeId id, int slot, Channel channel, const wire::De
       if (own.slot != slot || own.sender != id || sender.state != PocKind::kNormalActive) continue;
       for (std::size_t n = 0; n < nodes_.size(); ++n) {
         const Node& node = nodes_[n];
-        const bool shares = std::any_of(kChannels.begin(), kChannels.end(), [&](Channel one) {
-          return includes(own.channels, one) && includes(sender.channels, one) && includes(node.channels, one);
-        });
+        const bool shares =
+            std::any_of(schedules::kBothChannels.begin(), schedules::kBothChannels.end(), [&](Channel one) {
+              return includes(own.channels, one) && includes(sender.channels, one) && includes(node.channels, one);
+            });
         if (static_cast<NodeId>(n) != id && !node.faulty && node.state == PocKind::kNormalActive && shares)
           owed.receivers[n] = true;
       }

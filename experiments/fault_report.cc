@@ -11,7 +11,9 @@
 namespace ttf::experiments {
 namespace {
 
-Duration macroticks(const schedules::GlobalParameters& g, std::int64_t count) { return {count * g.gdMacrotick_ps / 1000}; }
+Duration macroticks(const schedules::GlobalParameters& g, std::int64_t count) {
+  return {count * g.gdMacrotick_ps / 1000};
+}
 
 schedules::Channels only(std::uint8_t channel) {
   return channel == 0 ? schedules::Channels::kA : schedules::Channels::kB;
@@ -194,7 +196,8 @@ void FaultReport::on(const records::SlotProblem& problem) {
   signal.channels = only(problem.channel);
   signal.owner = owner_of(cluster_, problem.slot, static_cast<schedules::Channel>(problem.channel & 1), problem.cycle);
   if (problem.slot >= 1 && problem.slot <= g.gNumberOfStaticSlots) {
-    // Told when the static segment is over. Frames begin an action point offset into their slots: clocks are less apart than that.
+    // Told when the static segment is over. Frames begin an action point offset into their slots: clocks are less apart
+    // than that.
     signal.until = at - slot_ * (g.gNumberOfStaticSlots - problem.slot);
     signal.from = signal.until - slot_;
   } else {
@@ -287,8 +290,8 @@ void FaultReport::lost(const SlotLoss& loss) {
     if (owner_of(cluster_, loss.slot, channel, loss.cycle) == loss.sender) channels |= 1u << index_of(channel);
   const FaultCauses::Signal signal{loss.sender, loss.receiver, static_cast<schedules::Channels>(channels),
                                    loss.at - action_point_, loss.at - action_point_ + slot_, false};
-  harm(causes_.of_signal(signal), loss.forged ? Harm::kFrameForged : Harm::kFrameLost, loss.at, loss.receiver, loss.sender,
-       loss.slot);
+  harm(causes_.of_signal(signal), loss.forged ? Harm::kFrameForged : Harm::kFrameLost, loss.at, loss.receiver,
+       loss.sender, loss.slot);
 }
 
 void FaultReport::harm(Cause cause, Harm harm, TrueTime at, NodeId node, NodeId sender, int slot) {

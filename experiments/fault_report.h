@@ -1,9 +1,9 @@
-// What the faults of a run did: injected, seen by which check and in how many cycles, kept from the others by the guardians,
-// which nodes changed state, and whether a node without a fault was harmed. From the fault plan and the records alone, so that a
-// live run's report and its log's are the same.
+// What the faults of a run did: injected, seen by which check and in how many cycles, kept from the others by the
+// guardians, which nodes changed state, and whether a node without a fault was harmed. From the fault plan and the
+// records alone, so that a live run's report and its log's are the same.
 //
-// Checks and harms are those of experiments/fault_judge.h, which judges single faults from inside a simulation. Records tell a
-// little less:
+// Checks and harms are those of experiments/fault_judge.h, which judges single faults from inside a simulation. Records
+// tell a little less:
 //   - a node is without a fault until a fault that names it begins
 //   - H3 is told from when frames begin (experiments/frame_clocks.h), H4 and H5 from who reports which slot
 //     (experiments/slot_ledger.h), in the static segment
@@ -40,7 +40,7 @@ struct CheckSeen {
 
 struct StateSeen {
   NodeId node{};
-  std::string from, to, why;           // as at the first time; to "without supply", "with supply" where its power went or came
+  std::string from, to, why;   // as at the first time; to "without supply", "with supply" where its power went or came
   TrueTime first{};
   std::uint64_t times = 0;
 };
@@ -89,14 +89,14 @@ struct FaultFindings {
 
 class FaultReport final : public records::Sink {
  public:
-  // `plan`: resolved for the cluster, and the run's. `begins_integrated`: the nodes are in normal operation from the start; else
-  // they have no supply until they say so.
+  // `plan`: resolved for the cluster, and the run's. `begins_integrated`: the nodes are in normal operation from the
+  // start; else they have no supply until they say so.
   FaultReport(const schedules::Cluster& cluster, nodes::FaultPlan plan, bool begins_integrated);
   FaultReport(const FaultReport&) = delete;
   FaultReport& operator=(const FaultReport&) = delete;
 
-  // The run is over: what is open is settled. Who has not become normal active since the beginning is harmed (H2), if the run
-  // began with start-up.
+  // The run is over: what is open is settled. Who has not become normal active since the beginning is harmed (H2), if
+  // the run began with start-up.
   void finish(TrueTime at);
   const FaultFindings& findings() const { return findings_; }
 
@@ -116,7 +116,8 @@ class FaultReport final : public records::Sink {
     bool has_to_start = false;             // and has not yet
     bool cut_off = false;                  // a fault has taken its supply, or keeps it
   };
-  // A cycle is counted once however many nodes and slots it is about: by its counter, where that comes again after a round.
+  // A cycle is counted once however many nodes and slots it is about: by its counter, where that comes again after a
+  // round.
   using Counted = std::array<std::array<std::optional<TrueTime>, 64>, 2 * kAllChecks.size()>;
 
   bool counts(NodeId node) const { return nodes_[index_of(node)].active && !nodes_[index_of(node)].faulty; }
@@ -140,7 +141,8 @@ class FaultReport final : public records::Sink {
   FaultCauses causes_;
   FrameClocks clocks_;
   SlotLedger ledger_;
-  std::optional<std::pair<TrueTime, std::int64_t>> cycle_began_;   // the newest cycle known, by a fault-free node's clock
+  std::optional<std::pair<TrueTime, std::int64_t>>
+      cycle_began_;   // the newest cycle known, by a fault-free node's clock
   FaultFindings findings_;
   std::vector<std::optional<std::size_t>> place_;   // in findings_.faults, by index in the plan
   std::vector<Counted> counted_;           // by index in the plan, and of what is unattributed

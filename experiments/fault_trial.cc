@@ -30,7 +30,8 @@ class Host {
  public:
   Host(const schedules::Cluster& cluster, NodeId node) : cluster_(cluster), node_(node) {
     for (const schedules::FrameSlot& frame : cluster.frames)
-      if (frame.sender == node && frame.pdu != kNoPdu && std::find(pdus_.begin(), pdus_.end(), frame.pdu) == pdus_.end())
+      if (frame.sender == node && frame.pdu != kNoPdu &&
+          std::find(pdus_.begin(), pdus_.end(), frame.pdu) == pdus_.end())
         pdus_.push_back(frame.pdu);
     vector_.resize(static_cast<std::size_t>(cluster.flexray.gNetworkManagementVectorLength));
   }
@@ -87,7 +88,8 @@ class Trial final : public sim::Disturbance, public sim::Plant, public records::
     const TrueTime origin = starts_up ? TrueTime{} : TrueTime{} + kBeforeFirstCycle;
     for (std::size_t n = 0; n < cluster.nodes.size(); ++n) {
       const auto id = static_cast<NodeId>(n);
-      sim::BusNode node{oscillator(n, cluster.nodes[n].microtick_ps, cluster.nodes[n].drift_ppb, cluster.nodes[n].max_drift_ppb)};
+      sim::BusNode node{
+          oscillator(n, cluster.nodes[n].microtick_ps, cluster.nodes[n].drift_ppb, cluster.nodes[n].max_drift_ppb)};
       node.view = believed_.of(id);
       if (starts_up) {
         node.power_on = TrueTime{stream(Purpose::kCampaign, n + 1).integer(0, cluster.cycle().ns * kCyclesToPowerOn)};
@@ -150,7 +152,8 @@ class Trial final : public sim::Disturbance, public sim::Plant, public records::
     void slot_problem(std::int64_t, int, Channel, bus::SlotStatus status, Microticks) override {
       trial.judge_.slot_problem(node, status, now());
     }
-    void frame_sent(const bus::Transmission& transmission, std::int64_t, bool, PduId, std::uint32_t, int, bool) override {
+    void frame_sent(const bus::Transmission& transmission, std::int64_t, bool, PduId, std::uint32_t, int,
+                    bool) override {
       trial.judge_.frame_sent(node, transmission.slot, transmission.channel, transmission.content, now());
     }
     bool wants_bytes() const override { return false; }
@@ -159,7 +162,8 @@ class Trial final : public sim::Disturbance, public sim::Plant, public records::
     }
     void clock_corrected(std::int64_t, const timebase::Correction& offset, const timebase::Correction& rate,
                          Microticks) override {
-      trial.judge_.clock_corrected(node, offset.missing || rate.missing, offset.limit_reached || rate.limit_reached, now());
+      trial.judge_.clock_corrected(node, offset.missing || rate.missing, offset.limit_reached || rate.limit_reached,
+                                   now());
     }
     void state_changed(PocKind from, const bus::PocStep& step, Microticks) override { trial.changed(node, from, step); }
   };
@@ -177,7 +181,8 @@ class Trial final : public sim::Disturbance, public sim::Plant, public records::
     for (std::size_t n = 0; n < cluster_.nodes.size(); ++n) {
       const auto id = static_cast<NodeId>(n);
       if (faulty_[n] || !simulation_->powered(id) || !simulation_->controller(id).synchronised()) continue;
-      spread.add(simulation_->controller(id).clock()->global_time(simulation_->oscillator(id).ticks_at(simulation_->now())));
+      spread.add(
+          simulation_->controller(id).clock()->global_time(simulation_->oscillator(id).ticks_at(simulation_->now())));
     }
     judge_.precision(spread.width(), simulation_->now());
   }
@@ -305,7 +310,8 @@ FaultOutcome run_trial(const CampaignFile& campaign, const schedules::Cluster& c
   const TrueTime origin = starts_up ? TrueTime{} : TrueTime{} + kBeforeFirstCycle;
   settings.faulty = named_by(fault, cluster);
   settings.from = nodes::changes_schedule(fault) ? TrueTime{} : origin + fault.from;
-  settings.until = fault.duration == nodes::Fault::kToTheEnd ? sim::Disturbance::kNever : origin + fault.from + fault.duration;
+  settings.until =
+      fault.duration == nodes::Fault::kToTheEnd ? sim::Disturbance::kNever : origin + fault.from + fault.duration;
   Trial trial(campaign, cluster, &drawn, starts_up, index, settings, story, bit_true);
   trial.run(end);
   const Judgement& judgement = trial.finish();

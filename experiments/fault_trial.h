@@ -1,8 +1,8 @@
 // One fault in one cluster: an own simulation of controllers on clocks of their own, the fault, and the judge.
 //
-// Every node's host writes its lists anew in every cycle, so that no two frames are alike, and restarts a halted controller when
-// the campaign says so. A trial is a pure function of campaign, wiring and index: clocks, times of power-on and what the fault
-// draws come from streams of that index.
+// Every node's host writes its lists anew in every cycle, so that no two frames are alike, and restarts a halted
+// controller when the campaign says so. A trial is a pure function of campaign, wiring and index: clocks, times of
+// power-on and what the fault draws come from streams of that index.
 #pragma once
 
 #include <cstdint>
@@ -42,8 +42,8 @@ class TrialStory {
   virtual void judged(const Judgement& judgement) = 0;
 };
 
-// `cluster`: as wired (cluster_of()). `story` may be null. `bit_true`: on a medium that encodes and decodes every frame; the
-// outcome is the same.
+// `cluster`: as wired (cluster_of()). `story` may be null. `bit_true`: on a medium that encodes and decodes every
+// frame; the outcome is the same.
 FaultOutcome run_trial(const CampaignFile& campaign, const schedules::Cluster& cluster, const DrawnFault& drawn,
                        std::uint32_t index, TrialStory* story = nullptr, bool bit_true = false);
 

@@ -13,7 +13,8 @@ std::optional<Duration> FrameClocks::sent(const records::SlotFrameSent& frame) {
   Clock& clock = clocks_[index_of(frame.stamp.node)];
   Reading& first = clock.first;
   if (frame.cycle % 2 == 0) {
-    if (!first.known || first.cycle != frame.cycle) first = {true, frame.cycle, frame.stamp.true_time, frame.stamp.global};
+    if (!first.known || first.cycle != frame.cycle)
+      first = {true, frame.cycle, frame.stamp.true_time, frame.stamp.global};
     return std::nullopt;
   }
   if (!first.known || first.cycle + 1 != frame.cycle) return std::nullopt;

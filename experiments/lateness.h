@@ -1,6 +1,7 @@
 // What a run by the wall clock was like in its machine's time, from its records alone: how late processes and frames
-// were, next to a plain thread's lateness on the same machine; what was not in its time, or never came, and what the media
-// counted; how well the clocks agreed. How old what the feature service used was is in DriveSummary (experiments/measures.h).
+// were, next to a plain thread's lateness on the same machine; what was not in its time, or never came, and what the
+// media counted; how well the clocks agreed. How old what the feature service used was is in DriveSummary
+// (experiments/measures.h).
 //
 // Lateness is in real time already. Differences of the records' times are in the drive's, which a stretched run
 // (--time-scale) takes so much longer for: in_real_time().

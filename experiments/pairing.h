@@ -15,8 +15,11 @@ struct TruthPair {
   std::size_t truth = 0, estimate = 0;
 };
 
-// Pairs no further apart than `gate_m` [m], by growing distance; each truth and each estimate in at most one. Equal distances are
-// taken in the order of truth, then estimate.
+// An image's object and a true one that are further apart do not belong together [m].
+inline constexpr double kGate_m = 4.0;
+
+// Pairs no further apart than `gate_m` [m], by growing distance; each truth and each estimate in at most one. Equal
+// distances are taken in the order of truth, then estimate.
 std::vector<TruthPair> closest_pairs(std::span<const PlanePosition> truth, std::span<const PlanePosition> estimates,
                                      double gate_m);
 

@@ -10,7 +10,6 @@ namespace ttf::experiments {
 namespace {
 
 using schedules::Channel;
-constexpr std::array kChannels = {Channel::kA, Channel::kB};
 constexpr TrueTime kEverything{std::numeric_limits<std::int64_t>::max()};
 
 }  // namespace
@@ -67,7 +66,9 @@ void SlotLedger::on(const records::SlotFrameSent& frame) {
   Cycle& page = open(frame.cycle);
   for (std::size_t f = 0; f < cluster_.frames.size(); ++f) {
     const schedules::FrameSlot& expected = cluster_.frames[f];
-    if (expected.slot != frame.slot || expected.sender != frame.stamp.node || !bus::in_cycle(expected, static_cast<int>(page.counter))) continue;
+    if (expected.slot != frame.slot || expected.sender != frame.stamp.node ||
+        !bus::in_cycle(expected, static_cast<int>(page.counter)))
+      continue;
     Slot& slot = page.slots[f];
     slot.counted = true;
     slot.at = frame.stamp.true_time;
@@ -94,7 +95,7 @@ void SlotLedger::settle(const Cycle& cycle, TrueTime over) {
       const auto receiver = static_cast<NodeId>(n);
       if (receiver == frame.sender || !cluster_.nodes[n].flexray || !cycle.counted[n] || !counts_(receiver)) continue;
       bool shared = false, received = false, forged = false;
-      for (const Channel channel : kChannels) {
+      for (const Channel channel : schedules::kBothChannels) {
         if (!includes(frame.channels, channel) || !includes(cluster_.nodes[n].flexray->pChannels, channel) ||
             !includes(cluster_.node(frame.sender).flexray->pChannels, channel))
           continue;

@@ -1,11 +1,12 @@
 // Which static slots brought a receiver what their sender sent, told from what senders and receivers report.
 //
-// A receiver in normal operation reports every slot that was anything but one valid frame, per channel. So a slot that it
-// does not report was a valid frame: of the sender, if that sent there, of somebody else otherwise. A slot it reports counts as
-// not received, though a valid frame may have come before what disturbed it: reports do not tell these apart.
+// A receiver in normal operation reports every slot that was anything but one valid frame, per channel. So a slot that
+// it does not report was a valid frame: of the sender, if that sent there, of somebody else otherwise. A slot it
+// reports counts as not received, though a valid frame may have come before what disturbed it: reports do not tell
+// these apart.
 //
-// A cycle is settled two cycles after it, when all have reported, or when the run is over: then those of its slots that have
-// ended. Nodes count whole rounds of the cycle counter each for itself.
+// A cycle is settled two cycles after it, when all have reported, or when the run is over: then those of its slots that
+// have ended. Nodes count whole rounds of the cycle counter each for itself.
 #pragma once
 
 #include <array>
@@ -30,18 +31,20 @@ struct SlotLoss {
 
 class SlotLedger {
  public:
-  // `told`: every loss between nodes that `counts` says are to be counted at the time of the slot and when it is settled.
+  // `told`: every loss between nodes that `counts` says are to be counted at the time of the slot and when it is
+  // settled.
   SlotLedger(const schedules::Cluster& cluster, std::function<bool(NodeId)> counts,
              std::function<void(const SlotLoss&)> told);
 
   void on(const records::SlotFrameSent& frame);
   void on(const records::SlotProblem& problem);
-  // The run is over at `at`: settles what is open still. A slot counts if those that have not received anything in it must have
-  // reported by then, which they do when their static segment is over.
+  // The run is over at `at`: settles what is open still. A slot counts if those that have not received anything in it
+  // must have reported by then, which they do when their static segment is over.
   void finish(TrueTime at);
 
  private:
-  static constexpr std::size_t kCycles = 4;   // open at a time: the present one, and those whose reports may be missing still
+  static constexpr std::size_t kCycles =
+      4;   // open at a time: the present one, and those whose reports may be missing still
   struct Slot {
     bool counted = false;                     // its sender did when it sent
     TrueTime at{};

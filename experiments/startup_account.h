@@ -1,5 +1,5 @@
-// What start-up came to, node by node, from a drive's records alone: when each was powered on, when and in which cycle it became
-// active, and why it is in the state it is in.
+// What start-up came to, node by node, from a drive's records alone: when each was powered on, when and in which cycle
+// it became active, and why it is in the state it is in.
 #pragma once
 
 #include <cstdint>

@@ -68,20 +68,16 @@ std::size_t index_of(const SweepFile& sweep, const std::string& paradigm) {
   return static_cast<std::size_t>(found - sweep.paradigms.begin());
 }
 
-std::vector<PointAnswer> points_of(const SweepFile& sweep, const results::Store& store, std::size_t baseline,
-                                   SweepAnswer* counts) {
-  std::vector<PointAnswer> points;
+void add_points(const SweepFile& sweep, const results::Store& store, SweepAnswer& answer) {
   for (std::uint32_t point = 0; point < sweep.points(); ++point) {
-    Sums sums(sweep, baseline);
+    Sums sums(sweep, sweep.baseline);
     for (const Run& run : store.of_point(point)) {
       sums.add(run);
-      if (counts == nullptr) continue;
-      ++counts->runs;
-      counts->failed += run.status != results::kDone;
+      ++answer.runs;
+      answer.failed += run.status != results::kDone;
     }
-    points.push_back(sums.finish(point));
+    answer.points.push_back(sums.finish(point));
   }
-  return points;
 }
 
 // Along one axis, from every point whose neighbour on it there is.
@@ -106,7 +102,8 @@ void find_crossings(const SweepFile& sweep, std::size_t paradigm, std::size_t a,
     const double part = before.mean / (before.mean - to), x = *settings[a]->number, y = *next[a]->number;
     std::vector<std::string> others;
     for (std::size_t other = 0; other < grid.size(); ++other)
-      if (other != a && grid[other]->settings.size() > 1) others.push_back(grid[other]->name + " " + settings[other]->label);
+      if (other != a && grid[other]->settings.size() > 1)
+        others.push_back(grid[other]->name + " " + settings[other]->label);
     const auto certain = [](const Interval& interval) { return interval.below(0.0) || interval.above(0.0); };
     answer.crossings.push_back({paradigm, axis.name, joined(others), point, behind,
                                 axis.logarithmic ? x * std::pow(y / x, part) : x + part * (y - x),
@@ -164,10 +161,11 @@ bool SweepAnswer::holds() const {
 
 SweepAnswer answer_of(const SweepFile& sweep, const results::Store& store) {
   SweepAnswer answer;
-  answer.points = points_of(sweep, store, sweep.baseline, &answer);
+  add_points(sweep, store, answer);
   for (std::size_t p = 0; p < sweep.paradigms.size(); ++p)
     for (std::size_t a = 0; a < sweep.grid().size() && p != sweep.baseline; ++a) find_crossings(sweep, p, a, answer);
-  for (const Expectation& expectation : sweep.expectations) answer.expectations.push_back(judge(sweep, expectation, store));
+  for (const Expectation& expectation : sweep.expectations)
+    answer.expectations.push_back(judge(sweep, expectation, store));
   return answer;
 }
 

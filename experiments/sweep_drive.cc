@@ -211,7 +211,8 @@ results::Run SweepDrives::run(const results::RunKey& key, const PreparedDrive& d
       sinks.push_back(&expected.emplace(drive.scenario));
     if (listener != nullptr) sinks.push_back(listener);
     records::Tee tee(sinks);
-    const sim::DriveConfig config{&drive.scenario, &drive.cluster, drive.strategy, sweep_.seed, key.replication, nullptr};
+    const sim::DriveConfig config{&drive.scenario, &drive.cluster,  drive.strategy,
+                                  sweep_.seed,     key.replication, nullptr};
     const sim::DriveOutcome outcome = sim::run_drive(config, tee);
     DriveSummary summary = measures.finish();
     summary.position_mse_reference_corrected = summary.position_rmse_reference * summary.position_rmse_reference -

@@ -23,8 +23,9 @@ struct PreparedDrive {
 // The files an experiment follows from, read once; const afterwards, for many workers.
 class SweepDrives {
  public:
-  // Prepares every point of small grids, of large ones every value of every axis, with the ends of what is drawn, so that
-  // what cannot be driven is known before anything is. Throws InputError, whose sentences name file, line and point.
+  // Prepares every point of small grids, of large ones every value of every axis, with the ends of what is drawn, so
+  // that what cannot be driven is known before anything is. Throws InputError, whose sentences name file, line and
+  // point.
   explicit SweepDrives(const SweepFile& sweep);
 
   // Throws InputError.

@@ -19,7 +19,7 @@ namespace {
 using results::Run;
 using results::RunKey;
 
-constexpr std::uint32_t kAtATime = 8;                    // replications of one drive, which is prepared once for them
+constexpr std::uint32_t kReplicationsAtATime = 8;        // replications of one drive, which is prepared once for them
 constexpr std::chrono::milliseconds kWritten{500};       // how long a run waits at most to be written down
 constexpr std::chrono::milliseconds kTurn{2};            // between two looks at what is driven elsewhere
 constexpr std::size_t kMostWaiting = 100'000;            // runs
@@ -109,9 +109,9 @@ class Workers {
 
   // The next few runs for who asks.
   std::span<const RunKey> grab() {
-    const std::size_t first = next_.fetch_add(kAtATime);
+    const std::size_t first = next_.fetch_add(kReplicationsAtATime);
     if (first >= wanted_.size()) return {};
-    return std::span(wanted_).subspan(first, std::min<std::size_t>(kAtATime, wanted_.size() - first));
+    return std::span(wanted_).subspan(first, std::min<std::size_t>(kReplicationsAtATime, wanted_.size() - first));
   }
 
   void drive_all() {

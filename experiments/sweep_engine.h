@@ -1,7 +1,8 @@
 // Drives what an experiment asks for and its store does not have yet, on as many workers as there are.
 //
-// What a store holds in the end is the same for any number of workers, and however often it was interrupted: every run is a
-// function of its key, and a point is looked at, for the stop rule, only when a whole batch of its replications is there.
+// What a store holds in the end is the same for any number of workers, and however often it was interrupted: every run
+// is a function of its key, and a point is looked at, for the stop rule, only when a whole batch of its replications is
+// there.
 #pragma once
 
 #include <cstddef>
@@ -37,8 +38,8 @@ class Elsewhere {
 void drive_in_turn(const SweepDrives& drives, std::span<const results::RunKey> wanted,
                    const std::function<void(results::Run)>& take);
 
-// Throws std::runtime_error where the store cannot take what was driven; what it has stays. `progress` is called now and
-// then by the calling thread. A stop rule and a shard exclude each other. `elsewhere` may be null.
+// Throws std::runtime_error where the store cannot take what was driven; what it has stays. `progress` is called now
+// and then by the calling thread. A stop rule and a shard exclude each other. `elsewhere` may be null.
 void run_sweep(const SweepDrives& drives, results::Store& store, Shard shard, unsigned workers,
                const std::function<void(const SweepProgress&)>& progress, Elsewhere* elsewhere = nullptr);
 

@@ -16,8 +16,7 @@
 namespace ttf::experiments {
 namespace {
 
-constexpr std::size_t kMostPoints = 10'000, kMostParadigms = 64;
-constexpr std::uint64_t kMostRuns = 100'000'000;
+constexpr std::size_t kMostParadigms = 64;
 constexpr double kLargest = 1e12;
 
 std::optional<double> number_of(const std::string& text) {
@@ -37,14 +36,17 @@ constexpr std::string_view kNames = "must be of letters, digits, dots, _ and -, 
 
 bool is_name(const std::string& name) {
   return !name.empty() && name.front() != '.' && std::all_of(name.begin(), name.end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.';
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' ||
+           c == '.';
   });
 }
 
 // Of the store, whose columns have no case.
 bool is_column(std::string name) {
-  std::transform(name.begin(), name.end(), name.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
-  return name == "point" || name == "replication" || name == "paradigm" || name == "status" || find_measure(name) != nullptr;
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
+  return name == "point" || name == "replication" || name == "paradigm" || name == "status" ||
+         find_measure(name) != nullptr;
 }
 
 class Reader {
@@ -61,7 +63,7 @@ class Reader {
     file_.question = root_.text("question");
     file_.scenario_file = path_of(root_.text("scenario"));
     file_.seed = static_cast<std::uint64_t>(root_.integer("seed", {0, std::int64_t{1} << 62}));
-    file_.replications = static_cast<std::uint32_t>(root_.integer("replications", {1, 10'000'000}));
+    file_.replications = static_cast<std::uint32_t>(root_.integer("replications", {1, kMostReplications}));
     read_paradigms();
     for (auto& [name, map] : root_.named_maps("axes")) read_axis(name, map);
     if (file_.axes.empty()) root_.fail("axes", "must have one at least");
@@ -136,7 +138,8 @@ class Reader {
     } else if (map.has("uniform")) {
       axis.unit = map.text_or("unit", "");
       const std::vector<std::string> bounds = map.texts("uniform");
-      const auto low = number_of(bounds.empty() ? "" : bounds[0]), high = number_of(bounds.size() == 2 ? bounds[1] : "");
+      const auto low = number_of(bounds.empty() ? "" : bounds[0]),
+                 high = number_of(bounds.size() == 2 ? bounds[1] : "");
       if (low && high && *low < *high && std::abs(*low) <= kLargest && std::abs(*high) <= kLargest) {
         axis.low = *low;
         axis.high = *high;
@@ -165,7 +168,8 @@ class Reader {
     const auto count = map.integer("count", {2, static_cast<std::int64_t>(kMostPoints)});
     axis.logarithmic = map.choice_or<bool>("scale", false, {{"linear", false}, {"logarithmic", true}});
     axis.unit = map.text_or("unit", "");
-    if (axis.logarithmic && (from <= 0.0 || to <= 0.0)) return map.fail("scale", "must be linear, or both ends above 0");
+    if (axis.logarithmic && (from <= 0.0 || to <= 0.0))
+      return map.fail("scale", "must be linear, or both ends above 0");
     if (from == to) return map.fail("to", "must be another than `from`");
     for (std::int64_t i = 0; i < count; ++i) {
       const double part = static_cast<double>(i) / static_cast<double>(count - 1);
@@ -184,9 +188,8 @@ class Reader {
   }
 
   void check_runs() {
-    const std::uint64_t runs = std::uint64_t{file_.replications} * file_.paradigms.size() * file_.points();
-    if (runs > kMostRuns)
-      root_.fail("replications", fmt::format("must make {} runs at most, and make {}", kMostRuns, runs));
+    if (file_.runs() > kMostRuns)
+      root_.fail("replications", fmt::format("must make {} runs at most, and make {}", kMostRuns, file_.runs()));
   }
 
   void read_measures() {
@@ -251,12 +254,15 @@ class Reader {
                     : fmt::format("{} of {} less than of {}", expectation.measure, expectation.less, expectation.than);
       if (map.has("where"))
         for (const auto& [name, label] : map.named_texts("where")) {
-          const auto axis = std::find_if(file_.axes.begin(), file_.axes.end(),
-                                         [&, &wanted = name](const Axis& one) { return one.name == wanted && !one.random(); });
+          const auto axis = std::find_if(file_.axes.begin(), file_.axes.end(), [&, &wanted = name](const Axis& one) {
+            return one.name == wanted && !one.random();
+          });
           const bool known = axis != file_.axes.end() &&
                              std::any_of(axis->settings.begin(), axis->settings.end(),
                                          [&, &wanted = label](const Setting& one) { return one.label == wanted; });
-          if (!known) map.fail("where", fmt::format("must name an axis of the grid and one of its values, not {}: {}", name, label));
+          if (!known)
+            map.fail("where",
+                     fmt::format("must name an axis of the grid and one of its values, not {}: {}", name, label));
           expectation.where[name] = label;
           expectation.text += fmt::format(", {} {}", name, label);
         }
@@ -272,45 +278,6 @@ class Reader {
 };
 
 }  // namespace
-
-std::vector<const Axis*> SweepFile::grid() const {
-  std::vector<const Axis*> some;
-  for (const Axis& axis : axes)
-    if (!axis.random()) some.push_back(&axis);
-  return some;
-}
-
-std::vector<const Axis*> SweepFile::drawn() const {
-  std::vector<const Axis*> some;
-  for (const Axis& axis : axes)
-    if (axis.random()) some.push_back(&axis);
-  return some;
-}
-
-std::size_t SweepFile::points() const {
-  std::size_t count = 1;
-  for (const Axis* axis : grid()) count = std::min(count * axis->settings.size(), kMostPoints + 1);
-  return count;
-}
-
-std::vector<const Setting*> SweepFile::settings_of(std::uint32_t point) const {
-  const std::vector<const Axis*> axes_here = grid();
-  std::vector<const Setting*> settings(axes_here.size());
-  for (std::size_t a = axes_here.size(); a-- > 0;) {
-    const std::size_t count = axes_here[a]->settings.size();
-    settings[a] = &axes_here[a]->settings[point % count];
-    point /= static_cast<std::uint32_t>(count);
-  }
-  return settings;
-}
-
-std::string SweepFile::label_of(std::uint32_t point) const {
-  std::vector<std::string> parts;
-  const auto settings = settings_of(point);
-  const auto axes_here = grid();
-  for (std::size_t a = 0; a < settings.size(); ++a) parts.push_back(axes_here[a]->name + " " + settings[a]->label);
-  return parts.empty() ? "the one point" : joined(parts);
-}
 
 SweepFile load_sweep(const std::string& path) { return Reader(StrictYaml::load(path)).read(); }
 SweepFile parse_sweep(std::string text, std::string name) {

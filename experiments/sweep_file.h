@@ -5,8 +5,9 @@
 //   question: Is it better to measure often or to know when?
 //   scenario: ../scenarios/dynamics.yaml           from this file's folder, as all files
 //   seed: 1
-//   replications: 1000                             of every point, each with draws of its own, the same for all paradigms
-//   paradigms:                                     who is compared, each a drive of every point and replication
+//   replications: 1000                             of every point, each with draws of its own, the same for all
+//   paradigms paradigms:                                     who is compared, each a drive of every point and
+//   replication
 //     event_triggered: {strategy: adva}            on the scenario's cluster for it
 //     time_triggered:  {strategy: tt, cluster: ../schedules/paper_synchronised.yaml, set: {duration: 2 s}}
 //   axes:                                          what is varied; the grid has every combination
@@ -15,10 +16,10 @@
 //     road:  {settings: {dry: {world.yaw_rate_noise: 0.05}, icy: {world.yaw_rate_noise: 0.2}}}
 //     bus:   {settings: {sound: {}, torn: {faults: torn.yaml, time_triggered/tracker.process_noise: 3}}}
 //     load:  {keys: [cluster.can.observation_can.other_load], uniform: [0, 0.3]}   no grid: drawn once a replication
-//   measures: [position_rmse_truth, nees]          experiments/sweep_measures.h; the first is what is asked for; absent: all
-//   compare: {baseline: event_triggered, confidence: 0.95}
-//   stop: {half_width: 0.002, batch: 50}           a point has enough when the first measure's differences are that sure
-//   expect:                                        what must come out, or the command exits with 1
+//   measures: [position_rmse_truth, nees]          experiments/sweep_measures.h; the first is what is asked for;
+//   absent: all compare: {baseline: event_triggered, confidence: 0.95} stop: {half_width: 0.002, batch: 50}           a
+//   point has enough when the first measure's differences are that sure expect: what must come out, or the command
+//   exits with 1
 //     - {measure: position_rmse_truth, less: time_triggered, than: event_triggered, where: {noise: 2}}
 //     - {measure: position_mse_truth, agrees: position_mse_expected, of: event_triggered}   within the interval
 //
@@ -29,6 +30,7 @@
 // a slash a key is that paradigm's only, "time_triggered/cluster.sensors.laser.repetition".
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -76,7 +78,7 @@ struct Paradigm {
 };
 
 struct StopRule {
-  double half_width = 0.0;                      // of the intervals of differences from the baseline, in the measure's unit
+  double half_width = 0.0;   // of the intervals of differences from the baseline, in the measure's unit
   std::uint32_t batch = 0;                      // replications after which it is looked at
 };
 
@@ -92,7 +94,7 @@ struct SweepFile {
   std::string name, question, file, text;
   std::string scenario_file;
   std::uint64_t seed = 0;
-  std::uint32_t replications = 0;
+  std::uint32_t replications = 0;               // of every point; more or fewer may be asked for than the file says
   std::vector<Paradigm> paradigms;              // the baseline is one of them
   std::vector<Axis> axes;
   std::vector<std::string> measures;
@@ -104,11 +106,16 @@ struct SweepFile {
   std::vector<const Axis*> grid() const;        // axes that are not random, in the file's order
   std::vector<const Axis*> drawn() const;       // random ones
   std::size_t points() const;                   // of the grid
+  std::uint64_t runs() const;                   // all there are, without a stop rule
   // The setting of every grid axis at a point; the last axis counts on first.
   std::vector<const Setting*> settings_of(std::uint32_t point) const;
   // "noise 2, road icy".
   std::string label_of(std::uint32_t point) const;
 };
+
+inline constexpr std::size_t kMostPoints = 10'000;
+inline constexpr std::uint64_t kMostRuns = 100'000'000;
+inline constexpr std::uint32_t kMostReplications = 10'000'000;
 
 // Both throw InputError with every finding.
 SweepFile load_sweep(const std::string& path);

@@ -39,7 +39,9 @@ inline constexpr std::array<Measure, 19> kMeasures{{
   {"position_rmse_reference", "m", "root mean square of the position error against the DGPS",
    [](const DriveSummary& s, const sim::DriveOutcome&) { return s.position_rmse_reference; }},
   {"position_mse_reference", "m^2", "mean square of the same",
-   [](const DriveSummary& s, const sim::DriveOutcome&) { return s.position_rmse_reference * s.position_rmse_reference; }},
+   [](const DriveSummary& s, const sim::DriveOutcome&) {
+     return s.position_rmse_reference * s.position_rmse_reference;
+   }},
   {"velocity_rmse_reference", "m/s", "root mean square of the velocity error against the DGPS",
    [](const DriveSummary& s, const sim::DriveOutcome&) { return s.velocity_rmse_reference; }},
   {"nees", "", "normalised estimation error squared of (x, y, vx, vy): 4 where the filter knows how wrong it is",

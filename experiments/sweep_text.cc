@@ -17,8 +17,10 @@ using results::Interval;
 std::string text_of(const Interval& interval, bool sign) {
   if (std::isnan(interval.mean)) return "-";
   const double width = std::isnan(interval.half_width) ? std::abs(interval.mean) * 1e-3 : interval.half_width;
-  const int decimals = width > 0.0 && std::isfinite(width) ? std::clamp(1 - static_cast<int>(std::floor(std::log10(width))), 0, 9) : 3;
-  std::string text = sign ? fmt::format("{:+.{}f}", interval.mean, decimals) : fmt::format("{:.{}f}", interval.mean, decimals);
+  const int decimals =
+      width > 0.0 && std::isfinite(width) ? std::clamp(1 - static_cast<int>(std::floor(std::log10(width))), 0, 9) : 3;
+  std::string text =
+      sign ? fmt::format("{:+.{}f}", interval.mean, decimals) : fmt::format("{:.{}f}", interval.mean, decimals);
   if (!std::isnan(interval.half_width)) text += fmt::format(" +- {:.{}f}", interval.half_width, decimals);
   return text;
 }
@@ -50,7 +52,7 @@ std::string quoted(const std::string& text) {
   return out + '"';
 }
 
-std::string number(double value) { return std::isnan(value) ? "" : fmt::format("{}", value); }
+std::string cell(double value) { return std::isnan(value) ? "" : fmt::format("{}", value); }
 
 std::string axis_columns(const SweepFile& sweep) {
   std::string columns;
@@ -76,7 +78,8 @@ std::string answer_sentences(const SweepFile& sweep, const SweepAnswer& answer) 
       ++(difference.below(0.0) ? less : difference.above(0.0) ? more : undecided);
     }
     text += fmt::format("{} of {} is less than of {} at {}, more at {}, undecided at {}.\n", sweep.measures.front(),
-                        sweep.paradigms[p].name, baseline, counted(static_cast<std::uint64_t>(less), "point"), more, undecided);
+                        sweep.paradigms[p].name, baseline, counted(static_cast<std::uint64_t>(less), "point"), more,
+                        undecided);
     for (const Crossing& crossing : answer.crossings)
       if (crossing.paradigm == p && crossing.certain)
         text += fmt::format("They cross at {} {:.4g}{}.\n", crossing.axis, crossing.at,
@@ -114,7 +117,8 @@ std::string answer_text(const SweepFile& sweep, const SweepAnswer& answer) {
   text += padded(rows) + '\n' + answer_sentences(sweep, answer);
   if (answer.failed > 0) text += fmt::format("{} failed: see `status` in runs.csv\n", counted(answer.failed, "run"));
   for (const ExpectationAnswer& expectation : answer.expectations) {
-    text += fmt::format("expected: {}: {}", expectation.text, expectation.holds ? "holds" : "does not hold for certain");
+    text +=
+        fmt::format("expected: {}: {}", expectation.text, expectation.holds ? "holds" : "does not hold for certain");
     if (!expectation.where_not.empty()) text += " at " + joined(expectation.where_not);
     text += '\n';
   }
@@ -130,8 +134,8 @@ std::string summary_csv(const SweepFile& sweep, const SweepAnswer& answer) {
         const Interval& mean = point.means[p][m];
         const Interval& difference = point.differences[p][m];
         csv += fmt::format("{},{}{},{},{},{},{},{},{}\n", point.point, axis_cells(sweep, point.point),
-                           sweep.paradigms[p].name, sweep.measures[m], mean.count, number(mean.mean),
-                           number(mean.half_width), number(difference.mean), number(difference.half_width));
+                           sweep.paradigms[p].name, sweep.measures[m], mean.count, cell(mean.mean),
+                           cell(mean.half_width), cell(difference.mean), cell(difference.half_width));
       }
   return csv;
 }
@@ -143,7 +147,7 @@ std::string runs_csv(const SweepFile& sweep, const results::Store& store) {
   store.for_each([&](const results::Run& run) {
     csv += fmt::format("{},{}{},{},{}", run.key.point, axis_cells(sweep, run.key.point), run.key.replication,
                        sweep.paradigms[run.key.paradigm].name, quoted(run.status));
-    for (const double value : run.values) csv += ',' + number(value);
+    for (const double value : run.values) csv += ',' + cell(value);
     csv += '\n';
   });
   return csv;

@@ -9,8 +9,8 @@ namespace ttf::experiments {
 
 // What was asked, the first measure by point, and what it comes to in sentences.
 std::string answer_text(const SweepFile& sweep, const SweepAnswer& answer);
-// A paradigm other than the baseline at a time: at how many points its first measure is less, more, undecided, and where that
-// changes for certain.
+// A paradigm other than the baseline at a time: at how many points its first measure is less, more, undecided, and
+// where that changes for certain.
 std::string answer_sentences(const SweepFile& sweep, const SweepAnswer& answer);
 
 // point, the axes' values, paradigm, measure, count, mean, half_width, difference, difference_half_width

@@ -1,9 +1,9 @@
 // An experiment's runs on many machines: the processes that mpirun has started (OpenMPI).
 //
-// Every rank reads the experiment for itself. Rank 0 has the store and hands out runs, a few at a time, to whoever has none;
-// the others drive them and send back what they came to. As a run is a function of its key, the store holds what one
-// process alone would have put there. A rank that dies ends them all, as mpirun has it: what rank 0 has written by then
-// stays, and a resumed experiment goes on from there.
+// Every rank reads the experiment for itself. Rank 0 has the store and hands out runs, a few at a time, to whoever has
+// none; the others drive them and send back what they came to. As a run is a function of its key, the store holds what
+// one process alone would have put there. A rank that dies ends them all, as mpirun has it: what rank 0 has written by
+// then stays, and a resumed experiment goes on from there.
 //
 // All ranks must be of one byte order and one program; that they read the same files is checked.
 #pragma once
@@ -30,8 +30,8 @@ class Ranks final : public Elsewhere {
   int rank() const { return rank_; }
   int size() const { return size_; }
 
-  // Called by all, with what is wrong on this one, "" if nothing is: what is wrong on the first rank where something is,
-  // the same for all.
+  // Called by all, with what is wrong on this one, "" if nothing is: what is wrong on the first rank where something
+  // is, the same for all.
   std::string first_problem(const std::string& mine) const;
   // Called by all: whether this rank has the same text as rank 0.
   bool same_as_first(const std::string& text) const;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <sqlite3.h>
 
+#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -15,6 +16,8 @@
 namespace ttf::results {
 namespace {
 
+constexpr const char* kReplications = "replications";   // a key of meta
+
 // Names come from experiment files: whatever they are, they stay names.
 std::string identifier(std::string_view name) {
   std::string out = "\"";
@@ -24,7 +27,8 @@ std::string identifier(std::string_view name) {
 
 std::string reason(sqlite3* handle) {
   const int code = sqlite3_errcode(handle);
-  return code == SQLITE_BUSY || code == SQLITE_LOCKED ? "is in use: another process writes there" : sqlite3_errmsg(handle);
+  return code == SQLITE_BUSY || code == SQLITE_LOCKED ? "is in use: another process writes there"
+                                                      : sqlite3_errmsg(handle);
 }
 
 }  // namespace
@@ -135,15 +139,17 @@ void Store::create_in(const Database& database, const StoreHead& head) {
     table += ", " + identifier(measure) + " REAL";
   }
   using Pair = std::pair<std::string_view, std::string_view>;
-  for (const auto& [key, value] : {Pair{"name", head.name}, Pair{"identity", head.identity},
-                                   Pair{"version", head.version}, Pair{"text", head.text}, Pair{"measures", measures}}) {
+  const std::string replications = std::to_string(head.replications);
+  for (const auto& [key, value] :
+       {Pair{"name", head.name}, Pair{"identity", head.identity}, Pair{"version", head.version},
+        Pair{"text", head.text}, Pair{"measures", measures}, Pair{kReplications, replications}}) {
     meta.bind(1, key);
     meta.bind(2, value);
     meta.row();
     meta.again();
   }
-  database.execute("CREATE TABLE runs(point INTEGER, replication INTEGER, paradigm INTEGER, status TEXT NOT NULL" + table +
-                   ", PRIMARY KEY(point, replication, paradigm)) WITHOUT ROWID; COMMIT");
+  database.execute("CREATE TABLE runs(point INTEGER, replication INTEGER, paradigm INTEGER, status TEXT NOT NULL" +
+                   table + ", PRIMARY KEY(point, replication, paradigm)) WITHOUT ROWID; COMMIT");
 }
 
 Store Store::open(const std::string& path) {
@@ -159,6 +165,9 @@ Store Store::open(const std::string& path) {
       if (key == "version") store.head_.version = value;
       if (key == "text") store.head_.text = value;
       if (key == "measures") measures = value;
+      if (key == kReplications &&
+          std::from_chars(value.data(), value.data() + value.size(), store.head_.replications).ec != std::errc{})
+        throw std::runtime_error(path + ": replications are no number");
     }
     if (!measures) throw std::runtime_error(path + ": no measures");
     for (std::size_t begin = 0, end = 0; (end = measures->find('\n', begin)) != std::string::npos; begin = end + 1)
@@ -170,6 +179,15 @@ Store Store::open(const std::string& path) {
   } catch (const std::runtime_error& error) {
     throw InputError({path, 0, "", "", std::string("must be a store of runs; SQLite says: ") + error.what()});
   }
+}
+
+void Store::ask_for(std::uint32_t replications) {
+  Statement meta(database_->handle, database_->path, "INSERT OR REPLACE INTO meta VALUES(?, ?)");
+  const std::string value = std::to_string(replications);
+  meta.bind(1, std::string_view(kReplications));
+  meta.bind(2, std::string_view(value));
+  meta.row();
+  head_.replications = replications;
 }
 
 void Store::add(const std::vector<Run>& runs) {

@@ -1,7 +1,8 @@
 // What runs came to, in one SQLite file: a row a run, as soon as it is there. Whoever is killed has lost what was not
 // committed and nothing else.
 //
-//   meta(key, value)                           what the runs are of: name, identity, version, the experiment's text
+//   meta(key, value)                           what the runs are of: name, identity, version, the experiment's text;
+//                                              replications, how many of every point are asked for
 //   runs(point, replication, paradigm,         the run's key
 //        status,                               "done", or in a sentence what went wrong
 //        <a column a measure>)                 real; NULL where a run has none
@@ -35,6 +36,7 @@ struct StoreHead {
   std::string identity, version;
   std::string text;               // the experiment's file
   std::vector<std::string> measures;
+  std::uint32_t replications = 0;   // asked for, of every point; none: nobody said
 };
 
 class Store {
@@ -48,6 +50,8 @@ class Store {
   Store& operator=(Store&&) noexcept;
 
   const StoreHead& head() const { return head_; }
+  // From now on so many are asked for. Throws std::runtime_error.
+  void ask_for(std::uint32_t replications);
   // All or none of them; a run that is there already stays as it is. Throws std::runtime_error, disk full for instance:
   // what was there before still is.
   void add(const std::vector<Run>& runs);

@@ -3,8 +3,9 @@
 //   clock                 of the merged records: "wall" or "common"; warnings: sentences
 //   logs                  {name, host, whole: closed and sound}
 //   states                {node, at_s, to, why}: changes of protocol operation control
-//   corrections           {node, at_ns, global_ns, offset_microticks}: when a clock was corrected, what it
-//   showed, and by how much features              at_s of each first use of an image that was not stale
+//   corrections           {node, at_ns, global_ns, offset_microticks}: when a clock was corrected, what it showed, and
+//                         by how much
+//   features              at_s of each first use of an image that was not stale
 //   last_s                by node, its last task's end
 //   truths                how many records of the truth
 #include <fmt/format.h>

@@ -42,6 +42,32 @@ expect 0 '' experiment "$file" --shard 2/2 --out "$work/second"
 expect 0 '' experiment "$file" --merge "$work/second" "$work/first" --out "$work/both"
 cmp "$work/whole/runs.csv" "$work/both/runs.csv" || fail "two shards put together are not the whole"
 
+# ---- fewer for a quick look, and what is missing later; in shards, too
+expect 0 '' experiment "$file" --replications 10 --out "$work/quick"
+[[ $(wc -l <"$work/quick/runs.csv") -eq 41 ]] || fail "10 replications are not 40 runs"
+cp "$work/quick/runs.csv" "$work/ten.csv"
+expect 0 '10 replications' experiment "$file" --out "$work/quick" --resume
+cmp "$work/ten.csv" "$work/quick/runs.csv" || fail "going on forgets how many were asked for"
+expect 2 '--replications = 9: must be 10 at least: so many were asked for in .*quick/results.sqlite' \
+  experiment "$file" --out "$work/quick" --resume --replications 9
+expect 0 '' experiment "$file" --out "$work/quick" --resume --replications 40
+for name in runs.csv summary.csv answer.txt answer.json; do
+  cmp "$work/whole/$name" "$work/quick/$name" || fail "$name of 10 replications and the rest is another"
+done
+expect 0 '' experiment "$file" --shard 1/2 --replications 10 --out "$work/ten_first"
+expect 0 '' experiment "$file" --shard 2/2 --replications 10 --out "$work/ten_second"
+expect 0 '' experiment "$file" --merge "$work/ten_first" "$work/ten_second" --out "$work/ten"
+cmp "$work/ten.csv" "$work/ten/runs.csv" || fail "two shards of 10 replications put together are others"
+expect 1 '20 of 60 runs are not among them' \
+  experiment "$file" --merge "$work/ten_first" "$work/ten_second" --replications 15 --out "$work/fifteen"
+expect 2 'must be 10 at least' experiment "$file" --merge "$work/ten_first" --replications 5 --out "$work/never"
+expect 2 '--replications = 10000000: must make 100000000 runs at most' \
+  experiment "$source/experiments/process_noise.yaml" --replications 10000000 --out "$work/never"
+expect 2 '--replications = 5: is for sweeps' experiment "$source/experiments/fault_campaign.yaml" --replications 5
+expect 0 'noise 40, tt, replication 40: done' experiment "$file" --replay 1/tt/40 --replications 41
+expect 2 'replications 0..39' experiment "$file" --replay 1/tt/40
+[[ -e $work/never ]] && fail "a count that cannot be leaves a folder behind"
+
 # ---- one run again is the row
 expect 0 'noise 40, tt, replication 7: done' experiment "$file" --replay 1/tt/7 --out "$work/one"
 value=$("$program" experiment "$file" --replay 1/tt/7 | awk '$1 == "position_rmse_truth" {print $2}')

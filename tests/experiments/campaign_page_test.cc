@@ -1,5 +1,5 @@
-// docs/fault_campaign.md shows the table of the shipped campaign; it takes a quarter of an hour to make. What tells in a moment
-// whether it is still of the same faults: how many of each class were drawn.
+// docs/fault_campaign.md shows the table of the shipped campaign; it takes a quarter of an hour to make. What tells in
+// a moment whether it is still of the same faults: how many of each class were drawn.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -24,7 +24,8 @@ std::map<std::string, std::vector<int>> on_the_page() {
     if (!(words >> name) || line.rfind("    ", 0) != 0) continue;
     while (words >> word && (word == "*" || word == "A+B")) name += " " + word;
     // The tables of times have fractions in that place.
-    if (!word.empty() && word.find_first_not_of("0123456789") == std::string::npos) counts[name].push_back(std::stoi(word));
+    if (!word.empty() && word.find_first_not_of("0123456789") == std::string::npos)
+      counts[name].push_back(std::stoi(word));
   }
   return counts;
 }

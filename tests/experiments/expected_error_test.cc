@@ -17,6 +17,7 @@
 #include "experiments/results/statistics.h"
 #include "fusion/strategy.h"
 #include "nodes/scenario.h"
+#include "tests/experiments/known_lists.h"
 
 namespace ttf::experiments {
 namespace {

@@ -47,8 +47,10 @@ TEST(FaultCampaign, MistakesInTheFileAreNamed) {
   EXPECT_EQ(refusal(good), "accepted");
   EXPECT_THAT(refusal(replaced(good, "fault_campaign", "sweep")),
               HasSubstr("small.yaml:1: kind = sweep: must be fault_campaign, the one kind of experiment there is"));
-  EXPECT_THAT(refusal(replaced(good, "faults: 10", "faults: 0")), HasSubstr("small.yaml:4: faults = 0: must be a whole number 1.."));
-  EXPECT_THAT(refusal(replaced(good, "start_up: 0.25", "start_up: 2")), HasSubstr("start_up = 2: must be a number 0..1"));
+  EXPECT_THAT(refusal(replaced(good, "faults: 10", "faults: 0")),
+              HasSubstr("small.yaml:4: faults = 0: must be a whole number 1.."));
+  EXPECT_THAT(refusal(replaced(good, "start_up: 0.25", "start_up: 2")),
+              HasSubstr("start_up = 2: must be a number 0..1"));
   EXPECT_THAT(refusal(replaced(good, "topology: bus, guardian: false", "topology: bus, guardian: true")),
               HasSubstr("needs topology: star"));
   EXPECT_THAT(refusal(good + "classes: {crash: 0}\n"), HasSubstr("must give some class a weight"));

@@ -46,7 +46,8 @@ Fault fault(FaultKind kind, NodeId node = kNoNode, Channels channels = Channels:
 }
 
 TEST(FaultCauses, ASlotIsItsOwnersWhoeverActedLast) {
-  Plan plan({fault(FaultKind::kCrash, kAda), fault(FaultKind::kOmission, kBen), fault(FaultKind::kBitFlipPayload, kCleo)});
+  Plan plan(
+      {fault(FaultKind::kCrash, kAda), fault(FaultKind::kOmission, kBen), fault(FaultKind::kBitFlipPayload, kCleo)});
   plan.causes->acts(2, us(5'000));
   EXPECT_EQ(plan.heard(kAda, kDan, 5'000), 0u);
   EXPECT_EQ(plan.heard(kBen, kDan, 5'000), 1u);

@@ -161,7 +161,8 @@ TEST_F(Story, H5AFrameThatWasNotSentInThisCycleIsForged) {
   alice_sends(4);
   bob_receives(4, Channel::kA);
   EXPECT_FALSE(judge_.finish(in_cycle(4, 100)).harmed());
-  judge_.frame_received(kBob, 2, Channel::kA, wire::decode_frame(Channel::kA, frame(Channel::kA, 4, 7)), in_cycle(5, 80));
+  judge_.frame_received(kBob, 2, Channel::kA, wire::decode_frame(Channel::kA, frame(Channel::kA, 4, 7)),
+                        in_cycle(5, 80));
   EXPECT_TRUE(harm(Harm::kFrameForged));
 }
 

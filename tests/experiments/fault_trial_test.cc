@@ -13,7 +13,8 @@ constexpr NodeId kFusion{2}, kCamera{5};
 
 class FaultTrial : public testing::Test {
  protected:
-  FaultOutcome run(std::size_t variant, const nodes::Fault& fault, bool starts_up = false, std::uint32_t index = 3) const {
+  FaultOutcome run(std::size_t variant, const nodes::Fault& fault, bool starts_up = false,
+                   std::uint32_t index = 3) const {
     return run_trial(campaign_, clusters_.variants[variant], {fault, starts_up}, index);
   }
   static nodes::Fault fault(nodes::FaultKind kind, NodeId node) {
@@ -95,7 +96,8 @@ TEST_F(FaultTrial, ADriftBeyondTheLimitEndsInPassiveAndHalt) {
 TEST_F(FaultTrial, AStartUpWithoutASecondColdstartNodeHarmsWhoWaitsForIt) {
   nodes::Fault lone = fault(nodes::FaultKind::kLoneColdstart, kFusion);
   lone.from = Duration{};
-  for (const std::size_t variant : {kGuardian, kBus}) EXPECT_TRUE(does(run(variant, lone, true).harms, Harm::kNotStarted));
+  for (const std::size_t variant : {kGuardian, kBus})
+    EXPECT_TRUE(does(run(variant, lone, true).harms, Harm::kNotStarted));
   EXPECT_FALSE(in_hypothesis(lone));
 }
 

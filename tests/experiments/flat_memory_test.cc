@@ -15,8 +15,10 @@ void drive(DriveMeasures& measures, std::int64_t from_ms, std::int64_t to_ms, st
     const auto list = static_cast<std::uint32_t>(ms / 20);
     const MeasurementId id{SensorId{0}, list};
     const GlobalTime measured = GlobalTime{now.ns} - Duration::milliseconds(30);
-    measures.on(records::FusionInput{{now, {}, GlobalTime{now.ns}, {}}, list, PduId{0}, SensorId{0}, list, measured, 25, {}});
-    measures.on(records::ListFused{{now, {}, GlobalTime{now.ns}, {}}, list, id, measured, records::Disposition::kFused});
+    measures.on(
+        records::FusionInput{{now, {}, GlobalTime{now.ns}, {}}, list, PduId{0}, SensorId{0}, list, measured, 25, {}});
+    measures.on(
+        records::ListFused{{now, {}, GlobalTime{now.ns}, {}}, list, id, measured, records::Disposition::kFused});
     if (ms % 100 == 0 && ms <= last_fix_ms) {
       records::ReferenceFix fix;
       fix.measured_true = now - Duration::milliseconds(60);

@@ -117,8 +117,8 @@ TEST(AchievedPrecision, WhoIsSilentHasNoTimeMeanwhile) {
   const auto silent = stamps_of(clocks, 60, [](NodeId node, int k) { return node == NodeId{0} || k < 20 || k >= 30; });
   EXPECT_EQ(apart(silent).longest(), Duration{20'000});
   EXPECT_EQ(apart(all).longest(), Duration{20'000});
-  // Of node 1 ten stamps are missing, and node 0's from k = 20 to 30 lie between node 1's of k = 19 and of k = 30, which
-  // is 300 us later than node 0's.
+  // Of node 1 ten stamps are missing, and node 0's from k = 20 to 30 lie between node 1's of k = 19 and of k = 30,
+  // which is 300 us later than node 0's.
   EXPECT_EQ(apart(all).count() - apart(silent).count(), 10u + 11u);
   // One stamp that is missing is bridged.
   const auto gap = stamps_of(clocks, 60, [](NodeId node, int k) { return node == NodeId{0} || k != 20; });

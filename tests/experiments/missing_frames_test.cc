@@ -39,7 +39,8 @@ schedules::Cluster cluster_of_two_slots() {
 
 class MissingFramesTest : public testing::Test {
  protected:
-  static records::TimingProblem of(NodeId node, std::uint8_t what, int slot, std::int64_t cycle, std::int64_t at_cycle) {
+  static records::TimingProblem of(NodeId node, std::uint8_t what, int slot, std::int64_t cycle,
+                                   std::int64_t at_cycle) {
     records::TimingProblem problem;
     problem.stamp.true_time = TrueTime{at_cycle * kTurnNs + slot * 50'000};
     problem.stamp.node = node;
@@ -262,7 +263,8 @@ TEST_F(MissingFramesTest, OneTurnCountsOnce) {
   EXPECT_EQ(withheld(), 1u);
 }
 
-// An oracle: drawn gaps, of frames each withheld, lost, not sent, or there, in a drawn order of telling, counted from either end.
+// An oracle: drawn gaps, of frames each withheld, lost, not sent, or there, in a drawn order of telling, counted from
+// either end.
 TEST_F(MissingFramesTest, DrawnRunsAreCountedTurnByTurn) {
   for (std::uint32_t draw = 0; draw < 50; ++draw) {
     RandomStream stream({.seed = 9, .purpose = Purpose::kTest, .index = draw});

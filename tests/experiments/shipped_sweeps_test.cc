@@ -20,7 +20,8 @@ const std::string kFolder = TTF_SOURCE_DIR "/experiments/";
 std::set<std::string> shipped() {
   std::set<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(kFolder))
-    if (entry.path().extension() == ".yaml" && ("\n" + read_file(entry.path().string())).find("\nkind: sweep\n") != std::string::npos)
+    if (entry.path().extension() == ".yaml" &&
+        ("\n" + read_file(entry.path().string())).find("\nkind: sweep\n") != std::string::npos)
       names.insert(entry.path().stem().string());
   return names;
 }

@@ -13,10 +13,12 @@ constexpr NodeId kSender{1}, kReceiver{2};
 class Ledger : public testing::Test {
  protected:
   TrueTime frame_at(int cycle) const {
-    return TrueTime{} + cluster_.cycle() * cycle + macroticks(cluster_.flexray.gdStaticSlot + cluster_.flexray.gdActionPointOffset);
+    return TrueTime{} + cluster_.cycle() * cycle +
+           macroticks(cluster_.flexray.gdStaticSlot + cluster_.flexray.gdActionPointOffset);
   }
   TrueTime static_end(int cycle) const {
-    return TrueTime{} + cluster_.cycle() * cycle + macroticks(cluster_.flexray.gNumberOfStaticSlots * cluster_.flexray.gdStaticSlot);
+    return TrueTime{} + cluster_.cycle() * cycle +
+           macroticks(cluster_.flexray.gNumberOfStaticSlots * cluster_.flexray.gdStaticSlot);
   }
   Duration macroticks(int count) const { return {count * cluster_.flexray.gdMacrotick_ps / 1000}; }
 
@@ -100,7 +102,8 @@ TEST_F(Ledger, WhatHasNotBeenReportedByTheEndIsOpen) {
   EXPECT_TRUE(losses_.empty());
 }
 
-// The sender's controller sent nothing on B; the receiver, which reports nothing of that slot, took something for valid there.
+// The sender's controller sent nothing on B; the receiver, which reports nothing of that slot, took something for valid
+// there.
 TEST_F(Ledger, AValidFrameThatWasNotSentIsForged) {
   cycle(0, false);
   sends(1, 0);

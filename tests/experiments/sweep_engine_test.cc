@@ -145,8 +145,10 @@ results::Run made_up(std::uint32_t point, std::uint32_t replication, std::uint32
 }
 
 TEST_F(SweepEngine, DifferencesArePaired) {
-  const SweepFile sweep = small_sweep(4, "expect: [{measure: position_rmse_truth, less: tt, than: adva, where: {noise: 40}}, "
-                                         "{measure: position_rmse_truth, less: tt, than: adva}]\n");
+  const SweepFile sweep =
+      small_sweep(4,
+                  "expect: [{measure: position_rmse_truth, less: tt, than: adva, where: {noise: 40}}, "
+                  "{measure: position_rmse_truth, less: tt, than: adva}]\n");
   const SweepDrives drives(sweep);
   results::Store made = store(drives, "made");
   // Both vary by far more than they differ by.
@@ -170,7 +172,8 @@ TEST_F(SweepEngine, DifferencesArePaired) {
   EXPECT_THAT(answer.expectations[1].where_not, testing::ElementsAre("noise 1"));
   EXPECT_FALSE(answer.holds());
   const std::string text = answer_text(sweep, answer);
-  EXPECT_THAT(text, testing::HasSubstr("position_rmse_truth of tt is less than of adva at 1 point, more at 1, undecided at 0."));
+  EXPECT_THAT(text, testing::HasSubstr(
+                        "position_rmse_truth of tt is less than of adva at 1 point, more at 1, undecided at 0."));
   EXPECT_THAT(text, testing::HasSubstr("They cross at noise 29.57."));
 }
 

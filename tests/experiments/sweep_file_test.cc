@@ -56,8 +56,10 @@ TEST(SweepFile, WhatIsWrongIsToldWithItsLine) {
   const auto axis = [](const std::string& text) { return refusal(kHead + "axes:\n  one: " + text + "\n"); };
   EXPECT_THAT(axis("{keys: [world.yaw_rate_noise], values: [1, 1]}"), HasSubstr("must not have a value twice: 1"));
   EXPECT_THAT(axis("{keys: [world.yaw_rate_noise], from: 0, to: 4, count: 1}"), HasSubstr("count"));
-  EXPECT_THAT(axis("{keys: [world.yaw_rate_noise], from: 0, to: 4, count: 3, scale: logarithmic}"), HasSubstr("both ends above 0"));
-  EXPECT_THAT(axis("{keys: [world.yaw_rate_noise], uniform: [4, 1]}"), HasSubstr("must be two numbers, the lower one first"));
+  EXPECT_THAT(axis("{keys: [world.yaw_rate_noise], from: 0, to: 4, count: 3, scale: logarithmic}"),
+              HasSubstr("both ends above 0"));
+  EXPECT_THAT(axis("{keys: [world.yaw_rate_noise], uniform: [4, 1]}"),
+              HasSubstr("must be two numbers, the lower one first"));
   EXPECT_THAT(axis("{keys: [world.yaw_rate_noise], values: [1], to: 4}"), HasSubstr("small.yaml:9: axes.one.to"));
   EXPECT_THAT(axis("{keys: [world.speed], values: [1]}"), HasSubstr("world.speed: must be in the file"));
   EXPECT_THAT(axis("{keys: [world.acceleration_noise], values: [51]}"),
@@ -69,7 +71,8 @@ TEST(SweepFile, WhatIsWrongIsToldWithItsLine) {
   EXPECT_EQ(refusal(kHead + axes), "taken");
   EXPECT_THAT(refusal(kHead + axes + "measures: [speed]\n"), HasSubstr("must be some of position_rmse_truth"));
   EXPECT_THAT(refusal(kHead + axes + "compare: {baseline: b}\n"), HasSubstr("must be one of the paradigms"));
-  EXPECT_THAT(refusal(kHead + axes + "expect: [{measure: nees, less: a, than: a}]\n"), HasSubstr("another than `less`"));
+  EXPECT_THAT(refusal(kHead + axes + "expect: [{measure: nees, less: a, than: a}]\n"),
+              HasSubstr("another than `less`"));
   EXPECT_THAT(refusal(kHead + axes + "expect: [{measure: nees, agrees: speed, of: a}]\n"),
               HasSubstr("one of `measures`"));
   EXPECT_THAT(refusal(kHead + axes + "expect: [{measure: nees, agrees: nees, of: a}]\n"),

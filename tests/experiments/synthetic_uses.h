@@ -16,8 +16,8 @@ struct Shown {
   double x = 0, y = 0, sigma = 1.0;
 };
 
-inline void write_image(records::Sink& sink, std::uint32_t sequence, GlobalTime valid_at, const std::vector<Shown>& shown,
-                        const std::vector<MeasurementId>& newest = {}) {
+inline void write_image(records::Sink& sink, std::uint32_t sequence, GlobalTime valid_at,
+                        const std::vector<Shown>& shown, const std::vector<MeasurementId>& newest = {}) {
   std::vector<records::ImageObject> objects;
   for (const Shown& object : shown) {
     const std::array<double, 6> state{object.x, object.y, 0, 0, 0, 0};

@@ -148,8 +148,8 @@ TEST_P(Coasting, WhatHasNotEndedGoesOn) {
   EXPECT_LT(view->covariance.trace(), coasting);
 }
 
-// The sensor that sees the car dies; the other goes on and does not see it: coasting with its third scan, ended with its
-// eighth.
+// The sensor that sees the car dies; the other goes on and does not see it: coasting with its third scan, ended with
+// its eighth.
 TEST_P(Coasting, ScansThatDoNotSeeItEndATrackSooner) {
   const TrackerConfig config;
   Drive drive(GetParam(), config);

@@ -4,13 +4,14 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cmath>
 #include <numbers>
 #include <optional>
 #include <tuple>
 
 #include "tests/fusion/choices.h"
+#include "tests/fusion/dense.h"
 #include "tests/fusion/scenes.h"
 
 namespace ttf::fusion {
@@ -110,27 +111,27 @@ TEST(Kalman, EqualsBatchLeastSquares) {
     Estimate estimate = estimate_of(motion, start.x, start.p);
     Eigen::MatrixXd information = Eigen::MatrixXd::Zero((steps + 1) * n, (steps + 1) * n);
     Eigen::VectorXd right = Eigen::VectorXd::Zero((steps + 1) * n);
-    information.topLeftCorner(n, n) = start.p.topLeftCorner(n, n).inverse();
+    information.topLeftCorner(n, n) = dense::inverse(start.p.topLeftCorner(n, n));
     right.head(n) = information.topLeftCorner(n, n) * start.x.head(n);
     for (int k = 1; k <= steps; ++k) {
       const double dt = 0.2 + 0.3 * stream.uniform();
       const Eigen::MatrixXd f = transition(motion, dt).topLeftCorner(n, n);
-      const Eigen::MatrixXd weight = driving_noise(motion, 2.0, dt).topLeftCorner(n, n).inverse();
+      const Eigen::MatrixXd weight = dense::inverse(driving_noise(motion, 2.0, dt).topLeftCorner(n, n));
       information.block((k - 1) * n, (k - 1) * n, n, n) += f.transpose() * weight * f;
       information.block((k - 1) * n, k * n, n, n) -= f.transpose() * weight;
       information.block(k * n, (k - 1) * n, n, n) -= weight * f;
       information.block(k * n, k * n, n, n) += weight;
       Observation z = position(stream.normal(), stream.normal(), 0.4);
       z.r(0, 1) = z.r(1, 0) = 0.05;
-      const Eigen::MatrixXd r_inverse = Eigen::MatrixXd(z.r.topLeftCorner<2, 2>()).inverse();
+      const Eigen::MatrixXd r_inverse = dense::inverse(z.r.topLeftCorner<2, 2>());
       const Eigen::VectorXd measured = z.z.head<2>();
       information.block(k * n, k * n, 2, 2) += r_inverse;
       right.segment(k * n, 2) += r_inverse * measured;
       estimator->predict(estimate, dt);
       estimator->update(estimate, z);
     }
-    const Eigen::VectorXd solution = information.ldlt().solve(right);
-    const Eigen::MatrixXd covariance = information.inverse().bottomRightCorner(n, n);
+    const Eigen::VectorXd solution = dense::solve(information, right);
+    const Eigen::MatrixXd covariance = dense::inverse(information).bottomRightCorner(n, n);
     EXPECT_LT((seen_as(estimate).x.head(n) - solution.tail(n)).norm(), 1e-8);
     EXPECT_LT((seen_as(estimate).p.topLeftCorner(n, n) - covariance).norm(), 1e-8 * covariance.norm());
   }
@@ -147,7 +148,7 @@ TEST(Kalman, CovarianceStaysSymmetricAndPositive) {
                                       : radar(7.07, kPi / 4.0, 0.0, 1e-3, 1e-4, 1e-3));
     const Matrix<4> p = seen_as(estimate).p.topLeftCorner<4, 4>();
     ASSERT_EQ(p, p.transpose().eval());
-    ASSERT_GT(p.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff(), 0.0) << i;
+    ASSERT_GT(dense::least_eigenvalue(p), 0.0) << i;
   }
 }
 
@@ -202,7 +203,7 @@ class EveryEstimator : public testing::TestWithParam<Choice> {
     const Gaussian<2> position = estimator->position(estimate);
     ASSERT_TRUE(all.x.allFinite() && all.p.allFinite()) << step;
     ASSERT_EQ(all.p, all.p.transpose().eval()) << step;
-    ASSERT_GT(all.p.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff(), -1e-9 * all.p.trace()) << step;
+    ASSERT_GT(dense::least_eigenvalue(all.p), -1e-9 * all.p.trace()) << step;
     ASSERT_EQ(position.x, all.x.head<2>().eval()) << step;
     ASSERT_EQ(position.p, (all.p.topLeftCorner<2, 2>().eval())) << step;
   }

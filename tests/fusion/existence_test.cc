@@ -3,12 +3,13 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
+#include <Eigen/Core>
 #include <cmath>
 #include <string>
 #include <vector>
 
 #include "fusion/tracker.h"
+#include "tests/fusion/dense.h"
 #include "tests/fusion/scenes.h"
 
 namespace ttf::fusion {
@@ -62,12 +63,14 @@ TEST_P(EveryAssociation, ExistenceFollowsTheClosedForm) {
       if (hit) {
         const Matrix<2> s = by_hand.p.topLeftCorner<2, 2>() + sigma * sigma * Matrix<2>::Identity();
         const Vector<2> nu = list[0].z.head<2>() - by_hand.x.head<2>();
-        const double density = std::exp(-0.5 * nu.dot(s.inverse() * nu)) / (2.0 * kPi * std::sqrt(s.determinant()));
+        const Matrix<2> s_inverse = dense::inverse(s);
+        const double determinant = s(0, 0) * s(1, 1) - s(0, 1) * s(1, 0);
+        const double density = std::exp(-0.5 * nu.dot(s_inverse * nu)) / (2.0 * kPi * std::sqrt(determinant));
         const double ratio = p_d * density / 0.01;
         likelihood += ratio;
         // What the estimate takes in of it: all, or with its probability given that the object exists.
         const double beta = GetParam() == Association::kNearest ? 1.0 : ratio / (1.0 - p_d * p_g + ratio);
-        const Matrix<4, 2> gain = by_hand.p.leftCols<2>() * s.inverse();
+        const Matrix<4, 2> gain = by_hand.p.leftCols<2>() * s_inverse;
         const Vector<4> moved = gain * nu;
         by_hand.x += beta * moved;
         by_hand.p += beta * ((1.0 - beta) * moved * moved.transpose() - gain * s * gain.transpose());

@@ -73,7 +73,8 @@ TEST(Extent, ASpanTellsWhatIsTurnedToTheSensor) {
 // At 45 degrees the span is a mixture: alone it tells neither, with a length it tells the width.
 TEST(Extent, AMixtureTellsOneWhereTheOtherIsKnown) {
   Extent extent;
-  for (int k = 0; k < 10; ++k) correct_span(extent, seen(25.0, std::numbers::pi / 4, 0.02), span_of(25.0, std::numbers::pi / 4), 0.001);
+  for (int k = 0; k < 10; ++k)
+    correct_span(extent, seen(25.0, std::numbers::pi / 4, 0.02), span_of(25.0, std::numbers::pi / 4), 0.001);
   EXPECT_LT(extent.covariance(0, 1), 0.0) << "the longer, the narrower";
   EXPECT_FALSE(extent.knows_width());
   const double before = extent.covariance(1, 1);

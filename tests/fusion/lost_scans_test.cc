@@ -64,7 +64,8 @@ void expect_as_if_never_sent(StrategyKind kind, const std::vector<Arrival>& arri
     ASSERT_TRUE(times.contains(f.id)) << "invented";
     const auto [measured, arrived] = times[f.id];
     const bool late = f.disposition == Disposition::kFusedLate;
-    ASSERT_TRUE(f.disposition == Disposition::kFused || (late && kind == StrategyKind::kAdva)) << "promises were kept: " << f;
+    ASSERT_TRUE(f.disposition == Disposition::kFused || (late && kind == StrategyKind::kAdva))
+        << "promises were kept: " << f;
     // The first of the fusion instants, every 10 ms, at which nothing older can come.
     ASSERT_LT(f.ms, (kind == StrategyKind::kAdva ? arrived : std::max(arrived, measured + kLongestWay)) + 10) << f;
   }
@@ -112,7 +113,8 @@ TEST_P(LostScans, BothDeadForGood) {
 //   measured   0    80   160     720   (silent)    1000 1080 1160    1720
 TEST_P(LostScans, ASensorThatRestartsCountsAnewAndIsNotTakenForItself) {
   const auto strategy = make_strategy(GetParam(), {}, std::vector{free_running(0, 60)});
-  // The second life begins with another object first in the list: its number and place are those the first one was born by.
+  // The second life begins with another object first in the list: its number and place are those the first one was born
+  // by.
   const auto a = [](std::int64_t ms) { return position(20.0 + 0.002 * static_cast<double>(ms), 0.0, 0.1); };
   const auto b = [](std::int64_t ms) { return position(40.0 - 0.003 * static_cast<double>(ms), 8.0, 0.1); };
   std::vector<Arrival> arrivals;

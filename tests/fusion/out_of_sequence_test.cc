@@ -4,9 +4,10 @@
 // there.
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include "fusion/timeline.h"
+#include "tests/fusion/dense.h"
 #include "tests/fusion/scenes.h"
 
 namespace ttf::fusion {
@@ -37,14 +38,14 @@ AtK update_at_k(const Vector& prior_x, const Matrix& prior_p, const Vector& z, c
   k.h = h;
   k.s = h * prior_p * h.transpose() + r;
   k.nu = z - h * prior_x;
-  const Matrix gain = prior_p * h.transpose() * k.s.inverse();
+  const Matrix gain = prior_p * h.transpose() * dense::inverse(k.s);
   k.x = prior_x + gain * k.nu;
   k.p = prior_p - gain * k.s * gain.transpose();
   return k;
 }
 
 Updated algorithm(char which, const AtK& k, const Late& late) {
-  const Matrix s_inverse = k.s.inverse(), b = k.h.transpose() * s_inverse * k.h;
+  const Matrix s_inverse = dense::inverse(k.s), b = k.h.transpose() * s_inverse * k.h;
   const Matrix p_xv = late.q - k.prior_p * b * late.q;
   Updated u;
   Vector x_tau = late.fb * k.x;
@@ -61,7 +62,7 @@ Updated algorithm(char which, const AtK& k, const Late& late) {
     c = k.p * late.fb.transpose() * late.h.transpose();
   }
   const Matrix s = late.h * u.p_tau * late.h.transpose() + late.r;
-  u.w = c * s.inverse();
+  u.w = c * dense::inverse(s);
   u.x = k.x + u.w * (late.z - late.h * x_tau);
   u.p = k.p - u.w * s * u.w.transpose();
   const Matrix e = which == 'A'

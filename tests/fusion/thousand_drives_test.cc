@@ -1,10 +1,10 @@
-// Every strategy, motion model, filter and method for late lists tells the truth about its errors: over 1,000 drives each,
-// drawn from the very model that the tracker assumes, with lists of two sensors that come late and out of order, NEES and NIS
-// are in their bands; with a thirtieth of the noise assumed they are not (Bar-Shalom, Li, Kirubarajan 2001, section 5.4).
-// The methods for late lists that only approximate are so near that a thousand drives do not tell.
+// Every strategy, motion model, filter and method for late lists tells the truth about its errors: over 1,000 drives
+// each, drawn from the very model that the tracker assumes, with lists of two sensors that come late and out of order,
+// NEES and NIS are in their bands; with a thirtieth of the noise assumed they are not (Bar-Shalom, Li, Kirubarajan
+// 2001, section 5.4). The methods for late lists that only approximate are so near that a thousand drives do not tell.
 //
-// Each drive is judged once, at its end, so that the sums are chi-square distributed. All figures of one kind are to be in
-// their bands together with a probability of 95 %: a single band is as wide as that takes.
+// Each drive is judged once, at its end, so that the sums are chi-square distributed. All figures of one kind are to be
+// in their bands together with a probability of 95 %: a single band is as wide as that takes.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -65,7 +65,8 @@ struct Judged {
 };
 
 template <class M>
-void judge_one(const Case& c, const M& truth, Vector<M::kStates> x, double noise_times, std::uint32_t drive, Judged& judged) {
+void judge_one(const Case& c, const M& truth, Vector<M::kStates> x, double noise_times, std::uint32_t drive,
+               Judged& judged) {
   RandomStream stream({.seed = 11, .replication = drive});
   const auto seen = [&] {
     const Kinematics at = M::template kinematics<kWithVelocity>(x);
@@ -132,12 +133,13 @@ std::vector<Case> every_case() {
   for (const auto& [strategy, how] : strategies)
     for (const auto& [motion, model] : motions)
       for (const FilterKind filter : {FilterKind::kExtended, FilterKind::kUnscented}) {
-        all.push_back({how + " " + model + (filter == FilterKind::kExtended ? " extended" : " unscented"), strategy, motion,
-                       filter, oosm::Kind::kRewind});
+        all.push_back({how + " " + model + (filter == FilterKind::kExtended ? " extended" : " unscented"), strategy,
+                       motion, filter, oosm::Kind::kRewind});
         const bool straight = motion == MotionModel::kConstantVelocity || motion == MotionModel::kConstantAcceleration;
         if (filter != FilterKind::kExtended || !straight || strategy == StrategyKind::kBuff) continue;
         for (const oosm::NamedKind& method : oosm::kKinds)
-          if (method.kind != oosm::Kind::kRewind && (strategy == StrategyKind::kAdva || method.kind == oosm::Kind::kClone))
+          if (method.kind != oosm::Kind::kRewind &&
+              (strategy == StrategyKind::kAdva || method.kind == oosm::Kind::kClone))
             all.push_back({how + " " + model + " " + std::string(method.name), strategy, motion, filter, method.kind});
       }
   return all;

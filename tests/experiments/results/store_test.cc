@@ -68,6 +68,25 @@ TEST_F(StoreTest, ARunThatIsThereStays) {
   expect_same(store.of_point(0).front(), first_);
 }
 
+TEST_F(StoreTest, HowManyAreAskedForIsKept) {
+  StoreHead head = head_;
+  head.replications = 40;
+  {
+    Store store = Store::create(path(), head);
+    EXPECT_EQ(store.head().replications, 40u);
+    store.add({first_});
+  }
+  {
+    Store store = Store::open(path());
+    EXPECT_EQ(store.head().replications, 40u);
+    store.ask_for(100);
+    EXPECT_EQ(store.head().replications, 100u);
+  }
+  const Store store = Store::open(path());
+  EXPECT_EQ(store.head().replications, 100u);
+  EXPECT_EQ(store.count(), 1u);
+}
+
 TEST_F(StoreTest, IsNotWrittenOver) {
   { Store store = Store::create(path(), head_); }
   EXPECT_THROW((void)Store::create(path(), head_), std::runtime_error);

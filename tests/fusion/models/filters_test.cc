@@ -9,6 +9,7 @@
 #include "fusion/sensors/position_heading.h"
 #include "fusion/sensors/range_bearing_rate.h"
 #include "fusion/sensors/systematic.h"
+#include "tests/fusion/dense.h"
 #include "tests/fusion/models/drawn.h"
 #include "tests/fusion/textbook.h"
 #include "tests/support/allocation_counter.h"
@@ -183,12 +184,13 @@ TEST(KalmanFilter, IsTheInformationForm) {
   for (int i = 0; i < 20; ++i) {
     Gaussian<4> state{drawn_state<motion::ConstantVelocity>(stream, i), drawn_covariance<4>(stream, 1.0)};
     const Measurement<2> z{{1.0, 2.0}, drawn_covariance<2>(stream, 0.5)};
-    Matrix<4> information = state.p.inverse();
+    Matrix<4> information = dense::inverse(state.p);
     Vector<4> vector = information * state.x;
-    information.topLeftCorner<2, 2>() += z.r.inverse();
-    vector.head<2>() += z.r.inverse() * z.z;
+    const Matrix<2> r_inverse = dense::inverse(z.r);
+    information.topLeftCorner<2, 2>() += r_inverse;
+    vector.head<2>() += r_inverse * z.z;
     Kalman{}.update(model, Position{}, z, state);
-    const Matrix<4> p = information.inverse();
+    const Matrix<4> p = dense::inverse(information);
     EXPECT_LT((apart<4, 4>(state.p, p)), 1e-11);
     EXPECT_LT((apart<4, 1>(state.x, p * vector)), 1e-10);
   }

@@ -11,6 +11,7 @@
 #include <functional>
 
 #include "fusion/metrics.h"
+#include "tests/fusion/dense.h"
 #include "tests/fusion/oosm/any_methods.h"
 
 namespace ttf::fusion::oosm {
@@ -54,7 +55,7 @@ using Estimator = std::function<Gaussian<2>(const Timeline<2, 1>&)>;
 
 double squared_error(const Gaussian<2>& estimate, const Vector<2>& truth) {
   const Vector<2> e = truth - estimate.x;
-  return e.dot(estimate.p.llt().solve(e));
+  return dense::norm_squared(e, estimate.p);
 }
 double average_nees(std::uint64_t seed, const Setting<1>& setting, const Estimator& estimate) {
   double sum = 0.0;

@@ -4,6 +4,7 @@
 
 #include <tuple>
 
+#include "tests/fusion/dense.h"
 #include "tests/fusion/oosm/any_methods.h"
 
 namespace ttf::fusion::oosm {
@@ -116,7 +117,7 @@ Gaussian<N> smoothed(const Model& motion, const Gaussian<N>& prior, const Timeli
   }
   for (std::size_t i = nodes.size() - 1; i-- > of_tau;) {
     Node &here = nodes[i], &next = nodes[i + 1];
-    const Matrix<N> gain = next.predicted.p.ldlt().solve(next.f * here.filtered.p).transpose();
+    const Matrix<N> gain = dense::solve(next.predicted.p, next.f * here.filtered.p).transpose();
     here.filtered.x += gain * (next.filtered.x - next.predicted.x);
     here.filtered.p += gain * (next.filtered.p - next.predicted.p) * gain.transpose();
   }

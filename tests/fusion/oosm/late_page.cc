@@ -1,6 +1,6 @@
-// The tables and pictures of docs/late_measurements.md: what a late measurement costs at each lag, from the kept counts of
-// instructions (tests/bench/instruction_counts), and what the estimate is worse by than the best there is, computed without
-// chance (true_error.h).
+// The tables and pictures of docs/late_measurements.md: what a late measurement costs at each lag, from the kept counts
+// of instructions (tests/bench/instruction_counts), and what the estimate is worse by than the best there is, computed
+// without chance (true_error.h).
 //   late_page PROJECT_DIR            makes them anew
 //   late_page PROJECT_DIR --check    exit code 1 where they are not those that are there
 #include <fmt/format.h>
@@ -31,8 +31,9 @@ constexpr double kNoises[] = {0.001, 0.01, 0.1, 1.0, 10.0, 100.0};
 constexpr Kind kLateKinds[] = {Kind::kC, Kind::kB, Kind::kA, Kind::kBl1, Kind::kAl1};
 
 std::string colour_of(Kind kind) {
-  constexpr std::string_view kColours[] = {report::kBlack, report::kGrey,   report::kGreen,  report::kPurple, report::kBlue,
-                                           report::kVermilion, report::kYellow, report::kSkyBlue, report::kOrange};
+  constexpr std::string_view kColours[] = {report::kBlack,  report::kGrey,    report::kGreen,
+                                           report::kPurple, report::kBlue,    report::kVermilion,
+                                           report::kYellow, report::kSkyBlue, report::kOrange};
   return std::string(kColours[static_cast<std::size_t>(kind)]);
 }
 
@@ -49,7 +50,8 @@ Costs kept_costs(const std::string& project) {
   std::string name;
   for (std::string count; file >> name >> count;) {
     const std::size_t last = name.rfind('_');
-    if (name.rfind("late_", 0) == 0) costs[{name.substr(5, last - 5), std::stoi(name.substr(last + 1))}] = std::stol(count);
+    if (name.rfind("late_", 0) == 0)
+      costs[{name.substr(5, last - 5), std::stoi(name.substr(last + 1))}] = std::stol(count);
   }
   return costs;
 }

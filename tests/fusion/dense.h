@@ -1,0 +1,22 @@
+// Linear algebra of matrices of any size, for oracles. A decomposition of a fixed size, each with its own solver, takes
+// a compiler a second or more; these it reads once (dense.cc).
+#pragma once
+
+#include <Eigen/Core>
+
+namespace ttf::fusion::dense {
+
+Eigen::MatrixXd inverse(const Eigen::MatrixXd& a);                              // by LU with partial pivoting
+Eigen::MatrixXd solve(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);      // A^-1 B of a symmetric A, by LDLT
+double norm_squared(const Eigen::VectorXd& e, const Eigen::MatrixXd& p);        // e' P^-1 e, by LDLT
+double least_eigenvalue(const Eigen::MatrixXd& a);                              // of a symmetric A: its lower triangle
+
+// What textbook.h says of an update.
+struct Correction {
+  Eigen::VectorXd x, nu;
+  Eigen::MatrixXd p, s, k;
+};
+Correction update(const Eigen::VectorXd& x, const Eigen::MatrixXd& p, const Eigen::VectorXd& z,
+                  const Eigen::MatrixXd& h, const Eigen::MatrixXd& r);
+
+}  // namespace ttf::fusion::dense
