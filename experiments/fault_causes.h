@@ -1,14 +1,14 @@
 // Whose doing it was: what a check saw, or a node suffered, goes to the one fault of the plan that it fits, or to none.
 //
 //   its own       the slots of the nodes that the fault names (named_by()), what these nodes see of themselves, and all
-//   that
-//                 they receive where the fault is of their hearing; from its beginning to its end, and on until they
-//                 are back. A fault-free node that it drove out of normal active is its own until that is back, too.
+//                 that they receive where the fault is of their hearing; from its beginning to its end, and on until
+//                 they are back. A fault-free node that it drove out of normal active is its own until that is back,
+//                 too.
 //   a channel     every slot in which it acts, where what it sends is not due there: bursts, frames in slots of others.
-//   It
-//                 does not make silence.
+//                 It does not make silence.
 //   the clocks    where nothing of the above fits: what the cluster's common time suffers, every slot of everybody
-//   suffers the cluster   the state and the clock of a fault-free node hang on all others: any fault
+//                 suffers
+//   the cluster   the state and the clock of a fault-free node hang on all others: any fault
 // The last two while the fault acts, and after it as long as a controller puts up with missing sync frames.
 // Where several fit, it is the one that acted last, or began last where none has acted. Nodes say when in their own
 // microticks, so a fault may seem to come a little after what it did.

@@ -4,9 +4,10 @@
 // A fault-free node is one that the fault does not name. From the beginning of the fault on, it is harmed when
 //   H1  it leaves normal active
 //   H2  it is not normal active when the run is over, and never was since the beginning (of a run that begins with
-//   start-up) H3  the global times of the fault-free nodes are further apart than the assumed precision H4  it is
-//   normal active and receives a frame of another fault-free, normal active node on none of the channels that both
-//       share with the frame
+//       start-up)
+//   H3  the global times of the fault-free nodes are further apart than the assumed precision
+//   H4  it is normal active and receives a frame of another fault-free, normal active node on none of the channels that
+//       both share with the frame
 //   H5  it accepts as valid, in a slot of a fault-free node, what that node did not send there in this cycle
 // A frame that a fault-free node sends is owed to every fault-free node that is normal active when it leaves; it is
 // overdue two cycles later, or when the run is over. Frames that leave in the last two cycles are not owed.

@@ -5,9 +5,9 @@
 //   question: Is it better to measure often or to know when?
 //   scenario: ../scenarios/dynamics.yaml           from this file's folder, as all files
 //   seed: 1
-//   replications: 1000                             of every point, each with draws of its own, the same for all
-//   paradigms paradigms:                                     who is compared, each a drive of every point and
-//   replication
+//   replications: 1000                             of every point, each with draws of its own, the same for
+//                                                  all paradigms
+//   paradigms:                                     who is compared, each a drive of every point and replication
 //     event_triggered: {strategy: adva}            on the scenario's cluster for it
 //     time_triggered:  {strategy: tt, cluster: ../schedules/paper_synchronised.yaml, set: {duration: 2 s}}
 //   axes:                                          what is varied; the grid has every combination
@@ -16,10 +16,12 @@
 //     road:  {settings: {dry: {world.yaw_rate_noise: 0.05}, icy: {world.yaw_rate_noise: 0.2}}}
 //     bus:   {settings: {sound: {}, torn: {faults: torn.yaml, time_triggered/tracker.process_noise: 3}}}
 //     load:  {keys: [cluster.can.observation_can.other_load], uniform: [0, 0.3]}   no grid: drawn once a replication
-//   measures: [position_rmse_truth, nees]          experiments/sweep_measures.h; the first is what is asked for;
-//   absent: all compare: {baseline: event_triggered, confidence: 0.95} stop: {half_width: 0.002, batch: 50}           a
-//   point has enough when the first measure's differences are that sure expect: what must come out, or the command
-//   exits with 1
+//   measures: [position_rmse_truth, nees]          experiments/sweep_measures.h; the first is what is asked for; all
+//                                                  where this is absent
+//   compare: {baseline: event_triggered, confidence: 0.95}
+//   stop: {half_width: 0.002, batch: 50}           a point has enough when the first measure's differences are
+//                                                  that sure
+//   expect:                                        what must come out, or the command exits with 1
 //     - {measure: position_rmse_truth, less: time_triggered, than: event_triggered, where: {noise: 2}}
 //     - {measure: position_mse_truth, agrees: position_mse_expected, of: event_triggered}   within the interval
 //
