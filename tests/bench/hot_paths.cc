@@ -21,6 +21,7 @@
 #include "tests/bench/crowd.h"
 #include "tests/fusion/oosm/timelines.h"
 #include "tests/sim/bus_clusters.h"
+#include "tests/sim/drive_fixture.h"
 
 namespace ttf {
 namespace {
@@ -149,6 +150,15 @@ void bus_cycle() {
   counted([&] { simulation.run_until(simulation.now() + cluster.cycle()); });
 }
 
+// The paper's drive of 1.5 s as an experiment drives it: the whole cluster, measured, without a log.
+void paper_drive() {
+  testing_support::Drive drive("scenarios/paper_scenario1.yaml", fusion::StrategyKind::kAdva);
+  drive.scenario.duration = Duration::milliseconds(1500);
+  drive.scenario.evaluate_from = Duration{};
+  experiments::DriveMeasures measures(sim::evaluation_start(drive.scenario));
+  counted([&] { drive.run(measures); });
+}
+
 struct Path {
   const char* name;
   void (*run)();
@@ -201,6 +211,7 @@ const Path kPaths[] = {
     {"frame_encode", frame_encode},
     {"frame_decode", frame_decode},
     {"bus_cycle", bus_cycle},
+    {"paper_drive", paper_drive},
 };
 
 int run(std::string_view name) {
