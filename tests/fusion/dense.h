@@ -11,12 +11,4 @@ Eigen::MatrixXd solve(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);      
 double norm_squared(const Eigen::VectorXd& e, const Eigen::MatrixXd& p);        // e' P^-1 e, by LDLT
 double least_eigenvalue(const Eigen::MatrixXd& a);                              // of a symmetric A: its lower triangle
 
-// What textbook.h says of an update.
-struct Correction {
-  Eigen::VectorXd x, nu;
-  Eigen::MatrixXd p, s, k;
-};
-Correction update(const Eigen::VectorXd& x, const Eigen::MatrixXd& p, const Eigen::VectorXd& z,
-                  const Eigen::MatrixXd& h, const Eigen::MatrixXd& r);
-
 }  // namespace ttf::fusion::dense

@@ -3,8 +3,9 @@
 //   P <- (I - K H) P (I - K H)' + K R K'  (Bar-Shalom, Li, Kirubarajan 2001, 5.2.3-18).
 #pragma once
 
+#include <Eigen/Cholesky>
+
 #include "fusion/gaussian.h"
-#include "tests/fusion/dense.h"
 
 namespace ttf::fusion {
 
@@ -18,10 +19,17 @@ struct Correction {
 
 template <int N, int M>
 Correction<N, M> update(Gaussian<N>& state, const LinearMeasurement<N, M>& measurement) {
-  const dense::Correction c = dense::update(state.x, state.p, measurement.z, measurement.h, measurement.r);
-  state.x = c.x;
-  state.p = c.p;
-  return {c.nu, c.s, c.k};
+  Correction<N, M> c;
+  c.nu = measurement.z - measurement.h * state.x;
+  const Matrix<M, N> hp = measurement.h * state.p;
+  c.s = hp * measurement.h.transpose() + measurement.r;
+  symmetrise<M>(c.s);
+  c.k = c.s.ldlt().solve(hp).transpose();
+  state.x += c.k * c.nu;
+  const Matrix<N> a = Matrix<N>::Identity() - c.k * measurement.h;
+  state.p = (a * state.p * a.transpose() + c.k * measurement.r * c.k.transpose()).eval();
+  symmetrise<N>(state.p);
+  return c;
 }
 
 }  // namespace ttf::fusion
