@@ -95,7 +95,7 @@ class ControllerEvents {
   // The static segment of a cycle is over, its slot problems have been told, and slot_status() is of it. During
   // start-up too: what that is worth is the host's to judge by state().
   virtual void static_segment_ended(std::int64_t cycle, Microticks at) { (void)cycle, (void)at; }
-  // Whether it is told of frames received, and of fragments that are known.
+  // Whether it has to be told of every frame received, and of every fragment that is known already.
   virtual bool wants_receptions() const { return true; }
   // A valid frame in the slot it says it is of; not during start-up. `frame` only during the call.
   virtual void frame_received(std::int64_t cycle, int slot, schedules::Channel channel, const wire::DecodedFrame& frame,
@@ -154,7 +154,7 @@ class FlexRayController {
   void advance(Microticks now);
   void receive(const Reception& reception);
   // The same on both channels at the same instants, as most of what nodes send arrives: receive() of channel A, which
-  // `reception` says, and of channel B. True: it has changed next_event() or state(), or may have.
+  // `reception` says, and of channel B. Whether that has changed next_event() or the state's kind.
   bool receive_on_both(const Reception& reception);
   // What is on its way to this node on both channels, and nothing else until it is there: whether it changes nothing but
   // what was seen of its slot and the sync deviations. So do null frames and fragments of lists that are there, and most

@@ -61,12 +61,13 @@ void FlexRayController::State::receive(const Reception& reception) {
 }
 
 bool FlexRayController::State::receive_on_both(const Reception& reception) {
-  if (judge_on_both(reception)) return false;
-  receive(reception);
-  Reception other = reception;
-  other.channel = Channel::kB;
-  receive(other);
-  return true;
+  const Microticks due_before = due;
+  const PocKind kind_before = poc.kind;
+  if (!judge_on_both(reception)) {
+    receive(reception);
+    receive(on_b(reception));
+  }
+  return due != due_before || poc.kind != kind_before;
 }
 
 // Whether it is a valid frame in its slot on both channels, and nothing was heard of that slot before; false where
@@ -99,9 +100,7 @@ bool FlexRayController::State::judge_on_both(const Reception& reception) {
   accept(reception, Channel::kA, slot, expected);
   // What a host is told may make it act.
   if (!in_operation() || board.under_way() != under_way) {
-    Reception other = reception;
-    other.channel = Channel::kB;
-    receive(other);
+    receive(on_b(reception));
     return true;
   }
   board.hear_b(slot);
@@ -256,7 +255,7 @@ void FlexRayController::State::judge_static(const Reception& reception, int slot
   accept(reception, reception.channel, slot, *expected);
 }
 
-// A valid frame of this node's schedule, in the slot that has just been looked up.
+// A valid frame in its slot, as this node's schedule expects it.
 void FlexRayController::State::accept(const Reception& reception, Channel channel, int slot, const FrameSlot& expected) {
   const wire::FrameHeader& header = reception.frame.header;
   if (!in_startup(poc.kind))

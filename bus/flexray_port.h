@@ -49,6 +49,16 @@ struct Reception {
   wire::DecodedFrame frame;            // of a frame
 };
 
+// The same on channel B, of a frame that is on both channels at once and says channel A.
+inline Transmission on_b(Transmission transmission) {
+  transmission.channel = schedules::Channel::kB;
+  return transmission;
+}
+inline Reception on_b(Reception reception) {
+  reception.channel = schedules::Channel::kB;
+  return reception;
+}
+
 class FlexRayPort {
  public:
   virtual ~FlexRayPort() = default;
@@ -56,9 +66,7 @@ class FlexRayPort {
   // The same frame on both channels at once, of which nobody wants the bytes; `transmission` says channel A.
   virtual void transmit_on_both(const Transmission& transmission) {
     transmit(transmission);
-    Transmission other = transmission;
-    other.channel = schedules::Channel::kB;
-    transmit(other);
+    transmit(on_b(transmission));
   }
   // Whether a frame or, in slot 0, a symbol that should leave at `start` still may: else it is not sent at all. Only real
   // time knows of too late.

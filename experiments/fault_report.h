@@ -141,8 +141,8 @@ class FaultReport final : public records::Sink {
   FaultCauses causes_;
   FrameClocks clocks_;
   SlotLedger ledger_;
-  std::optional<std::pair<TrueTime, std::int64_t>>
-      cycle_began_;   // the newest cycle known, by a fault-free node's clock
+  // The newest cycle known, by a fault-free node's clock.
+  std::optional<std::pair<TrueTime, std::int64_t>> cycle_began_;
   FaultFindings findings_;
   std::vector<std::optional<std::size_t>> place_;   // in findings_.faults, by index in the plan
   std::vector<Counted> counted_;           // by index in the plan, and of what is unattributed

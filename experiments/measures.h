@@ -15,6 +15,7 @@
 
 #include "core/ids.h"
 #include "core/time.h"
+#include "experiments/pairing.h"
 #include "experiments/reference_judge.h"
 #include "recording/records/binned_durations.h"
 #include "recording/records/records.h"
@@ -78,7 +79,7 @@ struct DriveSummary {
 class DriveMeasures final : public records::Sink {
  public:
   // Uses before `from` are not judged; image and truth further apart than `gate_m` do not belong together.
-  explicit DriveMeasures(TrueTime from, double gate_m = 4.0);
+  explicit DriveMeasures(TrueTime from, double gate_m = kGate_m);
 
   // Completes what waits for its truth. Call once, at the end.
   DriveSummary finish();

@@ -97,6 +97,7 @@ class Executive final : private bus::ControllerEvents {
   void receive(const bus::Reception& reception);
   // The same on both channels at once (bus/controller.h). False: next_event() is what it was.
   bool receive_on_both(const bus::Reception& reception);
+  // What is on its way to its controller (bus/controller.h).
   bool knows(const bus::Reception& reception) { return !asleep_ && flexray_->knows(reception); }
   void hear_known(const bus::Reception& reception) { flexray_->hear_known(reception); }
   void receive_can(std::size_t can_bus, const bus::CanFrame& frame, Microticks now);
@@ -144,7 +145,7 @@ class Executive final : private bus::ControllerEvents {
     (void)cycle, (void)at;
     concerned_ = true;
   }
-  void look_ahead();
+  void look_ahead();   // own_next_, whenever something has concerned it
   void arrived(PduId pdu, int can_bus, bus::ArrivalEffect effect, std::uint32_t sequence,
                std::optional<std::uint32_t> torn, Microticks at);
   void rise(Microticks now);

@@ -228,9 +228,7 @@ void ClusterSimulation::receive(std::size_t node, const bus::Reception& receptio
 bool ClusterSimulation::receive_on_both(std::size_t node, const bus::Reception& reception) {
   if (others_ == nullptr) return nodes_[node]->receive_on_both(reception);
   receive(node, reception);
-  bus::Reception other = reception;
-  other.channel = schedules::Channel::kB;
-  receive(node, other);
+  receive(node, bus::on_b(reception));
   return true;
 }
 

@@ -219,7 +219,7 @@ void Crank::transmit_on_both(NodeId sender, const bus::Transmission& transmissio
 // Whether it tells nobody anything new; so nothing has to arrive. It leaves now, and until it is there nobody sends and
 // nothing else happens to those who hear it, but for tasks and CANs.
 bool Crank::is_known(NodeId sender, const bus::Transmission& transmission, TrueTime start, TrueTime end) {
-  if (disturbance_ != nullptr || start != now_ || !medium_.is_clear()) return false;
+  if (start != now_ || !medium_.is_clear()) return false;
   bus::Reception reception{transmission.channel, transmission.signal, {}, {}, transmission.content};
   for (const FlexRayMedium::Leg& leg : medium_.way_from(sender)) {
     const std::size_t node = index_of(leg.receiver);

@@ -40,6 +40,8 @@ class Crank : public Plant {
   bool powered(NodeId node) const final { return seats_[index_of(node)].powered; }
   const timebase::Oscillator& oscillator(NodeId node) const { return seats_[index_of(node)].oscillator; }
   FlexRayMedium& medium() { return medium_; }
+  // What a node sends on both channels at once, without bytes: over the medium, unless it tells nobody anything new.
+  void transmit_on_both(NodeId sender, const bus::Transmission& transmission, TrueTime start, TrueTime end);
   // The guardian of a star's channel; null where the cluster has none.
   StarCoupler* coupler(schedules::Channel channel) { return couplers_[index_of(channel)].get(); }
   // Null: nothing goes wrong.
@@ -82,7 +84,6 @@ class Crank : public Plant {
   FlexRayMedium medium_;
 
  private:
-  friend class CrankPort;
   struct Seat {
     timebase::Oscillator oscillator;
     bool powered = false;
@@ -94,7 +95,6 @@ class Crank : public Plant {
   };
   void set_next(std::size_t node, TrueTime time);
   void step(std::size_t node);
-  void transmit_on_both(NodeId sender, const bus::Transmission& transmission, TrueTime start, TrueTime end);
   bool is_known(NodeId sender, const bus::Transmission& transmission, TrueTime start, TrueTime end);
   void arrive(MediumEvent event, TrueTime end);
   bool comes_next(const EventOrder& order, TrueTime end) const {

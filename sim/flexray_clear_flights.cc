@@ -59,9 +59,7 @@ void FlexRayMedium::transmit_on_both(NodeId sender, const bus::Transmission& tra
   const int receivers = static_cast<int>(ways[0].size());
   if (!is_clear() || receivers == 0) {
     transmit(sender, transmission, start, end);
-    bus::Transmission other = transmission;
-    other.channel = Channel::kB;
-    return transmit(sender, other, start, end);
+    return transmit(sender, bus::on_b(transmission), start, end);
   }
   const std::uint32_t frame = pool_.put_content(transmission.content, 2 * receivers);
   Arrival left{start, end, frame, Channel::kA, bus::Signal::kFrame, ChannelLog::kNone};
