@@ -36,6 +36,7 @@ FlexRayController::State::State(const schedules::Cluster& c, NodeId n, FlexRayPo
       geometry{g.gMacroPerCycle, g.gdMacrotick_ps, p.pMicroPerCycle, g.gOffsetCorrectionStart},
       told_of_receptions(host.wants_receptions()),
       nominal_slot(bus::nominal_slot(g, p)),
+      static_frame(bits(schedules::frame_bits(g, g.gPayloadLengthStatic))),
       poc(poc_power_on(poc_parameters)),
       cni(c, n),
       network_management(c.flexray.gNetworkManagementVectorLength),
@@ -82,6 +83,7 @@ void FlexRayController::State::drop_schedule() {
 // A clock for `cycle`, which starts at `start`: in the future, or in the past for who joins in the middle of it.
 void FlexRayController::State::begin_schedule(Microticks start, int rate, std::int64_t cycle) {
   clock.emplace(geometry, start, rate, cycle);
+  lay_cycle();
   next_rate = rate;
   slot_at = {0, clock->cycle_start(), clock->cycle_start(), 0, {}};
   sync.reset();
@@ -94,15 +96,27 @@ void FlexRayController::State::begin_schedule(Microticks start, int rate, std::i
 
 // ---- the cycle
 
+// Static slots lie before the clock's correction phase, so only its rate moves them.
+void FlexRayController::State::lay_cycle() {
+  const int round = g.gCycleCountMax + 1;   // 64 but for schedules made by hand: no division is needed
+  counter = static_cast<int>((round & (round - 1)) == 0 ? clock->cycle() & (round - 1) : clock->cycle() % round);
+  if (grid_rate == clock->rate_correction()) return;
+  grid_rate = clock->rate_correction();
+  const auto into = [this](Macroticks at) { return clock->start_of(at) - clock->cycle_start(); };
+  for (int slot = 1; slot <= g.gNumberOfStaticSlots; ++slot)
+    grid[static_cast<std::size_t>(slot - 1)] = {into(slot_start(slot)), into(action_point(slot))};
+  grid.back().from = into(static_end());
+}
+
 Microticks FlexRayController::State::next_event() const {
   Microticks next = std::min({listen_timer, noise_timer, wakeup_sent, partner_overdue});
   if (!clock) return next;
   switch (segment) {
     case Segment::kBefore: return std::min(next, clock->cycle_start());
     case Segment::kStatic:
-      return std::min(next, clock->start_of(next_static < slots.own_static().size()
-                                                ? action_point(slots.own_static()[next_static]->slot)
-                                                : static_end()));
+      return std::min(next, clock->cycle_start() + (next_static < slots.own_static().size()
+                                                        ? line(slots.own_static()[next_static]->slot).action_point
+                                                        : grid.back().from));
     case Segment::kDynamic:
       return std::min({next, dynamic[0].due, dynamic[1].due, symbol_point,
                        g.gdSymbolWindow > 0 ? window_to : clock->cycle_end()});
@@ -149,6 +163,7 @@ void FlexRayController::State::handle(Microticks at) {
       const StartupFramesSeen ended = sync.startup_frames(poc.reference);
       network_management.end_cycle(!in_startup(poc.kind));
       clock->next_cycle(next_rate);
+      lay_cycle();
       return enter_cycle(ended, at);
     }
   }
@@ -157,7 +172,7 @@ void FlexRayController::State::handle(Microticks at) {
 void FlexRayController::State::start_cycle() {
   board.begin_segment();
   slot_at = {0, clock->cycle_start(), clock->cycle_start(), 0, {}};
-  sync.start_cycle(counter());
+  sync.start_cycle(counter);
   segment = Segment::kStatic;
   next_static = 0;
   skip_to_own_static();
@@ -165,7 +180,7 @@ void FlexRayController::State::start_cycle() {
 
 // `ended`: what was received in the cycle before.
 void FlexRayController::State::enter_cycle(const StartupFramesSeen& ended, Microticks at) {
-  tell(PocEvent::cycle_started(counter(), ended), at);
+  tell(PocEvent::cycle_started(counter, ended), at);
   if (!clock || clock->cycle_start() != at) return;   // dropped, or begun anew by a CAS
   start_cycle();
   events.cycle_started(clock->cycle(), at);
@@ -181,13 +196,13 @@ void FlexRayController::State::note_what_goes_on() {
     const int last = board.slots();
     if (whole_cycle) board.crossed(channel, 1, last);
     for (int slot = board.last_heard(channel) + 1; slot < last; ++slot)
-      if (slots.expected(slot, counter(), channel) != nullptr) board.crossed(channel, slot, slot);
+      if (slots.expected(slot, counter, channel) != nullptr) board.crossed(channel, slot, slot);
     board.crossed(channel, last, last);
   }
 }
 
 void FlexRayController::State::tell_slot_problems(Microticks at) {
-  const int now = counter();
+  const int now = counter;
   if (board.are_pairs(slots.pairs(now))) return;
   for (int slot = 1; slot <= g.gNumberOfStaticSlots; ++slot) {
     const SlotBoard::Seen& status = board.at(slot);

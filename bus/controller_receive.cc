@@ -70,54 +70,52 @@ bool FlexRayController::State::receive_on_both(const Reception& reception) {
   return due != due_before || poc.kind != kind_before;
 }
 
-// Whether it is a valid frame in its slot on both channels, and nothing was heard of that slot before; false where
-// anything else may be the case.
-bool FlexRayController::State::is_valid_on_both(const Reception& reception) {
+// The schedule's frame that it is, if it is a valid one in its slot on both channels and nothing was heard of that slot
+// before; null where anything else may be the case.
+const FrameSlot* FlexRayController::State::first_of_slot_on_both(const Reception& reception) const {
   const wire::FrameHeader& header = reception.frame.header;
-  if (!in_operation() || reception.signal != Signal::kFrame || reception.frame.error != wire::FrameError::kNone ||
-      talks_over(reception, 0) || talks_over(reception, 1) || (g.gdSymbolWindow > 0 && segment != Segment::kStatic) ||
-      header.frame_id > g.gNumberOfStaticSlots || header.payload_words != g.gPayloadLengthStatic ||
-      (header.startup && !header.sync))
-    return false;
-  if (grid_rate != clock->rate_correction()) lay_grid();
-  const Microticks cycle_start = clock->cycle_start();
   const int slot = header.frame_id;
-  const auto index = static_cast<std::size_t>(slot);
-  if (reception.start < cycle_start + grid[index - 1] || reception.end > cycle_start + grid[index]) return false;
-  const int cycle = counter();
-  const auto& expected = slots.expected(slot, cycle);
-  return header.cycle == cycle && expected[0] != nullptr && expected[0] == expected[1] &&
-         std::as_const(board).nothing(slot);
+  if (slot < 1 || slot > g.gNumberOfStaticSlots || header.cycle != counter ||
+      header.payload_words != g.gPayloadLengthStatic || (header.startup && !header.sync) ||
+      reception.signal != Signal::kFrame || reception.frame.error != wire::FrameError::kNone || !board.nothing(slot))
+    return nullptr;
+  const Microticks cycle_start = clock->cycle_start();
+  if (reception.start < cycle_start + line(slot).from || reception.end > cycle_start + line(slot + 1).from)
+    return nullptr;
+  return slots.expected_on_both(slot, counter);
 }
 
 // Judged once. False, and nothing is changed, where it has to be judged channel by channel.
 bool FlexRayController::State::judge_on_both(const Reception& reception) {
-  if (!is_valid_on_both(reception)) return false;
-  const int slot = reception.frame.header.frame_id;
-  const FrameSlot& expected = *slots.expected(slot, counter())[0];
+  if (!in_operation() || talks_over(reception, 0) || talks_over(reception, 1) ||
+      (g.gdSymbolWindow > 0 && segment != Segment::kStatic))
+    return false;
+  const FrameSlot* const expected = first_of_slot_on_both(reception);
+  if (expected == nullptr) return false;
+  const int slot = expected->slot;
   const bool under_way = board.under_way();
   board.hear_a(slot);
-  accept(reception, Channel::kA, slot, expected);
+  accept(reception, Channel::kA, slot, *expected);
   // What a host is told may make it act.
   if (!in_operation() || board.under_way() != under_way) {
     receive(on_b(reception));
     return true;
   }
   board.hear_b(slot);
-  accept(reception, Channel::kB, slot, expected);
+  accept(reception, Channel::kB, slot, *expected);
   return true;
 }
 
 bool FlexRayController::State::knows(const Reception& reception) {
-  // Until then it neither sends nor looks at what was seen.
-  if (due <= reception.end || segment != Segment::kStatic || told_of_receptions || !is_valid_on_both(reception))
+  // Until then it neither sends nor looks at what was seen, and what it sent itself is over.
+  if (due <= reception.end || segment != Segment::kStatic || told_of_receptions || !in_operation() ||
+      reception.start < std::max(sending_to[0], sending_to[1]) || reception.frame.header.payload_preamble)
     return false;
-  const wire::FrameHeader& header = reception.frame.header;
-  const FrameSlot& expected = *slots.expected(header.frame_id, header.cycle)[0];
-  if (header.payload_preamble) return false;
-  if (header.null_frame || expected.pdu == kNoPdu) return true;
-  const auto bytes = static_cast<std::size_t>(cluster.pdu(expected.pdu).fragment_bytes);
-  return cni.incoming(expected.pdu).knows(reception.frame.payload.first(bytes), expected.fragment);
+  const FrameSlot* const expected = first_of_slot_on_both(reception);
+  if (expected == nullptr) return false;
+  if (reception.frame.header.null_frame || expected->pdu == kNoPdu) return true;
+  const auto bytes = static_cast<std::size_t>(cluster.pdu(expected->pdu).fragment_bytes);
+  return cni.incoming(expected->pdu).knows(reception.frame.payload.first(bytes), expected->fragment);
 }
 
 void FlexRayController::State::hear_known(const Reception& reception) {
@@ -177,19 +175,11 @@ void FlexRayController::State::hear(const Reception& reception) {
   }
 }
 
-// Static slots lie before the clock's correction phase, so only its rate moves them.
-void FlexRayController::State::lay_grid() {
-  for (std::size_t s = 0; s < grid.size(); ++s)
-    grid[s] = clock->start_of(slot_start(static_cast<int>(s) + 1)) - clock->cycle_start();
-  grid_rate = clock->rate_correction();
-}
-
 int FlexRayController::State::look_up_static_slot(Microticks at) {
   const Microticks into = at - clock->cycle_start();
   if (into < Microticks{}) return 0;
-  if (grid_rate != clock->rate_correction()) lay_grid();
-  if (into >= grid.back()) return g.gNumberOfStaticSlots + 1;
-  const auto from = [this](int slot) { return grid[static_cast<std::size_t>(slot - 1)]; };
+  if (into >= grid.back().from) return g.gNumberOfStaticSlots + 1;
+  const auto from = [this](int slot) { return line(slot).from; };
   // The one behind it, as a rule; else an estimate on the nominal grid, put right by a slot at most.
   int slot = slot_at.slot + 1;
   if (slot > g.gNumberOfStaticSlots || into < from(slot) || into >= from(slot + 1)) {
@@ -197,9 +187,8 @@ int FlexRayController::State::look_up_static_slot(Microticks at) {
     while (from(slot) > into) --slot;
     while (from(slot + 1) <= into) ++slot;
   }
-  const int cycle = counter();
-  slot_at = {slot, clock->cycle_start() + from(slot), clock->cycle_start() + from(slot + 1), cycle,
-             slots.expected(slot, cycle)};
+  slot_at = {slot, clock->cycle_start() + from(slot), clock->cycle_start() + from(slot + 1), counter,
+             slots.expected(slot, counter)};
   return slot;
 }
 
@@ -270,14 +259,14 @@ void FlexRayController::State::accept(const Reception& reception, Channel channe
 // The medium reports when the first bit of the TSS arrived, so no decoding time has to be taken off (pDecodingCorrection);
 // the bus' mean propagation delay is the schedule's to compensate.
 void FlexRayController::State::hear_sync(const Reception& reception, int slot, schedules::Channels channels) {
-  const Microticks late = reception.start - clock->start_of(action_point(slot));
-  for (const Channel channel : schedules::kBothChannels) {
-    if (!includes(channels, channel)) continue;
-    const int compensation = channel == Channel::kA ? p.pDelayCompensationA : p.pDelayCompensationB;
-    const auto deviation = static_cast<int>((late - Microticks{compensation}).value);
-    const bool startup = reception.frame.header.startup && std::abs(deviation) <= p.pdAcceptedStartupRange;
-    sync.heard(slot, channel, deviation, startup);
-  }
+  const Microticks late = reception.start - clock->cycle_start() - line(slot).action_point;
+  const auto deviation = [&](int compensation) { return static_cast<int>(late.value) - compensation; };
+  const std::array<int, 2> deviations{deviation(p.pDelayCompensationA), deviation(p.pDelayCompensationB)};
+  const auto starts_up = [&](Channel channel) {
+    return includes(channels, channel) && std::abs(deviations[index_of(channel)]) <= p.pdAcceptedStartupRange;
+  };
+  sync.heard(slot, channels, deviations,
+             reception.frame.header.startup && (starts_up(Channel::kA) || starts_up(Channel::kB)));
 }
 
 // The minislots that a reception took, from the first one on if it began before that: the slot counter goes on behind
@@ -298,8 +287,8 @@ void FlexRayController::State::judge_dynamic(const Reception& reception, int min
   const int slot = dynamic[index_of(reception.channel)].counter.slot_in(minislot);
   if (count_minislots(reception) > minislots.count()) errors |= kBoundaryViolation;
 
-  const FrameSlot* expected = slots.expected(slot, counter(), reception.channel, wire::message_id(reception.frame));
-  if (errors == 0 && (header.frame_id != slot || header.cycle != counter() || header.sync || header.startup ||
+  const FrameSlot* expected = slots.expected(slot, counter, reception.channel, wire::message_id(reception.frame));
+  if (errors == 0 && (header.frame_id != slot || header.cycle != counter || header.sync || header.startup ||
                       expected == nullptr || expected->pdu == kNoPdu || header.null_frame ||
                       header.payload_preamble != expected->message_id.has_value() ||
                       reception.frame.payload.size() <

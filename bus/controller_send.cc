@@ -22,7 +22,7 @@ bool FlexRayController::State::may_send(const FrameSlot& slot) const {
 // Leaves next_static at the next slot that has its turn in this cycle.
 void FlexRayController::State::skip_to_own_static() {
   const auto own = slots.own_static();
-  while (next_static < own.size() && !in_cycle(*own[next_static], counter())) ++next_static;
+  while (next_static < own.size() && !in_cycle(*own[next_static], counter)) ++next_static;
 }
 
 void FlexRayController::State::send_static(Microticks at) {
@@ -33,7 +33,7 @@ void FlexRayController::State::send_static(Microticks at) {
   const bool starting = mac_mode(poc) == MacMode::kStartupFrame;
   const Cni::Fragment content = starting ? Cni::Fragment{} : cni.fetch(slot, clock->cycle());
   const bool null_frame = starting || (slot.pdu != kNoPdu && content.payload.empty());
-  const Microticks end = at + bits(schedules::frame_bits(g, g.gPayloadLengthStatic));
+  const Microticks end = at + static_frame;
   if (slot.network_management && !null_frame) network_management.combine(network_management.own());
   const bool sync_frame = p.pKeySlotUsedForSync && slot.slot == p.pKeySlotId;
   const auto quiet = [this](Channel channel) { return !port.wants_bytes(channel); };
@@ -58,7 +58,7 @@ wire::DecodedFrame FlexRayController::State::frame_of(const FrameSlot& slot, con
   const bool is_static = slot.slot <= g.gNumberOfStaticSlots;
   wire::FrameHeader header;
   header.frame_id = static_cast<std::uint16_t>(slot.slot);
-  header.cycle = static_cast<std::uint8_t>(counter());
+  header.cycle = static_cast<std::uint8_t>(counter);
   header.sync = is_static && p.pKeySlotUsedForSync && slot.slot == p.pKeySlotId;
   header.startup = header.sync && p.pKeySlotUsedForStartup;
   header.null_frame = null_frame;
@@ -117,7 +117,7 @@ void FlexRayController::State::plan_dynamic(Channel channel, Microticks now) {
   for (; d.next < own.size(); ++d.next) {
     const FrameSlot& slot = *own[d.next];
     d.minislot = d.counter.minislot_of(slot.slot);
-    if (d.minislot == 0 || !in_cycle(slot, counter())) continue;
+    if (d.minislot == 0 || !in_cycle(slot, counter)) continue;
     // Later slots are later still: nothing more goes out in this cycle.
     if (d.minislot > std::min(p.pLatestTx, minislots.count())) return;
     d.due = clock->start_of(minislots.action_point(d.minislot));

@@ -34,6 +34,7 @@ struct FlexRayController::State {
   const timebase::CycleGeometry geometry;
   const bool told_of_receptions;           // its host
   const timebase::Divisor nominal_slot;    // a static slot's microticks, give or take one
+  const Microticks static_frame;           // a static frame's length
 
   // --- where it stands
   PocState poc;
@@ -61,8 +62,13 @@ struct FlexRayController::State {
     std::array<const schedules::FrameSlot*, 2> expected{};   // by channel, as SlotTable has it
   };
   SlotAt slot_at;
-  std::vector<Microticks> grid;            // by slot - 1, where it begins in the cycle; and where the last one ends
+  // The static slots by the clock: at which microtick of the cycle they begin, and have their action points.
+  struct GridLine {
+    Microticks from{}, action_point{};
+  };
+  std::vector<GridLine> grid;              // by slot - 1; behind the last one, where that ends
   std::optional<int> grid_rate;            // the clock's, that it is of
+  int counter = 0;                         // of the clock's cycle: 0..gCycleCountMax
 
   // How far the cycle is.
   // kBefore: the first cycle is to start; kDynamic: with the symbol window.
@@ -91,6 +97,7 @@ struct FlexRayController::State {
   void tell(const PocEvent& event, Microticks at);
   void act(const PocActions& actions, Microticks at);
   void begin_schedule(Microticks start, int rate, std::int64_t cycle);
+  void lay_cycle();                        // `counter` and `grid`, by the clock
   void drop_schedule();
 
   // --- the cycle (controller.cc)
@@ -101,13 +108,10 @@ struct FlexRayController::State {
   void close_static_segment(Microticks at);
   void note_what_goes_on();
   void tell_slot_problems(Microticks at);
-  int counter() const {
-    const int round = g.gCycleCountMax + 1;   // 64 but for schedules made by hand: no division is needed
-    return static_cast<int>((round & (round - 1)) == 0 ? clock->cycle() & (round - 1) : clock->cycle() % round);
-  }
   Macroticks slot_start(int slot) const { return {static_cast<std::int64_t>(slot - 1) * g.gdStaticSlot}; }
   Macroticks action_point(int slot) const { return slot_start(slot) + Macroticks{g.gdActionPointOffset}; }
   Macroticks static_end() const { return slot_start(g.gNumberOfStaticSlots + 1); }
+  const GridLine& line(int slot) const { return grid[static_cast<std::size_t>(slot - 1)]; }   // up to one behind the last
   Microticks bits(int count) const;        // gdBit, rounded up to whole microticks
 
   // --- the symbol window (controller_window.cc)
@@ -144,7 +148,7 @@ struct FlexRayController::State {
   bool receive_on_both(const Reception& reception);
   bool judge_on_both(const Reception& reception);
   bool in_operation() const { return poc.kind == PocKind::kNormalActive || poc.kind == PocKind::kNormalPassive; }
-  bool is_valid_on_both(const Reception& reception);
+  const schedules::FrameSlot* first_of_slot_on_both(const Reception& reception) const;
   bool knows(const Reception& reception);
   void hear_known(const Reception& reception);
   void hear_sync(const Reception& reception, int slot, schedules::Channels channels);
@@ -176,7 +180,6 @@ struct FlexRayController::State {
     return static_slot_at(last > reception.start ? last : reception.start);
   }
   int look_up_static_slot(Microticks at);
-  void lay_grid();
 };
 
 }  // namespace ttf::bus

@@ -32,6 +32,11 @@ class SlotTable {
   const schedules::FrameSlot* expected(int slot, int counter, schedules::Channel channel) const {
     return expected(slot, counter)[index_of(channel)];
   }
+  // The one that another node sends on both channels there; null where that is not the same frame, or none.
+  const schedules::FrameSlot* expected_on_both(int slot, int counter) const {
+    const auto frames = expected(slot, counter);
+    return frames[0] == frames[1] ? frames[0] : nullptr;
+  }
   // In how many static slots of a cycle other nodes send, if they do so on both channels in all of them; else -1.
   int pairs(int counter) const { return pairs_[static_cast<std::size_t>(counter)]; }
   // The same in the dynamic segment, where several may share a slot, told apart by message id: the one with that id (or

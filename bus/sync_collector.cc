@@ -18,12 +18,13 @@ void SyncCollector::start_cycle(int counter) {
   valid_ = {};
 }
 
-void SyncCollector::measure(int frame_id, schedules::Channel channel, int deviation) {
-  int& valid = valid_[index_of(channel)];
-  valid = std::min(valid + 1, timebase::kMaxSyncNodes);
+void SyncCollector::measure(int frame_id, schedules::Channels channels, const std::array<int, 2>& deviation) {
+  for (const schedules::Channel channel : schedules::kBothChannels)
+    if (int& valid = valid_[index_of(channel)]; includes(channels, channel))
+      valid = std::min(valid + 1, timebase::kMaxSyncNodes);
   auto& list = even_ ? measurements_.even : measurements_.odd;
   int& count = even_ ? measurements_.even_count : measurements_.odd_count;
-  // From the end: the other channel's frame of it comes next.
+  // From the end: the other channel's frame of it comes next, unless they came at once.
   int index = count - 1;
   while (index >= 0 && list[static_cast<std::size_t>(index)].frame_id != frame_id) --index;
   if (index < 0) {
@@ -32,18 +33,17 @@ void SyncCollector::measure(int frame_id, schedules::Channel channel, int deviat
     list[static_cast<std::size_t>(index)] = {frame_id, std::nullopt, std::nullopt};
   }
   timebase::SyncDeviation& entry = list[static_cast<std::size_t>(index)];
-  (channel == schedules::Channel::kA ? entry.a : entry.b) = deviation;
+  if (includes(channels, schedules::Channel::kA)) entry.a = deviation[0];
+  if (includes(channels, schedules::Channel::kB)) entry.b = deviation[1];
 }
 
-void SyncCollector::own(int frame_id, schedules::Channels channels) {
-  for (const schedules::Channel channel : schedules::kBothChannels)
-    if (includes(channels, channel)) measure(frame_id, channel, 0);
-}
+void SyncCollector::own(int frame_id, schedules::Channels channels) { measure(frame_id, channels, {}); }
 
-void SyncCollector::heard(int frame_id, schedules::Channel channel, int deviation, bool startup) {
-  measure(frame_id, channel, deviation);
+void SyncCollector::heard(int frame_id, schedules::Channels channels, const std::array<int, 2>& deviation,
+                          bool startup) {
+  measure(frame_id, channels, deviation);
   Ids& ids = startup_[even_ ? 0 : 1];
-  if (!startup || ids.contains(frame_id) || ids.count == timebase::kMaxSyncNodes) return;
+  if (!startup || ids.count == timebase::kMaxSyncNodes || ids.contains(frame_id)) return;
   ids.id[static_cast<std::size_t>(ids.count++)] = frame_id;
 }
 

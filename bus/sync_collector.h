@@ -19,9 +19,9 @@ class SyncCollector {
   void start_cycle(int counter);
   // This node's own sync frame leaves on these channels: it is exactly where it is expected.
   void own(int frame_id, schedules::Channels channels);
-  // A valid sync frame of another node; `deviation` [uT]: observed minus expected start. `startup`: it is a startup frame,
-  // near enough to count as one during start-up (pdAcceptedStartupRange).
-  void heard(int frame_id, schedules::Channel channel, int deviation, bool startup);
+  // A valid sync frame of another node, on one channel or both; `deviation` [uT], by channel: observed minus expected start.
+  // `startup`: it is a startup frame, near enough on one of them to count as one during start-up (pdAcceptedStartupRange).
+  void heard(int frame_id, schedules::Channels channels, const std::array<int, 2>& deviation, bool startup);
 
   const timebase::SyncMeasurements& measurements() const { return measurements_; }
   std::span<const timebase::SyncDeviation> odd() const;
@@ -36,7 +36,7 @@ class SyncCollector {
     int count = 0;
     bool contains(int frame_id) const;
   };
-  void measure(int frame_id, schedules::Channel channel, int deviation);
+  void measure(int frame_id, schedules::Channels channels, const std::array<int, 2>& deviation);
 
   int sync_node_max_;
   bool even_ = true;

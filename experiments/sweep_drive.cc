@@ -203,16 +203,19 @@ results::Run SweepDrives::run(const results::RunKey& key) const {
 results::Run SweepDrives::run(const results::RunKey& key, const PreparedDrive& drive, records::Sink* listener) const {
   results::Run run{key, results::kDone, drawn(key.replication)};
   try {
+    const auto asked_for = [this](std::string_view measure) {
+      return std::find(sweep_.measures.begin(), sweep_.measures.end(), measure) != sweep_.measures.end();
+    };
     DriveMeasures measures(sim::evaluation_start(drive.scenario));
     std::vector<records::Sink*> sinks{&measures};
     std::optional<ExpectedError> expected;
-    if (const bool asked = std::count(sweep_.measures.begin(), sweep_.measures.end(), "position_mse_expected") > 0;
-        asked && ExpectedError::is_defined(drive.scenario))
+    if (asked_for("position_mse_expected") && ExpectedError::is_defined(drive.scenario))
       sinks.push_back(&expected.emplace(drive.scenario));
     if (listener != nullptr) sinks.push_back(listener);
     records::Tee tee(sinks);
     const sim::DriveConfig config{&drive.scenario, &drive.cluster,  drive.strategy,
-                                  sweep_.seed,     key.replication, nullptr};
+                                  sweep_.seed,     key.replication, nullptr,
+                                  nullptr,         listener != nullptr || asked_for("precision")};
     const sim::DriveOutcome outcome = sim::run_drive(config, tee);
     DriveSummary summary = measures.finish();
     summary.position_mse_reference_corrected = summary.position_rmse_reference * summary.position_rmse_reference -

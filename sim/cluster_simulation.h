@@ -48,6 +48,8 @@ struct SimulationConfig {
   std::function<const schedules::Cluster*(NodeId)> view = {};
   // Null: all nodes are simulated here. Else make_steps is asked for the own node only.
   TurnTaking* others = nullptr;
+  // False: nobody wants to know precision(), nor to have it recorded. Everything else is as it is.
+  bool compares_clocks = true;
 };
 
 class ClusterSimulation final : public Crank, private nodes::SensorLines {

@@ -79,8 +79,12 @@ void Crank::refresh(std::size_t node) {
   // What most arrivals change nothing about.
   if (next == seat.next) return;
   seat.next = next;
-  const bool never = next.value == std::numeric_limits<std::int64_t>::max();
-  set_next(node, never ? kNever : std::max(now_, seat.oscillator.time_of(next)));
+  set_next(node, next_time(seat));
+}
+
+TrueTime Crank::next_time(const Seat& seat) const {
+  const bool never = seat.next.value == std::numeric_limits<std::int64_t>::max();
+  return never ? kNever : std::max(now_, seat.oscillator.time_of(seat.next));
 }
 
 // Keeps `earliest_` the first of those that are due first.
@@ -122,16 +126,24 @@ void Crank::run_until(TrueTime end) {
   now_ = std::max(now_, end);
 }
 
+// Everything that the node has to do before anything else happens: often frame after frame.
 void Crank::step(std::size_t node) {
   Seat& seat = seats_[node];
-  const Microticks at = seat.oscillator.ticks_at(now_);
+  Microticks at = seat.oscillator.ticks_at(now_);
   if (!seat.powered) {
     start(node, at);
     seat.powered = true;
     seat.since = now_;
   }
-  advance(node, at);
-  refresh(node);
+  set_next(node, kNever);
+  while (true) {
+    advance(node, at);
+    seat.next = next_event(node);
+    const TrueTime next = next_time(seat);
+    if (!comes_next({next, Phase::kNode, static_cast<std::uint8_t>(node), 0, 0}, until_)) return set_next(node, next);
+    at = next > now_ ? seat.next : seat.oscillator.ticks_at(next);
+    now_ = next;
+  }
 }
 
 // Goes along with a signal from receiver to receiver, as long as nothing else comes between.
@@ -204,9 +216,8 @@ void Crank::deliver_on_both(std::size_t node, const FlexRayMedium::Arrival& arri
 }
 
 void Crank::transmit_on_both(NodeId sender, const bus::Transmission& transmission, TrueTime start, TrueTime end) {
-  if (!is_known(sender, transmission, start, end))
-    return medium_.transmit_on_both(sender, transmission, start, end);
   bus::Reception reception{transmission.channel, transmission.signal, {}, {}, transmission.content};
+  if (!is_known(sender, reception, start, end)) return medium_.transmit_on_both(sender, transmission, start, end);
   for (const FlexRayMedium::Leg& leg : medium_.way_from(sender)) {
     const std::size_t node = index_of(leg.receiver);
     reception.start = seats_[node].start;
@@ -218,13 +229,14 @@ void Crank::transmit_on_both(NodeId sender, const bus::Transmission& transmissio
 
 // Whether it tells nobody anything new; so nothing has to arrive. It leaves now, and until it is there nobody sends and
 // nothing else happens to those who hear it, but for tasks and CANs.
-bool Crank::is_known(NodeId sender, const bus::Transmission& transmission, TrueTime start, TrueTime end) {
+bool Crank::is_known(NodeId sender, bus::Reception& reception, TrueTime start, TrueTime end) {
   if (start != now_ || !medium_.is_clear()) return false;
-  bus::Reception reception{transmission.channel, transmission.signal, {}, {}, transmission.content};
-  for (const FlexRayMedium::Leg& leg : medium_.way_from(sender)) {
+  const std::span<const FlexRayMedium::Leg> way = medium_.way_from(sender);
+  if (way.empty() || end + way.back().delay > until_) return false;   // the last leg is the longest
+  for (const FlexRayMedium::Leg& leg : way) {
     const std::size_t node = index_of(leg.receiver);
     Seat& seat = seats_[node];
-    if (!seat.powered || end + leg.delay > until_) return false;
+    if (!seat.powered) return false;
     reception.start = seat.start = seat.oscillator.ticks_at(start + leg.delay);
     reception.end = seat.end = seat.oscillator.ticks_at(end + leg.delay);
     seat.started = start + leg.delay;

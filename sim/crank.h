@@ -94,8 +94,10 @@ class Crank : public Plant {
     Microticks start{}, end{};
   };
   void set_next(std::size_t node, TrueTime time);
+  TrueTime next_time(const Seat& seat) const;
   void step(std::size_t node);
-  bool is_known(NodeId sender, const bus::Transmission& transmission, TrueTime start, TrueTime end);
+  // `reception`'s instants are each receiver's then.
+  bool is_known(NodeId sender, bus::Reception& reception, TrueTime start, TrueTime end);
   void arrive(MediumEvent event, TrueTime end);
   bool comes_next(const EventOrder& order, TrueTime end) const {
     return order.time <= end && order < next_of_nodes() && queue_.is_first(order) &&

@@ -128,6 +128,7 @@ DriveOutcome run_drive(const DriveConfig& config, records::Sink& out) {
   const nodes::BelievedSchedules believed(faults, cluster);
   simulation_config.view = [&](NodeId node) { return believed.of(node); };
   simulation_config.others = config.others;
+  simulation_config.compares_clocks = config.compares_clocks;
   ClusterSimulation simulation(simulation_config, tee);
   std::optional<Injector> injector;
   if (!faults.empty()) {

@@ -28,11 +28,13 @@ struct DriveConfig {
   // Null: the whole cluster. Else one node of it, the others being in processes of their own: what is recorded is that
   // node's share, and all shares together are what is recorded where this is null, but for PrecisionSample.
   TurnTaking* others = nullptr;
+  // Whether anybody wants the clocks compared; what is recorded is the same otherwise, but for PrecisionSample.
+  bool compares_clocks = true;
 };
 
 // What only the whole run knows; of one node among others, that node's counts and no precision.
 struct DriveOutcome {
-  Duration precision{};
+  Duration precision{};               // where the clocks were compared
   nodes::ExecutiveCounts counts;
   double flexray_load = 0.0;          // share of the time in which the busier channel is taken
   std::vector<double> can_load;       // by Cluster::can_buses

@@ -41,7 +41,7 @@ void PaperDriveMeasured(benchmark::State& state) {
   std::uint64_t seed = 0;
   for (auto _ : state) {
     experiments::DriveMeasures measures(sim::evaluation_start(drive.scenario));
-    drive.run(measures, ++seed);
+    drive.run(measures, ++seed, false);
     benchmark::DoNotOptimize(measures.finish().position_rmse_truth);
   }
   state.counters["drives/s"] = benchmark::Counter(1, benchmark::Counter::kIsIterationInvariantRate);

@@ -156,7 +156,7 @@ void paper_drive() {
   drive.scenario.duration = Duration::milliseconds(1500);
   drive.scenario.evaluate_from = Duration{};
   experiments::DriveMeasures measures(sim::evaluation_start(drive.scenario));
-  counted([&] { drive.run(measures); });
+  counted([&] { drive.run(measures, 1, false); });
 }
 
 struct Path {

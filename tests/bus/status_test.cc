@@ -140,8 +140,8 @@ TEST(SyncStatus, CountsBeyondWhatIsUsedUpTo15) {
   SyncCollector collector(2);
   collector.start_cycle(0);
   for (int frame = 1; frame <= 20; ++frame) {
-    collector.heard(frame, Channel::kA, 0, false);
-    if (frame <= 3) collector.heard(frame, Channel::kB, 0, false);
+    collector.heard(frame, schedules::Channels::kA, {}, false);
+    if (frame <= 3) collector.heard(frame, schedules::Channels::kB, {}, false);
     EXPECT_EQ(collector.valid(Channel::kA), std::min(frame, 15));
   }
   EXPECT_EQ(collector.valid(Channel::kB), 3);

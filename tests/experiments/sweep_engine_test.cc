@@ -44,6 +44,18 @@ TEST_F(SweepEngine, TheSameForAnyNumberOfWorkers) {
   EXPECT_EQ(driven(drives, "8", 8), one);
 }
 
+// The clocks are compared where their precision is asked for, which changes nothing else.
+TEST_F(SweepEngine, PrecisionIsThereWhereItIsAskedFor) {
+  SweepFile sweep = small_sweep(1);
+  const results::Run without = SweepDrives(sweep).run({0, 0, 0});
+  sweep.measures.push_back("precision");
+  const results::Run with = SweepDrives(sweep).run({0, 0, 0});
+  ASSERT_EQ(with.values.size(), 3u);
+  EXPECT_EQ(std::vector(with.values.begin(), with.values.begin() + 2), without.values);
+  EXPECT_GT(with.values[2], 0.01);
+  EXPECT_LT(with.values[2], 10.0);
+}
+
 // Somebody elsewhere who takes some runs at a time, and gives them back one turn later.
 class OneElsewhere final : public Elsewhere {
  public:

@@ -1,4 +1,4 @@
-// Whether anybody looks at the frames makes no difference to anything else.
+// Whether anybody looks at the frames, or compares the clocks, makes no difference to anything else.
 #include <gtest/gtest.h>
 
 #include <type_traits>
@@ -77,6 +77,36 @@ TEST(UnwantedFrames, MayBeOutsideOfTheirSlots) {
 TEST(UnwantedFrames, AreStillSubjectToFaults) {
   for (const fusion::StrategyKind strategy : testing_support::kStrategies)
     compare({"scenarios/faulty_bus.yaml", strategy});
+}
+
+// Every record but those of how far clocks are apart, which are counted.
+class NotTheClocks final : public records::Every<NotTheClocks> {
+ public:
+  template <class Record>
+  void each(const Record& record) {
+    if constexpr (std::is_same_v<Record, records::PrecisionSample>)
+      ++samples;
+    else
+      text.on(record);
+  }
+
+  recording::TextSink text;
+  int samples = 0;
+};
+
+TEST(UncomparedClocks, LeaveAllOtherRecordsAsTheyAre) {
+  for (const char* scenario : {"scenarios/paper_scenario1.yaml", "scenarios/cold_start.yaml", "scenarios/faulty_bus.yaml"}) {
+    SCOPED_TRACE(scenario);
+    const testing_support::Drive drive(scenario, fusion::StrategyKind::kAdva);
+    NotTheClocks compared, uncompared;
+    const DriveOutcome with = drive.run(compared), without = drive.run(uncompared, 1, false);
+    EXPECT_GT(compared.samples, 100);
+    EXPECT_EQ(uncompared.samples, 0);
+    EXPECT_EQ(compared.text.lines, uncompared.text.lines);
+    EXPECT_GT(with.precision, Duration{});
+    EXPECT_EQ(without.precision, Duration{});
+    EXPECT_EQ(with.frames_sent, without.frames_sent);
+  }
 }
 
 TEST(UnwantedFrames, AreThoseThatNoListenerWants) {
