@@ -176,7 +176,7 @@ void ClusterSimulation::make_node(std::size_t node, std::optional<bus::InitialCl
                                          config_.replication, power_on, cold.how, cold.after};
   nodes_[node] = std::make_unique<nodes::Executive>(executive, config_.make_steps(id), flexray_taps_[node].get(),
                                                     can_ports_[node], static_cast<nodes::SensorLines&>(*this), sink_);
-  watches_[node].controller = nodes_[node]->controller();
+  watches_[node] = {nodes_[node]->controller(), &oscillator(id)};
 }
 
 void ClusterSimulation::start(std::size_t node, Microticks now) {
@@ -213,7 +213,8 @@ Microticks ClusterSimulation::next_event(std::size_t node) const {
 void ClusterSimulation::advance(std::size_t node, Microticks now) {
   if (others_ != nullptr) return take_turn(node, now);
   nodes_[node]->advance(now);
-  watch_cycle(node);
+  const timebase::CycleClock* clock = watches_[node].clock();
+  if (clock != nullptr && clock->cycle() != watches_[node].cycle) watch_cycle(node, *clock);
 }
 
 void ClusterSimulation::transmit(std::size_t node, const bus::Transmission& transmission) {
@@ -283,14 +284,12 @@ void ClusterSimulation::happen(const MediumEvent& event) {
 }
 
 // Looks at all clocks at the corners of this node's: where its cycle starts, and where its correction starts.
-void ClusterSimulation::watch_cycle(std::size_t node) {
+void ClusterSimulation::watch_cycle(std::size_t node, const timebase::CycleClock& clock) {
   Watch& watch = watches_[node];
-  const timebase::CycleClock* clock = watch.clock();
-  if (clock == nullptr || clock->cycle() == watch.cycle) return;
-  watch.cycle = clock->cycle();
-  const Microticks correction = clock->start_of(Macroticks{cluster_.flexray.gOffsetCorrectionStart});
+  watch.cycle = clock.cycle();
+  const Microticks correction = clock.start_of(Macroticks{cluster_.flexray.gOffsetCorrectionStart});
   schedule_observation(node, now());
-  schedule_observation(node, std::max(now(), oscillator(static_cast<NodeId>(node)).time_of(correction)));
+  schedule_observation(node, std::max(now(), watch.crystal->time_of(correction)));
 }
 
 void ClusterSimulation::schedule_observation(std::size_t node, TrueTime at) {
@@ -303,10 +302,10 @@ void ClusterSimulation::observe() {
   ClockSpread spread = no_spread_;
   constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::min();
   std::int64_t newest = kNone, oldest = std::numeric_limits<std::int64_t>::max();
-  for (std::size_t n = 0; n < watches_.size(); ++n) {
-    const timebase::CycleClock* clock = watches_[n].clock();
+  for (const Watch& watch : watches_) {
+    const timebase::CycleClock* clock = watch.clock();
     if (clock == nullptr) continue;
-    const Microticks at = ticks(n);
+    const Microticks at = watch.crystal->ticks_at(now());
     if (at < clock->cycle_start()) return;   // before this node's first cycle
     spread.add(clock->global_time(at));
     newest = std::max(newest, clock->cycle());

@@ -75,6 +75,7 @@ class ClusterSimulation final : public Crank, private nodes::SensorLines {
   // What observations look at, of one node.
   struct Watch {
     const bus::FlexRayController* controller = nullptr;   // null where the node is none, or off FlexRay
+    const timebase::Oscillator* crystal = nullptr;
     std::int64_t cycle = -1;                              // whose corners are being observed
 
     // Null while it has none.
@@ -109,7 +110,7 @@ class ClusterSimulation final : public Crank, private nodes::SensorLines {
                  const nodes::NodeStart& cold);
   bool arrives(const MediumEvent& event) const;
   void observe();
-  void watch_cycle(std::size_t node);
+  void watch_cycle(std::size_t node, const timebase::CycleClock& clock);
   void schedule_observation(std::size_t node, TrueTime at);
 
   const SimulationConfig config_;

@@ -53,21 +53,24 @@ class Oscillator {
     Line(std::int64_t period_as, Int128 phase_as);
     Microticks ticks_at(TrueTime t) const {
       if (t.ns < phase_ns_) return ticks_before(t);
-      const auto since = static_cast<std::uint64_t>(t.ns - phase_ns_);
-      const UInt128 ticks = static_cast<UInt128>(since) * frequency_ - phase_ticks_;
-      const auto k = static_cast<std::int64_t>(ticks >> 64);
-      // The exact result is in [ticks, ticks + since + 1) / 2^64.
-      if (static_cast<std::uint64_t>(ticks) <= ~since) return {k};
+      const std::uint64_t since = static_cast<std::uint64_t>(t.ns) - static_cast<std::uint64_t>(phase_ns_);
+      const UInt128 ticks = static_cast<UInt128>(since) * frequency_;
+      const auto part = static_cast<std::uint64_t>(ticks);
+      const auto k = static_cast<std::int64_t>((ticks >> 64) - (part < phase_ticks_ ? 1 : 0));
+      // The exact result is in [k + rest, k + rest + since + 1), the rests in 2^-64.
+      const std::uint64_t rest = part - phase_ticks_;
+      if (rest <= ~since) return {k};
       return {lateness({k + 1}, t) >= 0 ? k + 1 : k};
     }
     TrueTime time_of(Microticks k) const {
-      if (k.value < 0) return time_before(k);
       const auto ticks = static_cast<std::uint64_t>(k.value);
       const UInt128 rest = static_cast<UInt128>(ticks) * period_rest_ + phase_rest_;
-      const std::int64_t ns = phase_ns_ + k.value * period_ns_ + static_cast<std::int64_t>(rest >> 64);
-      // The exact rest is in [rest, rest + ticks + 1) / 2^64, and to be rounded up.
-      if (static_cast<std::uint64_t>(rest) - 1 < ~ticks) return {ns + 1};
-      return time_from({ns}, k);
+      const std::uint64_t ns = static_cast<std::uint64_t>(phase_ns_) + ticks * static_cast<std::uint64_t>(period_ns_) +
+                               static_cast<std::uint64_t>(rest >> 64);
+      // The exact rest is in [rest, rest + ticks + 1) / 2^64, and to be rounded up. The sign is asked last: a compiler
+      // that knew it before would make the multiplication one of wider numbers.
+      if (static_cast<std::uint64_t>(rest) - 1 < ~ticks && k.value >= 0) return {static_cast<std::int64_t>(ns + 1)};
+      return k.value < 0 ? time_before(k) : time_from({static_cast<std::int64_t>(ns)}, k);
     }
     // phase + k * period
     Int128 attoseconds(Microticks k) const { return phase_as_ + static_cast<Int128>(k.value) * period_as_; }
