@@ -109,7 +109,8 @@ void FlexRayController::State::lay_cycle() {
 }
 
 Microticks FlexRayController::State::next_event() const {
-  Microticks next = std::min({listen_timer, noise_timer, wakeup_sent, partner_overdue});
+  const Microticks next =
+      std::min(std::min(listen_timer, noise_timer), std::min(wakeup_sent, partner_overdue));
   if (!clock) return next;
   switch (segment) {
     case Segment::kBefore: return std::min(next, clock->cycle_start());
@@ -118,8 +119,8 @@ Microticks FlexRayController::State::next_event() const {
                                                         ? line(slots.own_static()[next_static]->slot).action_point
                                                         : grid.back().from));
     case Segment::kDynamic:
-      return std::min({next, dynamic[0].due, dynamic[1].due, symbol_point,
-                       g.gdSymbolWindow > 0 ? window_to : clock->cycle_end()});
+      return std::min(std::min(std::min(next, symbol_point), std::min(dynamic[0].due, dynamic[1].due)),
+                      g.gdSymbolWindow > 0 ? window_to : clock->cycle_end());
     case Segment::kRest:
       return std::min(next, clock->cycle_end());
   }
@@ -259,7 +260,7 @@ void FlexRayController::State::close_static_segment(Microticks at) {
 
 FlexRayController::FlexRayController(const schedules::Cluster& cluster, NodeId node, FlexRayPort& port,
                                      ControllerEvents& events)
-    : state_(std::make_unique<State>(cluster, node, port, events)) {}
+    : state_(std::make_unique<State>(cluster, node, port, events)), poc_(state_->poc), clock_(state_->clock) {}
 
 FlexRayController::~FlexRayController() = default;
 
@@ -308,15 +309,6 @@ void FlexRayController::receive(const Reception& reception) { state_->receive(re
 bool FlexRayController::receive_on_both(const Reception& reception) { return state_->receive_on_both(reception); }
 bool FlexRayController::knows(const Reception& reception) { return state_->knows(reception); }
 void FlexRayController::hear_known(const Reception& reception) { state_->hear_known(reception); }
-
-const std::optional<timebase::CycleClock>& FlexRayController::clock() const { return state_->clock; }
-const PocState& FlexRayController::state() const { return state_->poc; }
-
-bool FlexRayController::synchronised() const { return state_->in_operation(); }
-
-const timebase::CycleClock* FlexRayController::synchronised_clock() const {
-  return state_->in_operation() ? &*state_->clock : nullptr;
-}
 
 SlotSeen FlexRayController::slot_status(int slot, schedules::Channel channel) const {
   const State& s = *state_;

@@ -163,12 +163,12 @@ class FlexRayController {
   void hear_known(const Reception& reception);
 
   // Nothing before a schedule has been derived or begun, and after it has been dropped.
-  const std::optional<timebase::CycleClock>& clock() const;
+  const std::optional<timebase::CycleClock>& clock() const { return clock_; }
   // The same where the host may rely on it, else null.
-  const timebase::CycleClock* synchronised_clock() const;
-  const PocState& state() const;
+  const timebase::CycleClock* synchronised_clock() const { return synchronised() ? &*clock_ : nullptr; }
+  const PocState& state() const { return poc_; }
   // Whether the clock is the cluster's, which the host may rely on.
-  bool synchronised() const;
+  bool synchronised() const { return in_operation(poc_.kind); }
   // What was seen in a static slot (1..gNumberOfStaticSlots) of the cycle whose static segment ended last, until the
   // next one ends. What outlasts the segment has violated boundaries; the rest is added when it is over.
   SlotSeen slot_status(int slot, schedules::Channel channel) const;
@@ -199,6 +199,9 @@ class FlexRayController {
  private:
   struct State;
   std::unique_ptr<State> state_;
+  // In it; simulations ask for little else, and often.
+  const PocState& poc_;
+  const std::optional<timebase::CycleClock>& clock_;
 };
 
 }  // namespace ttf::bus

@@ -179,6 +179,10 @@ MacMode mac_mode(const PocState& state);
 constexpr bool in_startup(PocKind kind) {
   return kind >= PocKind::kColdstartListen && kind <= PocKind::kInitialiseSchedule;
 }
+// Whether the clock is the cluster's.
+constexpr bool in_operation(PocKind kind) {
+  return kind == PocKind::kNormalActive || kind == PocKind::kNormalPassive;
+}
 // Whether a schedule is derived or runs, that is whether cycle starts can come.
 bool has_schedule(PocKind kind);
 // Whether the listen timer runs only while all channels are idle, and begins anew whenever they are so again: elsewhere

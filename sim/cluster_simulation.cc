@@ -6,12 +6,10 @@
 
 #include "core/check.h"
 #include "nodes/node_clock.h"
-#include "sim/precision.h"
 
 namespace ttf::sim {
 namespace {
 
-constexpr std::int64_t kNoCycle = -1;
 constexpr std::size_t kPendingEvents = 4096;   // on the private CANs, beside observations and strobes
 
 std::uint8_t signal_of(bus::Signal signal) {
@@ -120,7 +118,8 @@ ClusterSimulation::ClusterSimulation(const SimulationConfig& config, records::Si
       can_ports_(cluster_.nodes.size(), std::vector<bus::CanPort*>(cluster_.can_buses.size())),
       can_log_(std::make_unique<CanLog>(*this, cluster_.can_buses.size())),
       nodes_(cluster_.nodes.size()),
-      watched_cycle_(cluster_.nodes.size(), kNoCycle) {
+      watches_(cluster_.nodes.size()),
+      no_spread_(cluster_) {
   if (sink.wants_frames())
     medium_.set_log(&channel_log_.emplace(cluster_.flexray, FlexRayMedium::kMostLogged, sink));
   else
@@ -177,6 +176,7 @@ void ClusterSimulation::make_node(std::size_t node, std::optional<bus::InitialCl
                                          config_.replication, power_on, cold.how, cold.after};
   nodes_[node] = std::make_unique<nodes::Executive>(executive, config_.make_steps(id), flexray_taps_[node].get(),
                                                     can_ports_[node], static_cast<nodes::SensorLines&>(*this), sink_);
+  watches_[node] = {nodes_[node]->controller(), &oscillator(id)};
 }
 
 void ClusterSimulation::start(std::size_t node, Microticks now) {
@@ -201,7 +201,7 @@ void ClusterSimulation::stop(std::size_t node) {
   if (!nodes_[node]->asleep()) sink_.on(records::PowerChanged{nodes_[node]->stamp(ticks(node)), false});
   add(gone_, nodes_[node]->counts());
   nodes_[node].reset();
-  watched_cycle_[node] = kNoCycle;
+  watches_[node] = {};
 }
 
 Microticks ClusterSimulation::next_event(std::size_t node) const {
@@ -213,7 +213,9 @@ Microticks ClusterSimulation::next_event(std::size_t node) const {
 void ClusterSimulation::advance(std::size_t node, Microticks now) {
   if (others_ != nullptr) return take_turn(node, now);
   nodes_[node]->advance(now);
-  if (config_.compares_clocks) watch_cycle(node);
+  if (!config_.compares_clocks) return;
+  const timebase::CycleClock* clock = watches_[node].clock();
+  if (clock != nullptr && clock->cycle() != watches_[node].cycle) watch_cycle(node, *clock);
 }
 
 void ClusterSimulation::transmit(std::size_t node, const bus::Transmission& transmission) {
@@ -283,42 +285,43 @@ void ClusterSimulation::happen(const MediumEvent& event) {
 }
 
 // Looks at all clocks at the corners of this node's: where its cycle starts, and where its correction starts.
-void ClusterSimulation::watch_cycle(std::size_t node) {
-  const timebase::CycleClock* clock = nodes_[node]->clock();
-  if (clock == nullptr || clock->cycle() == watched_cycle_[node]) return;
-  watched_cycle_[node] = clock->cycle();
-  const Microticks correction = clock->start_of(Macroticks{cluster_.flexray.gOffsetCorrectionStart});
+void ClusterSimulation::watch_cycle(std::size_t node, const timebase::CycleClock& clock) {
+  Watch& watch = watches_[node];
+  watch.cycle = clock.cycle();
+  const Microticks correction = clock.start_of(Macroticks{cluster_.flexray.gOffsetCorrectionStart});
+  schedule_observation(node, now());
+  schedule_observation(node, std::max(now(), watch.crystal->time_of(correction)));
+}
+
+void ClusterSimulation::schedule_observation(std::size_t node, TrueTime at) {
   MediumEvent event;
   event.kind = MediumEvent::Kind::kObservation;
-  queue_.schedule(now(), Phase::kObserver, static_cast<std::uint8_t>(node), event);
-  queue_.schedule(std::max(now(), nodes_[node]->oscillator().time_of(correction)), Phase::kObserver,
-                  static_cast<std::uint8_t>(node), event);
+  queue_.schedule(at, Phase::kObserver, static_cast<std::uint8_t>(node), event);
 }
 
 void ClusterSimulation::observe() {
-  ClockSpread spread(cluster_);
-  std::int64_t newest = kNoCycle;
-  bool in_one_cycle = true;
-  for (const auto& node : nodes_) {
-    const timebase::CycleClock* clock = node ? node->clock() : nullptr;
+  ClockSpread spread = no_spread_;
+  constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::min();
+  std::int64_t newest = kNone, oldest = std::numeric_limits<std::int64_t>::max();
+  for (const Watch& watch : watches_) {
+    const timebase::CycleClock* clock = watch.clock();
     if (clock == nullptr) continue;
-    const Microticks at = node->oscillator().ticks_at(now());
+    const Microticks at = watch.crystal->ticks_at(now());
     if (at < clock->cycle_start()) return;   // before this node's first cycle
     spread.add(clock->global_time(at));
-    in_one_cycle &= newest == kNoCycle || clock->cycle() == newest;
     newest = std::max(newest, clock->cycle());
+    oldest = std::min(oldest, clock->cycle());
   }
-  if (newest == kNoCycle) return;
+  if (newest == kNone) return;
   // The oldest of the cycles that the nodes are in, as those count that have run the longest.
   const int round = cluster_.flexray.gCycleCountMax + 1;
-  std::int64_t cycle = newest;
-  for (const auto& node : nodes_) {
-    if (in_one_cycle) break;
-    const timebase::CycleClock* clock = node ? node->clock() : nullptr;
-    if (clock == nullptr) continue;
-    const std::int64_t behind = (newest - clock->cycle()) % round;
-    if (behind <= round / 2) cycle = std::min(cycle, newest - behind);
-  }
+  std::int64_t cycle = newest - oldest <= round / 2 ? oldest : newest;
+  if (cycle != oldest)
+    for (const Watch& watch : watches_)
+      if (const timebase::CycleClock* clock = watch.clock()) {
+        const std::int64_t behind = (newest - clock->cycle()) % round;
+        if (behind <= round / 2) cycle = std::min(cycle, newest - behind);
+      }
   precision_of_pair_ = std::max(precision_of_pair_, spread.width());
   precision_ = std::max(precision_, precision_of_pair_);
   // Once the cluster has been started anew, its cycles count from 0 again.

@@ -24,6 +24,7 @@
 #include "sim/can_medium.h"
 #include "sim/channel_log.h"
 #include "sim/crank.h"
+#include "sim/precision.h"
 #include "sim/turn_taking.h"
 
 namespace ttf::sim {
@@ -73,6 +74,15 @@ class ClusterSimulation final : public Crank, private nodes::SensorLines {
   }
 
  private:
+  // What observations look at, of one node.
+  struct Watch {
+    const bus::FlexRayController* controller = nullptr;   // null where the node is none, or off FlexRay
+    const timebase::Oscillator* crystal = nullptr;
+    std::int64_t cycle = -1;                              // whose corners are being observed
+
+    // Null while it has none.
+    const timebase::CycleClock* clock() const { return controller ? controller->synchronised_clock() : nullptr; }
+  };
   struct FlexRayTap;
   struct CanTap;
   struct CanLog;
@@ -102,7 +112,8 @@ class ClusterSimulation final : public Crank, private nodes::SensorLines {
                  const nodes::NodeStart& cold);
   bool arrives(const MediumEvent& event) const;
   void observe();
-  void watch_cycle(std::size_t node);
+  void watch_cycle(std::size_t node, const timebase::CycleClock& clock);
+  void schedule_observation(std::size_t node, TrueTime at);
 
   const SimulationConfig config_;
   TurnTaking* const others_;
@@ -114,7 +125,8 @@ class ClusterSimulation final : public Crank, private nodes::SensorLines {
   std::vector<std::vector<bus::CanPort*>> can_ports_;          // by NodeId and CAN, null where it is not on it
   std::unique_ptr<CanLog> can_log_;
   std::vector<std::unique_ptr<nodes::Executive>> nodes_;       // by NodeId, null without supply or elsewhere
-  std::vector<std::int64_t> watched_cycle_;                    // per node, the cycle whose corners are being observed
+  std::vector<Watch> watches_;                                 // by NodeId
+  const ClockSpread no_spread_;
   nodes::ExecutiveCounts gone_;                                // counted by executives that are no more
   Duration precision_{};
   Duration precision_of_pair_{};

@@ -2,7 +2,7 @@
 // or thread arrival. The order is written here and nowhere else.
 #pragma once
 
-#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -37,7 +37,7 @@ template <class Payload>
 class EventQueue {
  public:
   // The queue takes room for `capacity` pending events once.
-  explicit EventQueue(std::size_t capacity) { heap_.reserve(capacity); }
+  explicit EventQueue(std::size_t capacity) { pending_.reserve(capacity); }
   // Returns the event's place in the order of being scheduled.
   std::uint64_t schedule(TrueTime time, Phase phase, std::uint8_t node, const Payload& payload,
                          std::uint16_t rank = 0) {
@@ -46,22 +46,14 @@ class EventQueue {
   }
   // What goes on that was scheduled before, in `order.sequence` and not before it happened last.
   void go_on(const EventOrder& order, const Payload& payload) { push({order, payload}); }
-  bool empty() const { return heap_.size() == (hole_ ? 1 : 0); }
+  bool empty() const { return pending_.empty(); }
   // Whether this comes before all that is pending.
-  bool is_first(const EventOrder& order) const {
-    if (!hole_) return heap_.empty() || order < heap_.front().order;
-    for (std::size_t child = 1; child < std::min<std::size_t>(3, heap_.size()); ++child)
-      if (heap_[child].order < order) return false;
-    return true;
-  }
-  const EventOrder& next() {
-    fill();
-    return heap_.front().order;
-  }
+  bool is_first(const EventOrder& order) const { return empty() || order < next(); }
+  const EventOrder& next() const { return pending_.back().order; }
   Payload pop() {
-    fill();
-    hole_ = true;
-    return heap_.front().payload;
+    const Payload first = pending_.back().payload;
+    pending_.pop_back();
+    return first;
   }
 
  private:
@@ -69,38 +61,16 @@ class EventQueue {
     EventOrder order;
     Payload payload;
   };
-  // What was popped leaves a hole at the top, which the next event to come takes: most go not far.
+  // Few are pending at a time, and most of what is scheduled is among the first of them.
   void push(const Event& event) {
-    if (hole_) {
-      hole_ = false;
-      sink(event);
-      return;
-    }
-    heap_.push_back(event);
-    std::push_heap(heap_.begin(), heap_.end(), later);
+    std::size_t at = pending_.size();
+    pending_.push_back(event);
+    if (at == 0 || event.order < pending_[at - 1].order) return;
+    for (; at > 0 && pending_[at - 1].order < event.order; --at) pending_[at] = pending_[at - 1];
+    pending_[at] = event;
   }
-  void fill() {
-    if (!hole_) return;
-    hole_ = false;
-    const Event last = heap_.back();
-    heap_.pop_back();
-    if (!heap_.empty()) sink(last);
-  }
-  // Puts the event at the top, and lets it sink to where it belongs.
-  void sink(const Event& event) {
-    std::size_t at = 0;
-    for (std::size_t child = 1; child < heap_.size(); child = 2 * at + 1) {
-      if (child + 1 < heap_.size() && later(heap_[child], heap_[child + 1])) ++child;
-      if (!later(event, heap_[child])) break;
-      heap_[at] = heap_[child];
-      at = child;
-    }
-    heap_[at] = event;
-  }
-  static bool later(const Event& a, const Event& b) { return b.order < a.order; }
 
-  std::vector<Event> heap_;
-  bool hole_ = false;
+  std::vector<Event> pending_;           // the first at the end
   std::uint64_t next_sequence_ = 0;
 };
 

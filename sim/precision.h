@@ -14,16 +14,16 @@ namespace ttf::sim {
 class ClockSpread {
  public:
   explicit ClockSpread(const schedules::Cluster& cluster)
-      : round_(cluster.flexray.cycle_ps() * (cluster.flexray.gCycleCountMax + 1) / 1000) {}
+      : round_(cluster.flexray.cycle_ps() * (cluster.flexray.gCycleCountMax + 1) / 1000), half_(round_ / 2) {}
 
   void add(GlobalTime time) {
     if (!any_) first_ = time;
     any_ = true;
     std::int64_t difference = (time - first_).ns;
-    if (difference > round_ / 2 || difference < -round_ / 2) {
+    if (difference > half_ || difference < -half_) {
       difference %= round_;
-      if (difference > round_ / 2) difference -= round_;
-      if (difference < -round_ / 2) difference += round_;
+      if (difference > half_) difference -= round_;
+      if (difference < -half_) difference += round_;
     }
     low_ = std::min(low_, difference);
     high_ = std::max(high_, difference);
@@ -31,7 +31,7 @@ class ClockSpread {
   Duration width() const { return {high_ - low_}; }
 
  private:
-  std::int64_t round_;
+  std::int64_t round_, half_;
   bool any_ = false;
   GlobalTime first_{};
   std::int64_t low_ = 0, high_ = 0;

@@ -20,11 +20,31 @@ Correction limited(int value, int limit) {
   return correction;
 }
 
+// Few values: the sorting library's preparations would take longer.
+void sort(std::span<int> values) {
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    const int value = values[i];
+    std::size_t at = i;
+    for (; at > 0 && values[at - 1] > value; --at) values[at] = values[at - 1];
+    values[at] = value;
+  }
+}
+
+// What the odd cycle brought of the frame that was number `index` in the even one: one frame id, one entry, and mostly
+// in the same place.
+const SyncDeviation* odd_of(const SyncMeasurements& measured, int index) {
+  const int frame_id = measured.even[static_cast<std::size_t>(index)].frame_id;
+  const auto begin = measured.odd.begin(), end = begin + measured.odd_count;
+  if (index < measured.odd_count && begin[index].frame_id == frame_id) return &begin[index];
+  const auto found = std::find_if(begin, end, [&](const SyncDeviation& odd) { return odd.frame_id == frame_id; });
+  return found != end ? &*found : nullptr;
+}
+
 }  // namespace
 
 std::optional<int> fault_tolerant_midpoint(std::span<int> deviations) {
   if (deviations.empty()) return std::nullopt;
-  std::sort(deviations.begin(), deviations.end());
+  sort(deviations);
   const std::size_t k = deviations.size() > 7 ? 2 : deviations.size() > 2 ? 1 : 0;
   return (deviations[k] + deviations[deviations.size() - 1 - k]) / 2;
 }
@@ -45,15 +65,12 @@ Correction rate_correction(const SyncMeasurements& measured, int previous, int d
   std::size_t count = 0;
   for (int e = 0; e < measured.even_count; ++e) {
     const SyncDeviation& even = measured.even[static_cast<std::size_t>(e)];
-    for (int o = 0; o < measured.odd_count; ++o) {
-      const SyncDeviation& odd = measured.odd[static_cast<std::size_t>(o)];
-      if (odd.frame_id != even.frame_id) continue;
-      int sum = 0, channels = 0;
-      if (even.a && odd.a) sum += *odd.a - *even.a, ++channels;
-      if (even.b && odd.b) sum += *odd.b - *even.b, ++channels;
-      if (channels > 0) values[count++] = sum / channels;
-      break;   // one frame id, one entry
-    }
+    const SyncDeviation* odd = odd_of(measured, e);
+    if (odd == nullptr) continue;
+    int sum = 0, channels = 0;
+    if (even.a && odd->a) sum += *odd->a - *even.a, ++channels;
+    if (even.b && odd->b) sum += *odd->b - *even.b, ++channels;
+    if (channels > 0) values[count++] = sum / channels;
   }
   const auto midpoint = fault_tolerant_midpoint({values.data(), count});
   if (!midpoint) return {previous, true, false};

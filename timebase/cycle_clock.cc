@@ -1,6 +1,6 @@
 #include "timebase/cycle_clock.h"
 
-#include <algorithm>
+#include <limits>
 
 #include "core/check.h"
 #include "core/int128.h"
@@ -8,6 +8,9 @@
 
 namespace ttf::timebase {
 namespace {
+
+constexpr std::int64_t kPicosecondsPerNanosecond = 1000;
+constexpr std::int64_t kMost = std::int64_t{1} << 62;   // [ps] may be added to one another
 
 const CycleGeometry& checked(const CycleGeometry& geometry) {
   TTF_CHECK(geometry.macro_per_cycle > 0 && geometry.micro_per_cycle > 2 * geometry.macro_per_cycle,
@@ -23,20 +26,51 @@ CycleClock::CycleClock(CycleGeometry geometry, Microticks start, int rate, std::
     : geometry_(checked(geometry)),
       macroticks_(geometry.macro_per_cycle),
       late_macroticks_(geometry.macro_per_cycle - geometry.offset_correction_start),
-      microticks_(geometry.micro_per_cycle),
       cycle_ps_(geometry.macro_per_cycle * geometry.macrotick_ps),
-      most_cycles_((std::int64_t{1} << 62) / cycle_ps_),
+      late_ps_((geometry.macro_per_cycle - geometry.offset_correction_start) * geometry.macrotick_ps),
+      most_cycles_(kMost / cycle_ps_),
       first_(first),
       cycle_(first),
       start_(start) {
+  early_.slope = cycle_ps_;
+  late_.slope = late_ps_;
+  late_.most_ns = std::numeric_limits<std::int64_t>::max();
   set_rate(rate);
+  lay_stretches();
 }
 
 void CycleClock::set_rate(int rate) {
   rate_ = rate;
   length_ = geometry_.micro_per_cycle + rate;
-  microticks_ = Divisor(length_);
   before_ = macroticks_.ceil(geometry_.offset_correction_start * length_);
+  early_.divisor = Divisor(length_ * kPicosecondsPerNanosecond);
+  late_.from = before_;
+}
+
+// For years to come 64 bits are enough.
+void CycleClock::lay_stretches() {
+  if (cycle_ < 0 || cycle_ >= most_cycles_) {
+    early_.reach = late_.reach = 0;
+    return;
+  }
+  const std::int64_t begin_ps = cycle_ps_ * cycle_;
+  early_.reach = static_cast<std::uint64_t>(kMost / cycle_ps_);
+  early_.begin_ns = begin_ps / kPicosecondsPerNanosecond;
+  early_.rest = begin_ps % kPicosecondsPerNanosecond * length_;
+  early_.most_ns = (begin_ps + cycle_ps_ - late_ps_) / kPicosecondsPerNanosecond;
+  lay_late();
+}
+
+// A correction that leaves nothing of its phase is an error of who asks about that.
+void CycleClock::lay_late() {
+  const std::int64_t phase = length_ + offset_ - before_;
+  late_.reach = 0;
+  if (phase <= 0 || early_.reach == 0) return;
+  const std::int64_t begin_ps = cycle_ps_ * cycle_ + cycle_ps_ - late_ps_;
+  late_.reach = static_cast<std::uint64_t>(kMost / late_ps_);
+  late_.begin_ns = begin_ps / kPicosecondsPerNanosecond;
+  late_.rest = begin_ps % kPicosecondsPerNanosecond * phase;
+  late_.divisor = Divisor(phase * kPicosecondsPerNanosecond);
 }
 
 Microticks CycleClock::cycle_end() const { return start_ + Microticks{length_ + offset_}; }
@@ -55,32 +89,22 @@ Microticks CycleClock::late_start_of(Macroticks m) const {
   return start_ + Microticks{before_ + late_macroticks_.ceil(late * correction_phase())};
 }
 
-GlobalTime CycleClock::global_time(Microticks t) const {
+GlobalTime CycleClock::exact_global_time(Microticks t) const {
   const std::int64_t into = (t - start_).value;
   TTF_CHECK(into >= 0 || cycle_ == first_, "{} microticks before the cycle", -into);
-  const std::int64_t correction_start = geometry_.offset_correction_start;
-  // Up to the correction phase, and for years to come, 64 bits are enough, and no division is needed.
-  if (into >= 0 && into <= before_ && into < most_cycles_ && cycle_ >= 0 && cycle_ < most_cycles_) {
-    const std::int64_t elapsed_ps =
-        std::min(microticks_.floor(into * cycle_ps_), correction_start * geometry_.macrotick_ps);
-    return {(cycle_ps_ * cycle_ + elapsed_ps) / 1000};
-  }
   // Elapsed picoseconds of the cycle: linear up to the correction phase, linear at another slope in it and, should
   // somebody ask, beyond the cycle's end.
+  const Int128 at_correction = cycle_ps_ - late_ps_;
   Int128 elapsed_ps = 0;
   if (into <= before_) {
-    elapsed_ps = floor_div(static_cast<Int128>(into) * geometry_.macro_per_cycle * geometry_.macrotick_ps, length_);
-    const Int128 at_correction = static_cast<Int128>(correction_start) * geometry_.macrotick_ps;
+    elapsed_ps = floor_div(static_cast<Int128>(into) * cycle_ps_, length_);
     if (elapsed_ps > at_correction) elapsed_ps = at_correction;   // `before_` is rounded up
   } else {
-    elapsed_ps = static_cast<Int128>(correction_start) * geometry_.macrotick_ps +
-                 floor_div(static_cast<Int128>(into - before_) * (geometry_.macro_per_cycle - correction_start) *
-                               geometry_.macrotick_ps,
-                           correction_phase());
+    elapsed_ps = at_correction + floor_div(static_cast<Int128>(into - before_) * late_ps_, correction_phase());
   }
-  const Int128 cycle_ps = static_cast<Int128>(geometry_.macro_per_cycle) * geometry_.macrotick_ps;
   // Rounded down, also for instants just before the first cycle.
-  return {static_cast<std::int64_t>(floor_div(cycle_ps * cycle_ + elapsed_ps, 1000))};
+  return {static_cast<std::int64_t>(
+      floor_div(static_cast<Int128>(cycle_ps_) * cycle_ + elapsed_ps, kPicosecondsPerNanosecond))};
 }
 
 Microticks CycleClock::when(GlobalTime time) const {
@@ -99,8 +123,9 @@ Microticks CycleClock::when(GlobalTime time) const {
 void CycleClock::next_cycle(int rate) {
   start_ = cycle_end();
   offset_ = 0;
-  set_rate(rate);
   ++cycle_;
+  if (rate != rate_) set_rate(rate);
+  lay_stretches();
 }
 
 }  // namespace ttf::timebase

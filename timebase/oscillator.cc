@@ -23,6 +23,19 @@ std::int64_t period_as(std::int64_t nominal_period_ps, std::int64_t drift_ppb) {
   return period;
 }
 
+std::int64_t rest_of(Int128 attoseconds, std::int64_t whole_ns) {
+  return static_cast<std::int64_t>(attoseconds - static_cast<Int128>(whole_ns) * kAttosecondsPerNanosecond);
+}
+
+// a / b in units of 2^-64, rounded down and up, for 0 <= a < b.
+std::uint64_t fraction(std::int64_t a, std::int64_t b) {
+  return static_cast<std::uint64_t>((static_cast<UInt128>(a) << 64) / static_cast<UInt128>(b));
+}
+std::uint64_t fraction_up(std::int64_t a, std::int64_t b) {
+  return static_cast<std::uint64_t>(((static_cast<UInt128>(a) << 64) + static_cast<UInt128>(b) - 1) /
+                                    static_cast<UInt128>(b));
+}
+
 }  // namespace
 
 Oscillator::Oscillator(std::int64_t nominal_period_ps, std::int64_t drift_ppb, std::int64_t phase_ps)
@@ -48,34 +61,28 @@ void Oscillator::change_drift(TrueTime now, std::int64_t drift_ppb) {
   line_ = Line(period, at + rest - static_cast<Int128>(counted.value + 1) * period);
 }
 
-TrueTime Oscillator::time_of(Microticks k) const { return (k <= changed_tick_ ? before_ : line_).time_of(k); }
-
 Oscillator::Line::Line(std::int64_t period_as, Int128 phase_as)
     : period_as_(period_as),
       phase_as_(phase_as),
       phase_ns_(static_cast<std::int64_t>(floor_div(phase_as, kAttosecondsPerNanosecond))),
       period_ns_(period_as / kAttosecondsPerNanosecond),
-      period_rest_(static_cast<std::uint64_t>((static_cast<UInt128>(period_as % kAttosecondsPerNanosecond) << 64) /
-                                              kAttosecondsPerNanosecond)),
-      frequency_(static_cast<std::uint64_t>((static_cast<UInt128>(kAttosecondsPerNanosecond) << 64) /
-                                            static_cast<UInt128>(period_as))) {}
+      phase_rest_(fraction(rest_of(phase_as, phase_ns_), kAttosecondsPerNanosecond)),
+      period_rest_(fraction(rest_of(period_as, period_ns_), kAttosecondsPerNanosecond)),
+      frequency_(fraction(kAttosecondsPerNanosecond, period_as)),
+      phase_ticks_(fraction_up(rest_of(phase_as, phase_ns_), period_as)) {}
 
 Microticks Oscillator::Line::ticks_before(TrueTime t) const {
   const Int128 at = static_cast<Int128>(t.ns) * kAttosecondsPerNanosecond;
   return {static_cast<std::int64_t>(floor_div(at - phase_as_, period_as_))};
 }
 
-// As in ticks_at(), the estimate is off by a few nanoseconds at most.
-TrueTime Oscillator::Line::time_of(Microticks k) const {
-  if (k.value < 0) return {static_cast<std::int64_t>(-floor_div(-attoseconds(k), kAttosecondsPerNanosecond))};
-  std::int64_t ns = phase_ns_ + k.value * period_ns_ +
-                    static_cast<std::int64_t>((static_cast<UInt128>(k.value) * period_rest_) >> 64);
-  auto late = static_cast<std::int64_t>(static_cast<std::uint64_t>(ns) * kAttosecondsPerNanosecond -
-                                        static_cast<std::uint64_t>(phase_as_) -
-                                        static_cast<std::uint64_t>(k.value) * static_cast<std::uint64_t>(period_as_));
-  for (; late < 0; late += kAttosecondsPerNanosecond) ++ns;
-  for (; late >= kAttosecondsPerNanosecond; late -= kAttosecondsPerNanosecond) --ns;
-  return {ns};
+TrueTime Oscillator::Line::time_before(Microticks k) const {
+  return {static_cast<std::int64_t>(-floor_div(-attoseconds(k), kAttosecondsPerNanosecond))};
+}
+
+TrueTime Oscillator::Line::time_from(TrueTime t, Microticks k) const {
+  while (lateness(k, t) < 0) ++t.ns;
+  return t;
 }
 
 LocalTime Oscillator::local_time(Microticks k) const {

@@ -37,44 +37,62 @@ class Oscillator {
 
   // Ticks that have happened up to and including t.
   Microticks ticks_at(TrueTime t) const { return (t <= changed_ ? before_ : line_).ticks_at(t); }
-  TrueTime time_of(Microticks k) const;       // first nanosecond at or after tick k
+  // First nanosecond at or after tick k.
+  TrueTime time_of(Microticks k) const { return (k <= changed_tick_ ? before_ : line_).time_of(k); }
   LocalTime local_time(Microticks k) const;   // k nominal periods, rounded down to whole nanoseconds
   std::int64_t nominal_period_ps() const { return nominal_period_ps_; }
 
  private:
-  // phase + k * period, in attoseconds of true time. Both conversions estimate their result by a multiplication and put
-  // it right by the remainder, which is exact: a division of 128 bits per conversion is what a simulation would spend
-  // its time on.
+  // phase + k * period, in attoseconds of true time. Both conversions multiply fixed-point numbers with 64 bits behind
+  // the point, rounded so that the product is less than 1 / 2^64 per factor and addend short of the exact result: that
+  // leaves its whole part as it is, but for products that near below a whole number, which exact remainders decide. A
+  // division of 128 bits per conversion is what a simulation would spend its time on.
   class Line {
    public:
     Line() = default;
     Line(std::int64_t period_as, Int128 phase_as);
     Microticks ticks_at(TrueTime t) const {
       if (t.ns < phase_ns_) return ticks_before(t);
-      const auto since = static_cast<std::uint64_t>(t.ns - phase_ns_);
-      auto k = static_cast<std::int64_t>((static_cast<UInt128>(since) * frequency_) >> 64);
-      // The estimate is off by a few ticks at most, so the remainder fits 64 bits, whatever is lost above them.
-      auto rest = static_cast<std::int64_t>(static_cast<std::uint64_t>(t.ns) * kAttosecondsPerNanosecond -
-                                            static_cast<std::uint64_t>(phase_as_) -
-                                            static_cast<std::uint64_t>(k) * static_cast<std::uint64_t>(period_as_));
-      for (; rest < 0; rest += period_as_) --k;
-      for (; rest >= period_as_; rest -= period_as_) ++k;
-      return {k};
+      const std::uint64_t since = static_cast<std::uint64_t>(t.ns) - static_cast<std::uint64_t>(phase_ns_);
+      const UInt128 ticks = static_cast<UInt128>(since) * frequency_;
+      const auto part = static_cast<std::uint64_t>(ticks);
+      const auto k = static_cast<std::int64_t>((ticks >> 64) - (part < phase_ticks_ ? 1 : 0));
+      // The exact result is in [k + rest, k + rest + since + 1), the rests in 2^-64.
+      const std::uint64_t rest = part - phase_ticks_;
+      if (rest <= ~since) return {k};
+      return {lateness({k + 1}, t) >= 0 ? k + 1 : k};
     }
-    TrueTime time_of(Microticks k) const;
+    TrueTime time_of(Microticks k) const {
+      const auto ticks = static_cast<std::uint64_t>(k.value);
+      const UInt128 rest = static_cast<UInt128>(ticks) * period_rest_ + phase_rest_;
+      const std::uint64_t ns = static_cast<std::uint64_t>(phase_ns_) + ticks * static_cast<std::uint64_t>(period_ns_) +
+                               static_cast<std::uint64_t>(rest >> 64);
+      // The exact rest is in [rest, rest + ticks + 1) / 2^64, and to be rounded up. The sign is asked last: a compiler
+      // that knew it before would make the multiplication one of wider numbers.
+      if (static_cast<std::uint64_t>(rest) - 1 < ~ticks && k.value >= 0) return {static_cast<std::int64_t>(ns + 1)};
+      return k.value < 0 ? time_before(k) : time_from({static_cast<std::int64_t>(ns)}, k);
+    }
     // phase + k * period
     Int128 attoseconds(Microticks k) const { return phase_as_ + static_cast<Int128>(k.value) * period_as_; }
     std::int64_t period_as() const { return period_as_; }
 
    private:
     Microticks ticks_before(TrueTime t) const;   // the phase, rounded down to a nanosecond
+    TrueTime time_before(Microticks k) const;    // tick 0
+    TrueTime time_from(TrueTime t, Microticks k) const;   // where it is t or little later
+    // t - (phase + k * period) where that is little: 64 bits hold it, whatever is lost above them.
+    std::int64_t lateness(Microticks k, TrueTime t) const {
+      return static_cast<std::int64_t>(static_cast<std::uint64_t>(t.ns) * kAttosecondsPerNanosecond -
+                                       static_cast<std::uint64_t>(phase_as_) -
+                                       static_cast<std::uint64_t>(k.value) * static_cast<std::uint64_t>(period_as_));
+    }
 
     std::int64_t period_as_ = 0;
     Int128 phase_as_ = 0;
-    std::int64_t phase_ns_ = 0;          // rounded down
-    std::int64_t period_ns_ = 0;         // rounded down
-    std::uint64_t period_rest_ = 0;      // the rest of it, in units of 2^-64 ns, rounded down
-    std::uint64_t frequency_ = 0;        // ticks per ns, in units of 2^-64, rounded down
+    std::int64_t phase_ns_ = 0, period_ns_ = 0;        // rounded down
+    std::uint64_t phase_rest_ = 0, period_rest_ = 0;   // their rests, in units of 2^-64 ns, rounded down
+    std::uint64_t frequency_ = 0;                      // ticks per ns, in units of 2^-64, rounded down
+    std::uint64_t phase_ticks_ = 0;                    // the phase's rest, in units of 2^-64 ticks, rounded up
   };
 
   std::int64_t nominal_period_ps_;

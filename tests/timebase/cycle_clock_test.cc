@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/int128.h"
 #include "core/random.h"
 
@@ -153,6 +155,55 @@ TEST(CycleClock, WhenIsTheFirstMicrotickAtOrAfter) {
     ASSERT_EQ(clock.when(GlobalTime{begin + length}), clock.cycle_end());
     ASSERT_EQ(clock.when(GlobalTime{begin + 10 * length}), clock.cycle_end());
   });
+}
+
+Int128 floor_of(Int128 a, Int128 b) { return a / b - (a % b < 0 ? 1 : 0); }
+
+// What the law says of microtick `into` of the cycle, to the picosecond rounded down and then to the nanosecond.
+std::int64_t global_ns(const CycleGeometry& g, const CycleClock& clock, std::int64_t into) {
+  const Int128 length = g.micro_per_cycle + clock.rate_correction();
+  const Int128 before = -floor_of(-length * g.offset_correction_start, g.macro_per_cycle);
+  const Int128 at_correction = static_cast<Int128>(g.macrotick_ps) * g.offset_correction_start;
+  const Int128 cycle = static_cast<Int128>(g.macrotick_ps) * g.macro_per_cycle;
+  Int128 elapsed = std::min(floor_of(cycle * into, length), at_correction);
+  if (into > before)
+    elapsed = at_correction +
+              floor_of((cycle - at_correction) * (into - before), length + clock.offset_correction() - before);
+  return static_cast<std::int64_t>(floor_of(cycle * clock.cycle() + elapsed, 1000));
+}
+
+// From the first cycles to those in which 64 bits are full of picoseconds, with macroticks that are no whole
+// nanoseconds, too; at the cycle's corners, where roundings show, anywhere, and behind its end.
+TEST(CycleClock, GlobalTimeIsTheLawsToTheNanosecond) {
+  RandomStream stream({2, 0, Purpose::kTest, 6, 0});
+  for (int run = 0; run < 400; ++run) {
+    const int macroticks = static_cast<int>(stream.integer(10, 16'000));
+    const CycleGeometry g{macroticks, stream.integer(999'000, 6'000'001),
+                          static_cast<int>(stream.integer(20, 240) * macroticks + stream.integer(1, 9)),
+                          static_cast<int>(stream.integer(1, macroticks - 1))};
+    const std::int64_t full = (std::int64_t{1} << 62) / (g.macrotick_ps * macroticks);
+    const std::int64_t firsts[] = {0, stream.integer(0, 63), stream.integer(0, full), full - 3, full + 10, -2};
+    const int most = g.micro_per_cycle / 700;
+    const auto rate = [&] { return static_cast<int>(stream.integer(-most, most)); };
+    CycleClock clock(g, {stream.integer(-1'000'000, std::int64_t{1} << 50)}, rate(), firsts[run % 6]);
+    for (int cycle = 0; cycle < 6; ++cycle) {
+      const auto check = [&](std::int64_t into) {
+        if (into < 0 && cycle > 0) return;
+        ASSERT_EQ(clock.global_time(clock.cycle_start() + Microticks{into}).ns, global_ns(g, clock, into))
+            << "run " << run << " cycle " << clock.cycle() << " microtick " << into;
+      };
+      const std::int64_t corrected = (clock.start_of({g.offset_correction_start}) - clock.cycle_start()).value;
+      const std::int64_t room = (clock.cycle_end() - clock.cycle_start()).value - corrected - 1;
+      if (cycle % 2 == 1)
+        clock.set_offset_correction(static_cast<int>(stream.integer(-std::min<std::int64_t>(room, 400), 400)));
+      const std::int64_t end = (clock.cycle_end() - clock.cycle_start()).value;
+      for (std::int64_t around = -3; around <= 3; ++around)
+        for (const std::int64_t corner : {std::int64_t{0}, corrected, end}) check(corner + around);
+      for (int i = 0; i < 40; ++i) check(stream.integer(-end, 3 * end));
+      check(std::int64_t{1} << 45);
+      clock.next_cycle(stream.integer(0, 1) == 0 ? clock.rate_correction() : rate());
+    }
+  }
 }
 
 TEST(CycleClock, GlobalTimeIsRoundedDownBeforeTheFirstCycleToo) {

@@ -73,6 +73,25 @@ TEST(OscillatorLaws, L3_TimeOfIsTheFirstNanosecondAtOrAfterTheTick) {
   });
 }
 
+// Periods and phases of whole nanoseconds have ticks that are neither late nor early, where rounded estimates are off by
+// one; and ticks so late that what is rounded off has added up.
+TEST(OscillatorLaws, L1AndL3_HoldAtTicksOnTheNanosecondAndLongAfterTheStart) {
+  RandomStream stream({1, 0, Purpose::kTest, 6, 0});
+  for (int clock = 0; clock < 300; ++clock) {
+    Drawn drawn = draw(stream);
+    if (clock % 3 < 2) drawn = {1000 * stream.integer(2, 50), 0, 1000 * stream.integer(0, 1)};
+    const Oscillator oscillator = drawn.oscillator();
+    for (int i = 0; i < 100; ++i) {
+      const std::int64_t k = stream.integer(0, stream.integer(0, 1) == 0 ? 100 : std::int64_t{1} << 52);
+      const TrueTime at = oscillator.time_of({k});
+      const Int128 late = static_cast<Int128>(at.ns) * 1'000'000'000 - drawn.attoseconds(k);
+      ASSERT_TRUE(late >= 0 && late < 1'000'000'000) << k;
+      ASSERT_EQ(oscillator.ticks_at(at).value, k);
+      ASSERT_EQ(oscillator.ticks_at(at - Duration{1}).value, k - 1);
+    }
+  }
+}
+
 // After changes of drift at drawn instants, some at one instant and some within one tick.
 template <class Law>
 void for_drawn_changes(std::uint16_t entity, Law law) {
