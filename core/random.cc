@@ -24,13 +24,20 @@ std::array<std::uint32_t, 4> philox4x32_10(std::array<std::uint32_t, 4> counter,
   return counter;
 }
 
-std::uint32_t RandomStream::word() {
+namespace {
+
+std::array<std::uint32_t, 4> block_of(const StreamKey& key, std::uint32_t block) {
+  const std::uint32_t who = (static_cast<std::uint32_t>(key.entity) << 16) | static_cast<std::uint32_t>(key.purpose);
+  TTF_CHECK(block + 1 != 0, "random stream exhausted");
+  return philox4x32_10({block, key.index, who, key.replication},
+                       {static_cast<std::uint32_t>(key.seed), static_cast<std::uint32_t>(key.seed >> 32)});
+}
+
+}  // namespace
+
+inline std::uint32_t RandomStream::word() {
   if (used_ == 4) {
-    const std::uint32_t who = (static_cast<std::uint32_t>(key_.entity) << 16) |
-                              static_cast<std::uint32_t>(key_.purpose);
-    words_ = philox4x32_10({block_, key_.index, who, key_.replication},
-                           {static_cast<std::uint32_t>(key_.seed), static_cast<std::uint32_t>(key_.seed >> 32)});
-    TTF_CHECK(++block_ != 0, "random stream exhausted");
+    words_ = block_of(key_, block_++);
     used_ = 0;
   }
   return words_[static_cast<std::size_t>(used_++)];

@@ -29,7 +29,7 @@ void Output::begin(std::uint32_t sequence, int count, GlobalTime time_stamp) {
   sequence_ = sequence;
   fragments_ = layout_->fragments_of(count);
   written_ = true;
-  std::fill(bytes_.begin(), bytes_.end(), std::byte{0});
+  std::fill_n(bytes_.begin(), static_cast<std::size_t>(fragments_) * fragment_bytes(*layout_), std::byte{0});
   const std::size_t sequence_signal = wire::header_signal(*layout_, "sequence");
   const std::size_t fragment_signal = wire::header_signal(*layout_, "fragment");
   const std::size_t count_signal = wire::header_signal(*layout_, "count");

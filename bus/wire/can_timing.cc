@@ -9,57 +9,94 @@
 namespace ttf::wire {
 namespace {
 
-// Classic base frame: SOF, identifier, RTR, IDE, r0 and DLC, in front of the data; the CRC behind it is stuffed too.
-constexpr int kClassicHeader = 1 + 11 + 1 + 1 + 1 + 4;
-constexpr int kClassicCrc = 15;
+// What the bits so far leave behind: how many equal ones stand last, 1 to 4, and which. A fifth one does not stay last,
+// as it sets off a stuff bit, which is the opposite.
+struct StuffState {
+  int run;
+  bool last;
+};
+constexpr std::uint8_t packed(StuffState state) { return static_cast<std::uint8_t>(2 * (state.run - 1) + state.last); }
+constexpr std::uint8_t kAfterBreak = packed({1, true});   // one lone one: no run goes on into a frame's first zero
+
+struct StuffedByte {
+  std::uint8_t next, stuff_bits;
+};
+constexpr StuffedByte stuffed(StuffState state, unsigned byte) {
+  std::uint8_t stuff_bits = 0;
+  for (int b = 7; b >= 0; --b) {
+    const bool bit = ((byte >> b) & 1u) != 0;
+    state = {bit == state.last ? state.run + 1 : 1, bit};
+    if (state.run == 5) {
+      ++stuff_bits;
+      state = {1, !bit};
+    }
+  }
+  return {packed(state), stuff_bits};
+}
+
+// By packed state and byte.
+using StuffTable = std::array<std::array<StuffedByte, 256>, 8>;
+constexpr StuffTable make_stuff_table() {
+  StuffTable table{};
+  for (int run = 1; run <= 4; ++run)
+    for (const bool last : {false, true})
+      for (unsigned byte = 0; byte < 256; ++byte)
+        table[packed({run, last})][byte] = stuffed({run, last}, byte);
+  return table;
+}
+constexpr StuffTable kStuffTable = make_stuff_table();
 
 // Counts the stuff bits of a bit sequence: after five equal bits (stuff bits counted) the opposite one is inserted.
 // In an FD frame stuffing ends with the data: where its last bits are five equal ones, the fixed stuff bit that follows
 // anyhow is the only one (ISO 11898-1:2015, 10.5).
 class Stuffing {
  public:
-  void bit(bool value, bool data_rate) {
-    if (value == last_ && run_ > 0)
-      ++run_;
-    else
-      run_ = 1;
-    last_ = value;
-    pending_ = run_ == 5;
-    if (pending_) {
-      ++(data_rate ? data_ : nominal_);
-      last_ = !value;
-      run_ = 1;
-    }
+  void byte(std::uint32_t value) {
+    const StuffedByte step = kStuffTable[state_][value];
+    state_ = step.next;
+    stuff_bits_ += step.stuff_bits;
+    last_bit_ = value & 1u;
   }
-  void bits(std::uint32_t value, int count, bool data_rate) {
-    for (int b = count - 1; b >= 0; --b) bit((value >> b) & 1u, data_rate);
+  void bytes(std::uint32_t value, int count) {
+    for (int b = count - 1; b >= 0; --b) byte((value >> (8 * b)) & 0xFFu);
   }
-  std::int64_t nominal() const { return nominal_; }
-  std::int64_t data() const { return data_; }
+  void bytes(std::span<const std::byte> data) {
+    for (const std::byte value : data) byte(static_cast<std::uint32_t>(value));
+  }
+  std::int64_t count() const { return stuff_bits_; }
   // The last bit of the sequence set off a stuff bit.
-  bool pending() const { return pending_; }
+  bool pending() const { return (state_ & 1u) != last_bit_; }
 
  private:
-  bool last_ = false, pending_ = false;
-  int run_ = 0;
-  std::int64_t nominal_ = 0, data_ = 0;
+  std::uint32_t state_ = kAfterBreak, last_bit_ = 1;
+  std::int64_t stuff_bits_ = 0;
 };
 
-// CRC-15/CAN over the unstuffed bits from SOF to the end of data.
-class Crc15 {
- public:
-  void bits(std::uint32_t value, int count) {
-    for (int b = count - 1; b >= 0; --b) {
-      const bool feedback = (((crc_ >> 14) ^ (value >> b)) & 1u) != 0;
-      crc_ = (crc_ << 1) & 0x7FFFu;
-      if (feedback) crc_ ^= 0x4599u;
-    }
+// CRC-15/CAN over the unstuffed bits from SOF to the end of data. Zeros in front of SOF do not change it.
+constexpr std::array<std::uint16_t, 256> make_crc_table() {
+  std::array<std::uint16_t, 256> table{};
+  for (std::uint32_t byte = 0; byte < 256; ++byte) {
+    std::uint32_t crc = byte << 7;
+    for (int bit = 0; bit < 8; ++bit) crc = (crc << 1) ^ ((crc & 0x4000u) ? 0x4599u : 0u);
+    table[byte] = static_cast<std::uint16_t>(crc & 0x7FFFu);
   }
-  std::uint32_t value() const { return crc_; }
+  return table;
+}
+constexpr std::array<std::uint16_t, 256> kCrcTable = make_crc_table();
 
- private:
-  std::uint32_t crc_ = 0;
-};
+std::uint32_t crc15(std::uint32_t header, std::span<const std::byte> data) {
+  std::uint32_t crc = 0;
+  const auto byte = [&crc](std::uint32_t value) {
+    crc = ((crc << 8) & 0x7FFFu) ^ kCrcTable[((crc >> 7) ^ value) & 0xFFu];
+  };
+  for (int shift = 16; shift >= 0; shift -= 8) byte(header >> shift);
+  for (const std::byte value : data) byte(static_cast<std::uint32_t>(value));
+  return crc;
+}
+
+// Fields that do not fill bytes are filled up by alternating bits, which set off nothing: in front of a field by some
+// that end in a one, as if it came after a break, and behind one by the opposite of its last bit.
+constexpr std::uint32_t kFill3 = 0b101, kFill5 = 0b10101, kFill7 = 0b1010101;
 
 constexpr std::array<int, 16> kLengths{0, 1, 2, 3, 4, 5, 6, 7, 8, 12, 16, 20, 24, 32, 48, 64};
 
@@ -70,28 +107,25 @@ Duration can_frame_duration(const schedules::CanBus& bus, std::uint32_t identifi
   const auto code = static_cast<std::uint32_t>(std::lower_bound(kLengths.begin(), kLengths.end(), bytes) -
                                                kLengths.begin());
   TTF_CHECK(schedules::can_data_length(bus.flexible_data_rate, bytes) == bytes, "{} bytes is no CAN length", bytes);
-  Stuffing stuffing;
   schedules::CanBits bits = schedules::can_unstuffed_bits(bus, bytes);
   if (bus.flexible_data_rate) {
-    stuffing.bits(0, 1, false);                       // SOF
-    stuffing.bits(identifier & 0x7FFu, 11, false);
-    stuffing.bits(0b00101, 5, false);                 // RRS, IDE, FDF, res, BRS
-    stuffing.bits(code, 5, true);                     // ESI (error active) and DLC
-    for (const std::byte byte : data) stuffing.bits(static_cast<std::uint32_t>(byte), 8, true);
-    if (stuffing.pending()) --bits.data;
+    Stuffing nominal;
+    nominal.bytes(kFill7 << 17 | (identifier & 0x7FFu) << 5 | 0b00101, 3);   // SOF 0, id, RRS IDE FDF res BRS
+    // FDF, res and BRS alternate: BRS stands alone whatever came before.
+    Stuffing fast;
+    fast.byte(kFill3 << 5 | code);                                           // ESI 0 (error active), DLC
+    fast.bytes(data);
+    bits.nominal += nominal.count();
+    bits.data += fast.count() - (fast.pending() ? 1 : 0);
   } else {
-    const std::uint32_t header = ((identifier & 0x7FFu) << 7) | code;   // SOF 0, id, RTR IDE r0 0, DLC
-    Crc15 crc;
-    crc.bits(header, kClassicHeader);
-    stuffing.bits(header, kClassicHeader, false);
-    for (const std::byte byte : data) {
-      crc.bits(static_cast<std::uint32_t>(byte), 8);
-      stuffing.bits(static_cast<std::uint32_t>(byte), 8, false);
-    }
-    stuffing.bits(crc.value(), kClassicCrc, false);
+    const std::uint32_t header = (identifier & 0x7FFu) << 7 | code;          // SOF 0, id, RTR IDE r0 0, DLC
+    const std::uint32_t crc = crc15(header, data);                           // stuffed, too
+    Stuffing stuffing;
+    stuffing.bytes(kFill5 << 19 | header, 3);
+    stuffing.bytes(data);
+    stuffing.bytes(crc << 1 | (~crc & 1u), 2);
+    bits.nominal += stuffing.count();
   }
-  bits.nominal += stuffing.nominal();
-  bits.data += stuffing.data();
   return schedules::can_duration(bus, bits);
 }
 

@@ -1,16 +1,37 @@
 #include "bus/wire/pdu_codec.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstring>
 
 #include "core/check.h"
 
 namespace ttf::wire {
 namespace {
 
+// Eight bytes of a payload that hold all bits of a signal, as one number, most significant byte first.
+constexpr std::size_t kWindow = 8;
+std::size_t window_start(std::size_t payload_bytes, int first) {
+  return std::min(static_cast<std::size_t>(first) / 8, payload_bytes - kWindow);
+}
+std::uint64_t big_endian(std::uint64_t value) {
+  return std::endian::native == std::endian::big ? value : __builtin_bswap64(value);
+}
+// How far from the number's lower end the bits first .. first + count - 1 lie.
+int window_shift(std::size_t start, int first, int count) {
+  return static_cast<int>(8 * (start + kWindow)) - first - count;
+}
+
 // Bits first .. first + count - 1 of the payload, most significant bit first.
 std::uint32_t read_bits(std::span<const std::byte> payload, int first, int count) {
   std::uint64_t value = 0;
+  if (payload.size() >= kWindow) {
+    const std::size_t start = window_start(payload.size(), first);
+    std::memcpy(&value, payload.data() + start, kWindow);
+    value = big_endian(value) >> window_shift(start, first, count);
+    return static_cast<std::uint32_t>(value & ((std::uint64_t{1} << count) - 1));
+  }
   const int last = first + count - 1;
   for (int byte = first / 8; byte <= last / 8; ++byte)
     value = (value << 8) | static_cast<std::uint64_t>(payload[static_cast<std::size_t>(byte)]);
@@ -18,6 +39,16 @@ std::uint32_t read_bits(std::span<const std::byte> payload, int first, int count
 }
 
 void write_bits(std::span<std::byte> payload, int first, int count, std::uint32_t value) {
+  if (payload.size() >= kWindow) {
+    const std::size_t start = window_start(payload.size(), first);
+    const int shift = window_shift(start, first, count);
+    const std::uint64_t mask = ((std::uint64_t{1} << count) - 1) << shift;
+    std::uint64_t window = 0;
+    std::memcpy(&window, payload.data() + start, kWindow);
+    window = big_endian((big_endian(window) & ~mask) | ((static_cast<std::uint64_t>(value) << shift) & mask));
+    std::memcpy(payload.data() + start, &window, kWindow);
+    return;
+  }
   const int last = first + count - 1, shift = 7 - last % 8;
   std::uint64_t mask = ((std::uint64_t{1} << count) - 1) << shift;
   std::uint64_t bits = (static_cast<std::uint64_t>(value) << shift) & mask;
@@ -54,9 +85,12 @@ std::uint32_t to_raw(const schedules::Signal& signal, double physical, int* satu
   TTF_CHECK(!std::isnan(physical), "{} is not a number", signal.name);
   const double bounded = physical < signal.low ? signal.low : physical > signal.high ? signal.high : physical;
   if (bounded != physical && saturated != nullptr) ++*saturated;
-  const long long raw = std::llround((bounded - signal.low) / signal.resolution);
+  // Rounded half up, by hand: llround() is a call. The steps are not negative and far below 2^52, so the rest is exact.
+  const double steps = (bounded - signal.low) / signal.resolution;
+  const auto whole = static_cast<std::int64_t>(steps);
+  const std::int64_t raw = whole + (steps - static_cast<double>(whole) >= 0.5 ? 1 : 0);
   // `high` may lie up to half a resolution above the last code: that rounds to it, never round to zero.
-  return static_cast<std::uint32_t>(std::min(raw, (1LL << signal.bits) - 1));
+  return static_cast<std::uint32_t>(std::min(raw, (std::int64_t{1} << signal.bits) - 1));
 }
 
 double to_physical(const schedules::Signal& signal, std::uint32_t raw, int* out_of_range) {

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "nodes/laser/orientation_search.h"
+
 namespace ttf::nodes {
 namespace {
 
@@ -40,35 +42,6 @@ Axis axis_at(double angle, std::span<const PlanePoint> points) {
   axis.far = axis.away > 0 ? axis.high : axis.low;
   axis.visible = axis.low > 0.0 || axis.high < 0.0;
   return axis;
-}
-
-// Closeness of the returns to the faces that can be seen.
-double score(double angle, std::span<const PlanePoint> points, double closest) {
-  const Axis a = axis_at(angle, points), b = axis_at(angle + 0.5 * kPi, points);
-  double sum = 0.0;
-  for (const PlanePoint& point : points) {
-    const double da = std::abs(a.project(point) - a.near), db = std::abs(b.project(point) - b.near);
-    const double distance = a.visible && b.visible ? std::min(da, db) : a.visible ? da : db;
-    sum += 1.0 / std::max(distance, closest);
-  }
-  return sum;
-}
-
-double best_angle(std::span<const PlanePoint> points, double closest) {
-  constexpr double kCoarse = kPi / 90.0;
-  double best = 0.0, best_score = -1.0;
-  for (int i = 0; i < 45; ++i)
-    if (const double s = score(i * kCoarse, points, closest); s > best_score) {
-      best_score = s;
-      best = i * kCoarse;
-    }
-  const double centre = best;
-  for (int i = -9; i <= 9; ++i)
-    if (const double s = score(centre + i * kCoarse / 9.0, points, closest); s > best_score) {
-      best_score = s;
-      best = centre + i * kCoarse / 9.0;
-    }
-  return best;
 }
 
 // The search's angle, refined: least squares of the returns' distances to their faces. With the returns of the second face
@@ -165,7 +138,7 @@ LaserObject fit_rectangle(const RectangleConfig& config, std::span<const PlanePo
   bool shaped = points.size() >= 3;
   Axis axes[2];
   if (shaped) {
-    const double angle = refined_angle(best_angle(points, noise), points);
+    const double angle = refined_angle(search_orientation(points, noise), points);
     axes[0] = axis_at(angle, points);
     axes[1] = axis_at(angle + 0.5 * kPi, points);
     shaped = std::max(axes[0].high - axes[0].low, axes[1].high - axes[1].low) > 0.5;

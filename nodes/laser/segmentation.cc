@@ -15,9 +15,16 @@ void segment_scan(const SegmentationConfig& config, std::span<const ScanPoint> s
                   std::vector<Segment>& segments) {
   points.clear();
   segments.clear();
-  for (const ScanPoint& point : scan)
-    points.push_back({point.range * std::cos(point.azimuth), point.range * std::sin(point.azimuth), point.azimuth,
-                      point.range});
+  // The layers' returns of one beam follow each other: one direction for all of them.
+  double azimuth = 0.0, c = 1.0, s = 0.0;
+  for (const ScanPoint& point : scan) {
+    if (point.azimuth != azimuth) {
+      azimuth = point.azimuth;
+      c = std::cos(azimuth);
+      s = std::sin(azimuth);
+    }
+    points.push_back({point.range * c, point.range * s, point.azimuth, point.range});
+  }
   std::sort(points.begin(), points.end(), [](const PlanePoint& a, const PlanePoint& b) {
     return a.azimuth != b.azimuth ? a.azimuth < b.azimuth : a.range < b.range;
   });

@@ -22,9 +22,10 @@ std::optional<Seen> see(const ObjectState& state) {
   Seen seen{0.5 * (span->low + span->high), 0.0, span->high - span->low};
   constexpr int kRays = 16;
   int hits = 0;
+  const RayTarget target(state);
   for (int k = 0; k < kRays; ++k) {
     const double azimuth = span->low + (k + 0.5) / kRays * seen.silhouette;
-    if (const auto range = ray_to(state, azimuth)) {
+    if (const auto range = target.ray_to(azimuth)) {
       seen.depth += *range * std::cos(azimuth);
       ++hits;
     }
@@ -91,7 +92,7 @@ void measure_camera(const CameraConfig& config, std::span<const ObjectState> obj
       // Cheap bound, no tighter than rounding: the line of sight passes further from the centre than the outline reaches.
       const double across = -s * other.x + c * other.y;
       if (other.id == object.id || std::abs(across) > 0.5 * (other.length + other.width) + 1e-6) return false;
-      const auto distance = ray_to(other, seen->bearing);
+      const auto distance = RayTarget(other).ray_to(seen->bearing);
       return distance && *distance < range && range < *distance * (1.0 + config.shadow);
     });
     if (hidden || static_cast<int>(detections.size()) == config.max_detections) continue;

@@ -72,17 +72,28 @@ void measure_laser(const LaserConfig& config, std::span<const ObjectState> objec
   truth.clear();
   const auto half = static_cast<int>(config.half_field_rad / config.azimuth_step_rad);
   TTF_CHECK(half >= 0 && half <= kMostBeamsOfASide, "{} beams to a side", half);
-  std::array<Echo, 2 * kMostBeamsOfASide + 1> echoes;   // by beam + half
-  std::fill_n(echoes.begin(), 2 * half + 1, Echo{config.max_range_m, nullptr});
+  // By beam + half; filled from beam `begin` to before `end`, since objects leave most beams alone.
+  std::array<Echo, 2 * kMostBeamsOfASide + 1> echoes;
+  int begin = 0, end = 0;
+  const auto fill = [&](int from, int to) {
+    if (from < to) std::fill_n(echoes.begin() + from + half, to - from, Echo{config.max_range_m, nullptr});
+  };
   for (const ObjectState& object : objects) {
     const auto [first, last] = beams_near(object, config.azimuth_step_rad, half);
+    if (first > last) continue;
+    if (begin == end) begin = end = first;
+    fill(first, begin);
+    fill(end, last + 1);
+    begin = std::min(begin, first);
+    end = std::max(end, last + 1);
+    const RayTarget target(object);
     for (int beam = first; beam <= last; ++beam) {
       Echo& echo = echoes[static_cast<std::size_t>(beam + half)];
-      if (const auto range = ray_to(object, beam * config.azimuth_step_rad); range && *range < echo.range)
+      if (const auto range = target.ray_to(beam * config.azimuth_step_rad); range && *range < echo.range)
         echo = {*range, &object};
     }
   }
-  for (int beam = -half; beam <= half; ++beam) {
+  for (int beam = begin; beam < end; ++beam) {
     const double azimuth = beam * config.azimuth_step_rad;
     const auto [nearest, hit] = echoes[static_cast<std::size_t>(beam + half)];
     if (hit == nullptr) continue;

@@ -15,19 +15,23 @@ std::array<Corner, 4> corners(const ObjectState& state) {
   return {at(l, w), at(-l, w), at(-l, -w), at(l, -w)};
 }
 
-std::optional<double> ray_to(const ObjectState& state, double azimuth) {
-  // In the object's frame the outline is a box: the slab method.
+RayTarget::RayTarget(const ObjectState& state)
+    : heading_(state.heading), half_{0.5 * state.length, 0.5 * state.width} {
   const double c = std::cos(state.heading), s = std::sin(state.heading);
-  const double ox = -(c * state.x + s * state.y), oy = -(-s * state.x + c * state.y);
-  const double dx = std::cos(azimuth - state.heading), dy = std::sin(azimuth - state.heading);
+  origin_[0] = -(c * state.x + s * state.y);
+  origin_[1] = -(-s * state.x + c * state.y);
+}
+
+std::optional<double> RayTarget::ray_to(double azimuth) const {
+  // The slab method.
+  const double direction[] = {std::cos(azimuth - heading_), std::sin(azimuth - heading_)};
   double enter = 0.0, leave = 1e9;
-  const double origin[] = {ox, oy}, direction[] = {dx, dy}, half[] = {0.5 * state.length, 0.5 * state.width};
   for (int k = 0; k < 2; ++k) {
     if (std::abs(direction[k]) < 1e-12) {
-      if (std::abs(origin[k]) > half[k]) return std::nullopt;
+      if (std::abs(origin_[k]) > half_[k]) return std::nullopt;
       continue;
     }
-    const double a = (-half[k] - origin[k]) / direction[k], b = (half[k] - origin[k]) / direction[k];
+    const double a = (-half_[k] - origin_[k]) / direction[k], b = (half_[k] - origin_[k]) / direction[k];
     enter = std::max(enter, std::min(a, b));
     leave = std::min(leave, std::max(a, b));
   }

@@ -174,6 +174,17 @@ TEST(CanTiming, FlexibleDataRateFramesBitByBit) {
   }
 }
 
+// Stuff bits are counted by whole bytes: every byte after every other, so that each meets every run in front of it.
+TEST(CanTiming, EveryPairOfBytesBitByBit) {
+  for (unsigned pair = 0; pair < 0x1'0000; ++pair) {
+    const std::vector<std::byte> data{static_cast<std::byte>(pair >> 8), static_cast<std::byte>(pair & 0xFFu)};
+    const std::uint32_t id = pair % 2048;
+    ASSERT_EQ(can_frame_duration(classic(), id, data), WireFrame::classic_frame(id, data).at(1'000'000, 1'000'000))
+        << pair;
+    ASSERT_EQ(can_frame_duration(fast(), id, data), WireFrame::fd_frame(id, data).at(1'000'000, 5'000'000)) << pair;
+  }
+}
+
 // The oracle's own frames obey the rules: nowhere six equal bits up to the CRC's end, and fixed stuff bits that differ
 // from the bit before.
 TEST(CanTiming, OracleFramesAreStuffed) {

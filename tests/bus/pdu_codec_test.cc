@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
@@ -43,24 +45,28 @@ TEST(PduCodec, SignalsAreMostSignificantBitFirstWithoutGaps) {
   EXPECT_EQ(read_element_raw(layout, payload, 1, 1), 0b110101u);
 }
 
-// Any widths at any offsets: what is written is read, and nothing else changes.
+// Any widths at any offsets, in payloads of two bytes and of many: what is written is read, and nothing else changes.
 TEST(PduCodec, RoundTripLeavesTheNeighboursAlone) {
   RandomStream stream({5, 0, Purpose::kTest, 1, 0});
-  for (int run = 0; run < 300; ++run) {
+  int shorter = 0, as_long = 0, longer = 0;   // than the 64 bits that are handled at once
+  for (int run = 0; run < 600; ++run) {
     schedules::PduLayout layout;
     layout.name = "drawn";
-    layout.elements_per_fragment = 3;
-    layout.header = {signal("h", static_cast<int>(stream.integer(1, 32)))};
-    for (int s = 0; s < 5; ++s) layout.element.push_back(signal("e", static_cast<int>(stream.integer(1, 32))));
+    const auto elements = stream.integer(1, 3), signals = stream.integer(1, 5), widest = stream.integer(1, 32);
+    layout.elements_per_fragment = static_cast<int>(elements);
+    layout.header = {signal("h", static_cast<int>(stream.integer(1, widest)))};
+    for (int s = 0; s < signals; ++s)
+      layout.element.push_back(signal("e", static_cast<int>(stream.integer(1, widest))));
     derive(layout.header, layout.header_bits);
     derive(layout.element, layout.element_bits);
     layout.header_bits = (layout.header_bits + 7) / 8 * 8;
-    layout.fragment_bytes = (layout.header_bits + 3 * layout.element_bits + 7) / 8;
+    layout.fragment_bytes = (layout.header_bits + layout.elements_per_fragment * layout.element_bits + 7) / 8;
+    ++(layout.fragment_bytes < 8 ? shorter : layout.fragment_bytes == 8 ? as_long : longer);
     std::vector<std::byte> payload(static_cast<std::size_t>(layout.fragment_bytes));
     for (std::byte& byte : payload) byte = static_cast<std::byte>(stream.integer(0, 255));
     for (int write = 0; write < 20; ++write) {
-      const int element = static_cast<int>(stream.integer(0, 2));
-      const auto s = static_cast<std::size_t>(stream.integer(0, 4));
+      const int element = static_cast<int>(stream.integer(0, elements - 1));
+      const auto s = static_cast<std::size_t>(stream.integer(0, signals - 1));
       const schedules::Signal& chosen = layout.element[s];
       const auto value = static_cast<std::uint32_t>(stream.integer(0, (std::int64_t{1} << chosen.bits) - 1));
       std::string expected = bit_text(payload);
@@ -73,6 +79,7 @@ TEST(PduCodec, RoundTripLeavesTheNeighboursAlone) {
       ASSERT_EQ(read_element_raw(layout, payload, element, s), value);
     }
   }
+  EXPECT_GT(std::min({shorter, as_long, longer}), 5);
 }
 
 TEST(PduCodec, PhysicalValuesRoundToHalfAResolution) {
@@ -83,6 +90,20 @@ TEST(PduCodec, PhysicalValuesRoundToHalfAResolution) {
     ASSERT_NEAR(to_physical(speed, to_raw(speed, value)), value, 0.5 * speed.resolution * (1.0 + 1e-9));
   }
   for (std::uint32_t raw = 0; raw < 4096; ++raw) ASSERT_EQ(to_raw(speed, to_physical(speed, raw)), raw);
+}
+
+// The standard library's rounding, also half way between two codes and just beside.
+TEST(PduCodec, RoundsHalfAwayFromZero) {
+  RandomStream stream({5, 0, Purpose::kTest, 3, 0});
+  for (int run = 0; run < 20'000; ++run) {
+    const schedules::Signal s = signal("s", 32, stream.uniform(-100.0, 100.0), run % 2 == 0 ? 0.25 : 0.01);
+    const auto code = static_cast<double>(stream.integer(0, std::int64_t{1} << stream.integer(1, 32)));
+    double value = s.low + (code + 0.5) * s.resolution;
+    if (run % 3 > 0) value = std::nextafter(value, run % 3 == 1 ? s.low : s.high);
+    value = std::clamp(value, s.low, s.high);
+    const long long rounded = std::llround((value - s.low) / s.resolution);
+    ASSERT_EQ(to_raw(s, value), static_cast<std::uint32_t>(std::min(rounded, 0xFFFF'FFFFLL))) << run;
+  }
 }
 
 TEST(PduCodec, SaturatesAndCounts) {

@@ -106,7 +106,7 @@ TEST(Laser, EveryBeamEndsAtTheNearestOutline) {
     for (int beam = -half; beam <= half; ++beam) {
       double nearest = config.max_range_m;
       for (const ObjectState& object : objects) {
-        const auto range = ray_to(object, beam * config.azimuth_step_rad);
+        const auto range = RayTarget(object).ray_to(beam * config.azimuth_step_rad);
         if (range) nearest = std::min(nearest, *range);
       }
       if (nearest == config.max_range_m) continue;
