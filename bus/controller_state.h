@@ -147,7 +147,7 @@ struct FlexRayController::State {
   void receive(const Reception& reception);
   bool receive_on_both(const Reception& reception);
   bool judge_on_both(const Reception& reception);
-  bool in_operation() const { return poc.kind == PocKind::kNormalActive || poc.kind == PocKind::kNormalPassive; }
+  bool in_operation() const { return bus::in_operation(poc.kind); }
   const schedules::FrameSlot* first_of_slot_on_both(const Reception& reception) const;
   bool knows(const Reception& reception);
   void hear_known(const Reception& reception);

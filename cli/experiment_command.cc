@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <charconv>
 #include <memory>
@@ -38,7 +39,16 @@ ExperimentKind kind_of(const ExperimentOptions& options) {
 
 namespace {
 
+// What a drive gives back the next one takes. The C library would return it to the system every time, which interrupts
+// all workers.
+void keep_freed_memory() {
+  constexpr int kMegabyte = 1 << 20;
+  mallopt(M_MMAP_THRESHOLD, 16 * kMegabyte);
+  mallopt(M_TRIM_THRESHOLD, 32 * kMegabyte);
+}
+
 int run_experiment(const ExperimentOptions& options) {
+  keep_freed_memory();
   experiments::Ranks ranks;
   if (ranks.size() > 1) return run_on_ranks(options, ranks);
   if (kind_of(options) == ExperimentKind::kFaultCampaign) {

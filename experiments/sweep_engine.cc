@@ -19,7 +19,7 @@ namespace {
 using results::Run;
 using results::RunKey;
 
-constexpr std::uint32_t kReplicationsAtATime = 8;        // replications of one drive, which is prepared once for them
+constexpr std::uint32_t kRunsAtATime = 8;                // for a worker
 constexpr std::chrono::milliseconds kWritten{500};       // how long a run waits at most to be written down
 constexpr std::chrono::milliseconds kTurn{2};            // between two looks at what is driven elsewhere
 constexpr std::size_t kMostWaiting = 100'000;            // runs
@@ -109,14 +109,15 @@ class Workers {
 
   // The next few runs for who asks.
   std::span<const RunKey> grab() {
-    const std::size_t first = next_.fetch_add(kReplicationsAtATime);
+    const std::size_t first = next_.fetch_add(kRunsAtATime);
     if (first >= wanted_.size()) return {};
-    return std::span(wanted_).subspan(first, std::min<std::size_t>(kReplicationsAtATime, wanted_.size() - first));
+    return std::span(wanted_).subspan(first, std::min<std::size_t>(kRunsAtATime, wanted_.size() - first));
   }
 
   void drive_all() {
+    Driver driver(drives_);
     for (std::span<const RunKey> some = grab(); !some.empty(); some = grab())
-      drive_in_turn(drives_, some, [this](Run run) {
+      driver.drive(some, [this](Run run) {
         std::unique_lock lock(mutex_);
         changed_.wait(lock, [&] { return waiting_.size() < kMostWaiting; });
         waiting_.push_back(std::move(run));
@@ -162,16 +163,14 @@ class Workers {
 
 }  // namespace
 
-// Something drawn for each leaves nothing to share.
-void drive_in_turn(const SweepDrives& drives, std::span<const RunKey> wanted, const std::function<void(Run)>& take) {
-  const bool shared = drives.sweep().drawn().empty();
-  std::optional<PreparedDrive> prepared;
-  for (std::size_t r = 0; r < wanted.size(); ++r) {
-    const RunKey& key = wanted[r];
-    const bool same = r > 0 && key.point == wanted[r - 1].point && key.paradigm == wanted[r - 1].paradigm;
-    if (!same) prepared.reset();
-    if (shared && !prepared) prepared = try_prepare(drives, key);
-    take(prepared ? drives.run(key, *prepared) : drives.run(key));
+void Driver::drive(std::span<const RunKey> wanted, const std::function<void(Run)>& take) {
+  const bool shared = drives_.sweep().drawn().empty();
+  for (const RunKey& key : wanted) {
+    const bool same = newest_ && key.point == newest_->point && key.paradigm == newest_->paradigm;
+    if (!same) prepared_.reset();
+    newest_ = key;
+    if (shared && !prepared_) prepared_ = try_prepare(drives_, key);
+    take(prepared_ ? drives_.run(key, *prepared_) : drives_.run(key));
   }
 }
 

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -34,9 +35,18 @@ class Elsewhere {
   virtual std::size_t turn(const Grab& grab, const Deposit& deposit) = 0;
 };
 
-// Drives these, one after the other; neighbours of one point and paradigm are prepared once.
-void drive_in_turn(const SweepDrives& drives, std::span<const results::RunKey> wanted,
-                   const std::function<void(results::Run)>& take);
+// Drives runs one after the other; neighbours of one point and paradigm are prepared once, as that takes half as long as
+// a drive.
+class Driver {
+ public:
+  explicit Driver(const SweepDrives& drives) : drives_(drives) {}
+  void drive(std::span<const results::RunKey> wanted, const std::function<void(results::Run)>& take);
+
+ private:
+  const SweepDrives& drives_;
+  std::optional<results::RunKey> newest_;     // that was driven
+  std::optional<PreparedDrive> prepared_;     // what for; nothing where it could not be, or something is drawn for each
+};
 
 // Throws std::runtime_error where the store cannot take what was driven; what it has stays. `progress` is called now
 // and then by the calling thread. A stop rule and a shard exclude each other. `elsewhere` may be null.

@@ -92,8 +92,11 @@ void Crank::set_next(std::size_t node, TrueTime time) {
   const TrueTime before = next_[node];
   next_[node] = time;
   if (node == earliest_) {
-    if (time > before)
-      earliest_ = static_cast<std::size_t>(std::min_element(next_.begin(), next_.end()) - next_.begin());
+    if (time > before) {
+      std::size_t earliest = 0;
+      for (std::size_t n = 1; n < next_.size(); ++n) earliest = next_[n] < next_[earliest] ? n : earliest;
+      earliest_ = earliest;
+    }
   } else if (time < next_[earliest_] || (time == next_[earliest_] && node < earliest_)) {
     earliest_ = node;
   }

@@ -33,7 +33,9 @@ CycleClock::CycleClock(CycleGeometry geometry, Microticks start, int rate, std::
       cycle_(first),
       start_(start) {
   early_.slope = cycle_ps_;
+  early_.overflow = static_cast<std::uint64_t>(kMost / cycle_ps_);
   late_.slope = late_ps_;
+  late_.overflow = static_cast<std::uint64_t>(kMost / late_ps_);
   late_.most_ns = std::numeric_limits<std::int64_t>::max();
   set_rate(rate);
   lay_stretches();
@@ -54,7 +56,7 @@ void CycleClock::lay_stretches() {
     return;
   }
   const std::int64_t begin_ps = cycle_ps_ * cycle_;
-  early_.reach = static_cast<std::uint64_t>(kMost / cycle_ps_);
+  early_.reach = early_.overflow;
   early_.begin_ns = begin_ps / kPicosecondsPerNanosecond;
   early_.rest = begin_ps % kPicosecondsPerNanosecond * length_;
   early_.most_ns = (begin_ps + cycle_ps_ - late_ps_) / kPicosecondsPerNanosecond;
@@ -67,7 +69,7 @@ void CycleClock::lay_late() {
   late_.reach = 0;
   if (phase <= 0 || early_.reach == 0) return;
   const std::int64_t begin_ps = cycle_ps_ * cycle_ + cycle_ps_ - late_ps_;
-  late_.reach = static_cast<std::uint64_t>(kMost / late_ps_);
+  late_.reach = late_.overflow;
   late_.begin_ns = begin_ps / kPicosecondsPerNanosecond;
   late_.rest = begin_ps % kPicosecondsPerNanosecond * phase;
   late_.divisor = Divisor(phase * kPicosecondsPerNanosecond);

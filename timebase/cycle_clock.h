@@ -68,7 +68,8 @@ class CycleClock {
   // spread over: rounding down to picoseconds first and then to nanoseconds comes to the same.
   struct Stretch {
     std::int64_t from = 0;                 // in the cycle [uT]
-    std::uint64_t reach = 0;               // x below this are no overflow
+    std::uint64_t overflow = 0;            // x below this are none, as long as the cycle's beginning is none
+    std::uint64_t reach = 0;               // x below this are computed so
     std::int64_t begin_ns = 0, rest = 0;
     std::int64_t slope = 0;
     Divisor divisor{1};

@@ -159,6 +159,7 @@ bool Ranks::same_as_first(const std::string& text) const {
 
 void Ranks::serve(const SweepDrives& drives) {
   std::vector<Run> done;
+  Driver driver(drives);
   while (true) {
     send(bytes_of(done), 0, kRuns);
     MPI_Status status;
@@ -168,7 +169,7 @@ void Ranks::serve(const SweepDrives& drives) {
     std::vector<RunKey> wanted;
     for (Reader reader(keys); !reader.at_end();) wanted.push_back(get_key(reader));
     done.clear();
-    drive_in_turn(drives, wanted, [&](Run run) { done.push_back(std::move(run)); });
+    driver.drive(wanted, [&](Run run) { done.push_back(std::move(run)); });
   }
 }
 

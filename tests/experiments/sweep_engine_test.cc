@@ -59,17 +59,17 @@ TEST_F(SweepEngine, PrecisionIsThereWhereItIsAskedFor) {
 // Somebody elsewhere who takes some runs at a time, and gives them back one turn later.
 class OneElsewhere final : public Elsewhere {
  public:
-  explicit OneElsewhere(const SweepDrives& drives) : drives_(drives) {}
+  explicit OneElsewhere(const SweepDrives& drives) : driver_(drives) {}
   std::size_t turn(const Grab& grab, const Deposit& deposit) override {
     driven += done_.size();
     deposit(std::exchange(done_, {}));
-    drive_in_turn(drives_, grab(), [this](results::Run run) { done_.push_back(std::move(run)); });
+    driver_.drive(grab(), [this](results::Run run) { done_.push_back(std::move(run)); });
     return done_.size();
   }
   std::size_t driven = 0;
 
  private:
-  const SweepDrives& drives_;
+  Driver driver_;
   std::vector<results::Run> done_;
 };
 
