@@ -9,14 +9,14 @@ source "$(dirname "$0")/expect.sh"
 source "$(dirname "$0")/small_sweep.sh"
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
 
-small_sweep 150 "500 ms" "300 ms" >"$work/small.yaml"
+small_sweep 200 "2 s" "300 ms" >"$work/small.yaml"
 file=$work/small.yaml
 expect 0 '' experiment "$file" --out "$work/alone"
 
 alone=$program
 program=mpirun
 for ranks in 2 3; do
-  expect 0 "small: 2 points, 2 paradigms, 150 replications, $ranks ranks" \
+  expect 0 "small: 2 points, 2 paradigms, 200 replications, $ranks ranks" \
     -n $ranks "$alone" experiment "$file" --out "$work/ranks$ranks"
   for name in runs.csv summary.csv answer.txt answer.json; do
     cmp "$work/alone/$name" "$work/ranks$ranks/$name" || fail "$name of $ranks ranks is another"

@@ -17,9 +17,12 @@ done
 [[ $(wc -l <"$work/whole/runs.csv") -eq 161 ]] || fail "not 160 runs: $(wc -l <"$work/whole/runs.csv")"
 expect 2 'results.sqlite: is there already: --resume goes on with it' experiment "$file" --out "$work/whole"
 
-# ---- killed twice, wherever it is, and resumed: as if nothing had been
+# ---- killed twice, wherever it is, and resumed: as if nothing had been. Long enough to be met by the killer: what is
+# driven is written down twice a second.
+small_sweep 200 "2 s" "400 ms" >"$work/long.yaml"
+expect 0 '' experiment "$work/long.yaml" --out "$work/undisturbed"
 for round in 1 2; do
-  "$program" experiment "$file" --out "$work/killed" --resume --jobs 2 >/dev/null 2>&1 &
+  "$program" experiment "$work/long.yaml" --out "$work/killed" --resume --jobs 2 >/dev/null 2>&1 &
   victim=$!
   for _ in $(seq 200); do
     rows=$(python3 -c "import sqlite3, sys
@@ -31,9 +34,9 @@ except sqlite3.Error: print(0)" "$work/killed/results.sqlite")
   kill -9 "$victim" 2>/dev/null || fail "round $round: it was done before it could be killed"
   wait "$victim" 2>/dev/null
 done
-expect 0 'written to' experiment "$file" --out "$work/killed" --resume
+expect 0 'written to' experiment "$work/long.yaml" --out "$work/killed" --resume
 for name in runs.csv summary.csv answer.txt answer.json; do
-  cmp "$work/whole/$name" "$work/killed/$name" || fail "$name of a run that was killed twice is another"
+  cmp "$work/undisturbed/$name" "$work/killed/$name" || fail "$name of a run that was killed twice is another"
 done
 
 # ---- in two shards
