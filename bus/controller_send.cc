@@ -9,15 +9,11 @@ namespace ttf::bus {
 using schedules::Channel;
 using schedules::FrameSlot;
 
-bool FlexRayController::State::may_send(const FrameSlot& slot) const {
-  switch (mac_mode(poc)) {
-    case MacMode::kNothing: return false;
-    case MacMode::kStartupFrame:
-    case MacMode::kKeySlot: return slot.slot == p.pKeySlotId;
-    case MacMode::kAll: return true;
-  }
-  return false;
-}
+namespace {
+
+constexpr std::array<std::byte, wire::kMaxPayloadBytes> kZeros{};   // a null frame's payload
+
+}  // namespace
 
 // Leaves next_static at the next slot that has its turn in this cycle.
 void FlexRayController::State::skip_to_own_static() {
@@ -29,8 +25,9 @@ void FlexRayController::State::send_static(Microticks at) {
   const FrameSlot& slot = *slots.own_static()[next_static];
   ++next_static;
   skip_to_own_static();
-  if (!may_send(slot)) return;
-  const bool starting = mac_mode(poc) == MacMode::kStartupFrame;
+  const MacMode mode = mac_mode(poc);
+  if (mode == MacMode::kNothing || (mode != MacMode::kAll && slot.slot != p.pKeySlotId)) return;
+  const bool starting = mode == MacMode::kStartupFrame;
   const Cni::Fragment content = starting ? Cni::Fragment{} : cni.fetch(slot, clock->cycle());
   const bool null_frame = starting || (slot.pdu != kNoPdu && content.payload.empty());
   const Microticks end = at + static_frame;
@@ -67,6 +64,7 @@ wire::DecodedFrame FlexRayController::State::frame_of(const FrameSlot& slot, con
   const std::size_t length = is_static ? 2 * static_cast<std::size_t>(g.gPayloadLengthStatic)
                                        : (preamble + content.payload.size() + 1) / 2 * 2;
   header.payload_words = static_cast<std::uint8_t>(length / 2);
+  if (null_frame) return {wire::FrameError::kNone, header, std::span<const std::byte>(kZeros).first(length)};
   if (preamble == 0 && content.payload.size() == length) return {wire::FrameError::kNone, header, content.payload};
   std::fill_n(payload.begin(), length, std::byte{0});
   std::copy(content.payload.begin(), content.payload.end(), payload.begin() + static_cast<std::ptrdiff_t>(preamble));
@@ -135,7 +133,7 @@ void FlexRayController::State::send_dynamic(Channel channel, Microticks at) {
   }
   const FrameSlot& slot = *slots.own_dynamic(channel)[d.next];
   ++d.next;
-  if (may_send(slot) && mac_mode(poc) == MacMode::kAll && cni.pending(slot, channel, clock->cycle())) {
+  if (mac_mode(poc) == MacMode::kAll && cni.pending(slot, channel, clock->cycle())) {
     const Cni::Fragment content = cni.fetch(slot, clock->cycle());
     cni.carried(slot, channel);
     const int words = static_cast<int>((preamble_bytes(slot) + content.payload.size() + 1) / 2);

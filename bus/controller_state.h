@@ -123,7 +123,6 @@ struct FlexRayController::State {
   void close_symbol_window();
 
   // --- sending (controller_send.cc)
-  bool may_send(const schedules::FrameSlot& slot) const;
   void skip_to_own_static();
   void send_static(Microticks at);
   void plan_dynamic(schedules::Channel channel, Microticks now);

@@ -19,9 +19,10 @@ void SyncCollector::start_cycle(int counter) {
 }
 
 void SyncCollector::measure(int frame_id, schedules::Channels channels, const std::array<int, 2>& deviation) {
-  for (const schedules::Channel channel : schedules::kBothChannels)
-    if (int& valid = valid_[index_of(channel)]; includes(channels, channel))
-      valid = std::min(valid + 1, timebase::kMaxSyncNodes);
+  for (const schedules::Channel channel : schedules::kBothChannels) {
+    int& valid = valid_[index_of(channel)];
+    valid = std::min(valid + (includes(channels, channel) ? 1 : 0), timebase::kMaxSyncNodes);
+  }
   auto& list = even_ ? measurements_.even : measurements_.odd;
   int& count = even_ ? measurements_.even_count : measurements_.odd_count;
   // From the end: the other channel's frame of it comes next, unless they came at once.

@@ -132,7 +132,11 @@ class Executive final : private bus::ControllerEvents {
   bool wants_bytes() const override { return wants_frames_; }
   bool wants_receptions() const override { return false; }
   void frame_sent(const bus::Transmission& transmission, std::int64_t cycle, bool null_frame, PduId pdu,
-                  std::uint32_t sequence, int fragment, bool last) override;
+                  std::uint32_t sequence, int fragment, bool last) override {
+    if (wants_frames_ || last) tell_of_frame(transmission, cycle, null_frame, pdu, sequence, fragment, last);
+  }
+  void tell_of_frame(const bus::Transmission& transmission, std::int64_t cycle, bool null_frame, PduId pdu,
+                     std::uint32_t sequence, int fragment, bool last);
   void slot_problem(std::int64_t cycle, int slot, schedules::Channel channel, bus::SlotStatus status,
                     Microticks at) override;
   void clock_corrected(std::int64_t cycle, const timebase::Correction& offset, const timebase::Correction& rate,

@@ -4,9 +4,8 @@
 
 namespace ttf::nodes {
 
-void Executive::frame_sent(const bus::Transmission& transmission, std::int64_t cycle, bool null_frame, PduId pdu,
-                           std::uint32_t sequence, int fragment, bool last) {
-  if (!wants_frames_ && !last) return;
+void Executive::tell_of_frame(const bus::Transmission& transmission, std::int64_t cycle, bool null_frame, PduId pdu,
+                              std::uint32_t sequence, int fragment, bool last) {
   // A frame ends in the cycle it began in, so the clock can say now when that will be.
   const records::Stamp end = stamp(transmission.end);
   if (wants_frames_) {
