@@ -1,7 +1,7 @@
 // Frame and symbol processing: what arrives, where it belongs, and whether it may be there (FlexRay 2.1A, chapter 6).
 #include <algorithm>
+#include <array>
 #include <cstdlib>
-#include <utility>
 
 #include "bus/controller_state.h"
 #include "core/check.h"

@@ -1,5 +1,6 @@
 // Media access: what leaves, and when (FlexRay 2.1A, chapter 5).
 #include <algorithm>
+#include <array>
 
 #include "bus/controller_state.h"
 #include "core/check.h"
