@@ -9,17 +9,15 @@
 namespace ttf::bus {
 
 CanController::CanController(const schedules::Cluster& cluster, NodeId node, std::size_t can_bus, CanPort& port)
-    : cluster_(cluster), bus_(cluster.can_buses[can_bus]), node_(node), port_(port),
-      newest_sent_(bus_.messages.size()), padded_(64) {
+    : cluster_(cluster), bus_(cluster.can_buses[can_bus]), node_(node), port_(port), newest_sent_(bus_.messages.size()),
+      padded_(64) {
   for (const schedules::CanMessage& message : bus_.messages)
-    incoming_.push_back(message.sender == node ? nullptr
-                                               : std::make_unique<IncomingList>(cluster.pdu(message.pdu)));
+    incoming_.push_back(message.sender == node ? nullptr : std::make_unique<IncomingList>(cluster.pdu(message.pdu)));
 }
 
 std::size_t CanController::message_of(PduId pdu) const {
-  const auto message = std::find_if(bus_.messages.begin(), bus_.messages.end(), [&](const schedules::CanMessage& m) {
-    return m.pdu == pdu && m.sender == node_;
-  });
+  const auto message = std::find_if(bus_.messages.begin(), bus_.messages.end(),
+                                    [&](const schedules::CanMessage& m) { return m.pdu == pdu && m.sender == node_; });
   TTF_CHECK(message != bus_.messages.end(), "{} does not send this PDU on {}", cluster_.node(node_).name, bus_.name);
   return static_cast<std::size_t>(message - bus_.messages.begin());
 }

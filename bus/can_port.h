@@ -13,9 +13,9 @@
 namespace ttf::bus {
 
 struct CanFrame {
-  std::uint32_t identifier = 0;        // 11 bits
+  std::uint32_t identifier = 0;  // 11 bits
   bool flexible_data_rate = false;
-  std::span<const std::byte> data;     // 0..8 bytes, or a CAN FD length up to 64
+  std::span<const std::byte> data;  // 0..8 bytes, or a CAN FD length up to 64
 };
 
 class CanPort {

@@ -39,7 +39,7 @@ Cni::Sent& Cni::latch(const FrameSlot& slot, std::int64_t cycle) {
   Sent& list = *sent_[index_of(slot.pdu)];
   if (list.latched_cycle != cycle) {
     list.latched_cycle = cycle;
-    list.latched = list.current;   // same capacity: no allocation
+    list.latched = list.current;  // same capacity: no allocation
   }
   return list;
 }
@@ -48,8 +48,8 @@ Cni::Fragment Cni::fetch(const FrameSlot& slot, std::int64_t cycle) {
   if (slot.pdu == kNoPdu) return {};
   Sent& list = latch(slot, cycle);
   Fragment fragment{list.latched.fragment(slot.fragment), list.latched.sequence(), false};
-  fragment.last = !fragment.payload.empty() && slot.fragment == list.latched.fragments() - 1 &&
-                  list.completed != fragment.sequence;
+  fragment.last =
+      !fragment.payload.empty() && slot.fragment == list.latched.fragments() - 1 && list.completed != fragment.sequence;
   if (fragment.last) list.completed = fragment.sequence;
   return fragment;
 }

@@ -21,14 +21,14 @@ class Cni {
  public:
   Cni(const schedules::Cluster& cluster, NodeId node);
 
-  OutgoingList& outgoing(PduId pdu);            // must be a PDU this node sends
-  IncomingList& incoming(PduId pdu);            // any other PDU on FlexRay
+  OutgoingList& outgoing(PduId pdu);  // must be a PDU this node sends
+  IncomingList& incoming(PduId pdu);  // any other PDU on FlexRay
 
   // What a slot carries in a cycle.
   struct Fragment {
-    std::span<const std::byte> payload;         // empty: a null frame
+    std::span<const std::byte> payload;  // empty: a null frame
     std::uint32_t sequence = 0;
-    bool last = false;                          // completes a list that had not left completely before
+    bool last = false;  // completes a list that had not left completely before
   };
   Fragment fetch(const schedules::FrameSlot& slot, std::int64_t cycle);
   // In the dynamic segment a frame is sent once per list: whether this channel has not carried what the slot has now,
@@ -40,16 +40,16 @@ class Cni {
   struct Sent {
     OutgoingList current, latched;
     std::int64_t latched_cycle = -1;
-    std::optional<std::uint32_t> completed;     // newest sequence that left completely
-    std::array<std::vector<std::optional<std::uint32_t>>, 2> carried;   // by channel and fragment: newest that left
+    std::optional<std::uint32_t> completed;                            // newest sequence that left completely
+    std::array<std::vector<std::optional<std::uint32_t>>, 2> carried;  // by channel and fragment: newest that left
     explicit Sent(const schedules::PduLayout& layout);
   };
   Sent& latch(const schedules::FrameSlot& slot, std::int64_t cycle);
 
   const schedules::Cluster& cluster_;
   NodeId node_;
-  std::vector<std::unique_ptr<Sent>> sent_;                 // by PduId
-  std::vector<std::unique_ptr<IncomingList>> received_;     // by PduId
+  std::vector<std::unique_ptr<Sent>> sent_;              // by PduId
+  std::vector<std::unique_ptr<IncomingList>> received_;  // by PduId
 };
 
 }  // namespace ttf::bus

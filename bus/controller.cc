@@ -24,27 +24,15 @@ timebase::Divisor nominal_slot(const schedules::GlobalParameters& g, const sched
 }  // namespace
 
 FlexRayController::State::State(const schedules::Cluster& c, NodeId n, FlexRayPort& medium, ControllerEvents& host)
-    : cluster(c),
-      g(c.flexray),
-      p(parameters(c, n)),
-      node(n),
-      port(medium),
-      events(host),
-      poc_parameters(bus::poc_parameters(c.flexray, parameters(c, n))),
-      slots(c, n),
-      minislots(c.flexray),
-      geometry{g.gMacroPerCycle, g.gdMacrotick_ps, p.pMicroPerCycle, g.gOffsetCorrectionStart},
-      told_of_receptions(host.wants_receptions()),
-      nominal_slot(bus::nominal_slot(g, p)),
-      static_frame(bits(schedules::frame_bits(g, g.gPayloadLengthStatic))),
-      poc(poc_power_on(poc_parameters)),
-      cni(c, n),
-      network_management(c.flexray.gNetworkManagementVectorLength),
-      sync(c.flexray.gSyncNodeMax),
-      initialisation(c.flexray, parameters(c, n)),
-      board(g.gNumberOfStaticSlots),
-      grid(static_cast<std::size_t>(g.gNumberOfStaticSlots + 1)),
-      dynamic{Dynamic{DynamicSlotCounter(c.flexray)}, Dynamic{DynamicSlotCounter(c.flexray)}} {}
+    : cluster(c), g(c.flexray), p(parameters(c, n)), node(n), port(medium), events(host),
+      poc_parameters(bus::poc_parameters(c.flexray, parameters(c, n))), slots(c, n),
+      minislots(c.flexray), geometry{g.gMacroPerCycle, g.gdMacrotick_ps, p.pMicroPerCycle, g.gOffsetCorrectionStart},
+      told_of_receptions(host.wants_receptions()), nominal_slot(bus::nominal_slot(g, p)),
+      static_frame(bits(schedules::frame_bits(g, g.gPayloadLengthStatic))), poc(poc_power_on(poc_parameters)),
+      cni(c, n), network_management(c.flexray.gNetworkManagementVectorLength), sync(c.flexray.gSyncNodeMax),
+      initialisation(c.flexray, parameters(c, n)), board(g.gNumberOfStaticSlots),
+      grid(static_cast<std::size_t>(g.gNumberOfStaticSlots + 1)), dynamic{Dynamic{DynamicSlotCounter(c.flexray)},
+                                                                          Dynamic{DynamicSlotCounter(c.flexray)}} {}
 
 Microticks FlexRayController::State::bits(int count) const {
   return {(count * g.gdBit_ps + p.pdMicrotick_ps - 1) / p.pdMicrotick_ps};
@@ -70,7 +58,7 @@ void FlexRayController::State::act(const PocActions& actions, Microticks at) {
   if (actions.has(PocAction::kRestartNoiseTimer)) noise_timer = at + poc_parameters.noise_timeout();
   if (actions.has(PocAction::kSendWakeupPattern)) send_wakeup_pattern(at);
   if (actions.has(PocAction::kSendCas)) send_cas(at);
-  if (actions.has(PocAction::kDeriveSchedule)) initialisation.reset();   // hear() gives it the frame that set this off
+  if (actions.has(PocAction::kDeriveSchedule)) initialisation.reset();  // hear() gives it the frame that set this off
 }
 
 void FlexRayController::State::drop_schedule() {
@@ -98,7 +86,7 @@ void FlexRayController::State::begin_schedule(Microticks start, int rate, std::i
 
 // Static slots lie before the clock's correction phase, so only its rate moves them.
 void FlexRayController::State::lay_cycle() {
-  const int round = g.gCycleCountMax + 1;   // 64 but for schedules made by hand: no division is needed
+  const int round = g.gCycleCountMax + 1;  // 64 but for schedules made by hand: no division is needed
   counter = static_cast<int>((round & (round - 1)) == 0 ? clock->cycle() & (round - 1) : clock->cycle() % round);
   if (grid_rate == clock->rate_correction()) return;
   grid_rate = clock->rate_correction();
@@ -109,8 +97,7 @@ void FlexRayController::State::lay_cycle() {
 }
 
 Microticks FlexRayController::State::next_event() const {
-  const Microticks next =
-      std::min(std::min(listen_timer, noise_timer), std::min(wakeup_sent, partner_overdue));
+  const Microticks next = std::min(std::min(listen_timer, noise_timer), std::min(wakeup_sent, partner_overdue));
   if (!clock) return next;
   switch (segment) {
     case Segment::kBefore: return std::min(next, clock->cycle_start());
@@ -121,8 +108,7 @@ Microticks FlexRayController::State::next_event() const {
     case Segment::kDynamic:
       return std::min(std::min(std::min(next, symbol_point), std::min(dynamic[0].due, dynamic[1].due)),
                       g.gdSymbolWindow > 0 ? window_to : clock->cycle_end());
-    case Segment::kRest:
-      return std::min(next, clock->cycle_end());
+    case Segment::kRest: return std::min(next, clock->cycle_end());
   }
   return next;
 }
@@ -182,7 +168,7 @@ void FlexRayController::State::start_cycle() {
 // `ended`: what was received in the cycle before.
 void FlexRayController::State::enter_cycle(const StartupFramesSeen& ended, Microticks at) {
   tell(PocEvent::cycle_started(counter, ended), at);
-  if (!clock || clock->cycle_start() != at) return;   // dropped, or begun anew by a CAS
+  if (!clock || clock->cycle_start() != at) return;  // dropped, or begun anew by a CAS
   start_cycle();
   events.cycle_started(clock->cycle(), at);
 }
@@ -284,8 +270,7 @@ void FlexRayController::start_cold(Microticks now) {
 }
 
 void FlexRayController::command(PocEventKind command, Microticks now) {
-  TTF_CHECK(command >= PocEventKind::kConfig && command <= PocEventKind::kFreeze, "{} is no command",
-            to_text(command));
+  TTF_CHECK(command >= PocEventKind::kConfig && command <= PocEventKind::kFreeze, "{} is no command", to_text(command));
   state_->tell({command}, now);
   state_->due = state_->next_event();
 }

@@ -1,14 +1,17 @@
-// A FlexRay communication controller: it starts the cluster or integrates into it, keeps the node's synchronised clock, sends
-// what is in the CNI in its own slots of both segments, judges and stores what it receives, and corrects its clock.
+// A FlexRay communication controller: it starts the cluster or integrates into it, keeps the node's synchronised clock,
+// sends what is in the CNI in its own slots of both segments, judges and stores what it receives, and corrects its
+// clock.
 //
-// Why it is in its state is protocol operation control's business (bus/poc.h); this class gives that its events, and does
-// what it says. Driven from outside in its own microticks, so that the same controller runs in virtual and in real time:
+// Why it is in its state is protocol operation control's business (bus/poc.h); this class gives that its events, and
+// does what it says. Driven from outside in its own microticks, so that the same controller runs in virtual and in real
+// time:
 //
 //   while (running) { wait until controller.next_event() or a reception; advance() / receive(); }
 //
 //   L1  next_event() is never in the past of the last advance(), and advance(t) does everything due up to t
 //   L2  receive() is called with the medium's order (flexray_port.h L3); a frame is judged at its end
-//   L3  in a static slot it owns it always sends (a null frame where the CNI has no such fragment), in a dynamic slot what
+//   L3  in a static slot it owns it always sends (a null frame where the CNI has no such fragment), in a dynamic slot
+//   what
 //       has not left yet, elsewhere never; and never anything that protocol operation control does not allow
 //   L4  nothing here allocates after construction
 //
@@ -63,9 +66,9 @@ struct SlotSeen {
 // error besides.
 struct SymbolWindowSeen {
   bool valid_mts = false;
-  bool syntax_error = false;             // anything else, and a second symbol
-  bool boundary_violation = false;       // something was on the channel where the window begins or ends
-  bool transmission_conflict = false;    // with this node's own symbol
+  bool syntax_error = false;           // anything else, and a second symbol
+  bool boundary_violation = false;     // something was on the channel where the window begins or ends
+  bool transmission_conflict = false;  // with this node's own symbol
 
   bool operator==(const SymbolWindowSeen&) const = default;
 };
@@ -78,7 +81,7 @@ struct SyncStatus {
   int VSAE = 0, VSAO = 0, VSBE = 0, VSBO = 0;
   // Of the last double cycle: the offset or the rate term was missing, or was beyond its limit.
   bool MOCS = false, MRCS = false, OCLR = false, RCLR = false;
-  int vClockCorrectionFailed = 0;   // odd cycles in a row in which a term was missing, up to kMaxClockCorrectionFailed
+  int vClockCorrectionFailed = 0;  // odd cycles in a row in which a term was missing, up to kMaxClockCorrectionFailed
 
   bool operator==(const SyncStatus&) const = default;
 };
@@ -89,7 +92,8 @@ class ControllerEvents {
   virtual ~ControllerEvents() = default;
   virtual void cycle_started(std::int64_t cycle, Microticks at) { (void)cycle, (void)at; }
   // slot 0: outside every slot.
-  virtual void slot_problem(std::int64_t cycle, int slot, schedules::Channel channel, SlotStatus status, Microticks at) {
+  virtual void slot_problem(std::int64_t cycle, int slot, schedules::Channel channel, SlotStatus status,
+                            Microticks at) {
     (void)cycle, (void)slot, (void)channel, (void)status, (void)at;
   }
   // The static segment of a cycle is over, its slot problems have been told, and slot_status() is of it. During
@@ -114,9 +118,10 @@ class ControllerEvents {
                             Microticks at) {
     (void)pdu, (void)effect, (void)sequence, (void)torn, (void)at;
   }
-  // The corrections as computed from a double cycle: at the end of its odd cycle's static segment, before either is in force.
-  virtual void clock_corrected(std::int64_t cycle, const timebase::Correction& offset,
-                               const timebase::Correction& rate, Microticks at) {
+  // The corrections as computed from a double cycle: at the end of its odd cycle's static segment, before either is in
+  // force.
+  virtual void clock_corrected(std::int64_t cycle, const timebase::Correction& offset, const timebase::Correction& rate,
+                               Microticks at) {
     (void)cycle, (void)offset, (void)rate, (void)at;
   }
   // A symbol left, on one channel; within normal operation Signal::kCas is a media access test symbol.
@@ -128,8 +133,8 @@ class ControllerEvents {
 };
 
 struct InitialClock {
-  Microticks cycle_start{};   // of cycle 0
-  int rate = 0;               // [uT per cycle]
+  Microticks cycle_start{};  // of cycle 0
+  int rate = 0;              // [uT per cycle]
 };
 
 class FlexRayController {
@@ -141,8 +146,8 @@ class FlexRayController {
   // As if start-up were over: normal active from cycle 0 on.
   void start_integrated(const InitialClock& clock);
   // Power-on, and what a host commands then: configuration, RUN and, for a coldstart node, ALLOW_COLDSTART. Also of a
-  // controller at work, which begins anew, without allocating: what its host has given it is all that is left (its lists,
-  // its network management vector, its external correction).
+  // controller at work, which begins anew, without allocating: what its host has given it is all that is left (its
+  // lists, its network management vector, its external correction).
   void start_cold(Microticks now);
   // A command of the host: kConfig to kFreeze of PocEventKind.
   void command(PocEventKind command, Microticks now);
@@ -156,9 +161,9 @@ class FlexRayController {
   // The same on both channels at the same instants, as most of what nodes send arrives: receive() of channel A, which
   // `reception` says, and of channel B. Whether that has changed next_event() or the state's kind.
   bool receive_on_both(const Reception& reception);
-  // What is on its way to this node on both channels, and nothing else until it is there: whether it changes nothing but
-  // what was seen of its slot and the sync deviations. So do null frames and fragments of lists that are there, and most
-  // frames are either. Then, right after this, hear_known() may take it in before it is there.
+  // What is on its way to this node on both channels, and nothing else until it is there: whether it changes nothing
+  // but what was seen of its slot and the sync deviations. So do null frames and fragments of lists that are there, and
+  // most frames are either. Then, right after this, hear_known() may take it in before it is there.
   bool knows(const Reception& reception);
   void hear_known(const Reception& reception);
 
@@ -193,8 +198,8 @@ class FlexRayController {
   // double cycle. Reading taken: the rate in force, which the next correction goes on from, is the one with the
   // external term in it, so that a term given once stays and one given again adds up, less damping.
   void set_external_correction(int offset, int rate);
-  OutgoingList& outgoing(PduId pdu);            // must be a PDU this node sends
-  IncomingList& incoming(PduId pdu);            // any other PDU on FlexRay
+  OutgoingList& outgoing(PduId pdu);  // must be a PDU this node sends
+  IncomingList& incoming(PduId pdu);  // any other PDU on FlexRay
 
  private:
   struct State;

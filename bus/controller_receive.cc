@@ -12,7 +12,7 @@ namespace {
 using schedules::Channel;
 using schedules::FrameSlot;
 
-constexpr int kIdleDelimiterBits = 11;   // cChannelIdleDelimiter
+constexpr int kIdleDelimiterBits = 11;  // cChannelIdleDelimiter
 
 bool receiver_on(PocKind kind) {
   switch (kind) {
@@ -161,7 +161,7 @@ void FlexRayController::State::hear(const Reception& reception) {
         reception.end + Microticks{p.pMicroPerCycle + p.pRateCorrectionOut + 1} + port.handed_over_within();
   } else if (poc.kind == PocKind::kInitialiseSchedule && heard.frame_id == poc.reference) {
     const auto schedule = initialisation.hear(heard);
-    if (!schedule && heard.cycle % 2 == 0) return;   // the other channel's even frame
+    if (!schedule && heard.cycle % 2 == 0) return;  // the other channel's even frame
     partner_overdue = kNever;
     if (!schedule) return tell({PocEventKind::kScheduleNotDerived}, reception.end);
     tell(event, reception.end);
@@ -224,13 +224,13 @@ void FlexRayController::State::judge_elsewhere(const Reception& reception, int s
 
 void FlexRayController::State::judge_static(const Reception& reception, int slot, std::uint8_t errors) {
   const auto c = index_of(reception.channel);
-  const FrameSlot* expected = slot_at.expected[c];   // `slot` has just been looked up
+  const FrameSlot* expected = slot_at.expected[c];  // `slot` has just been looked up
   SlotBoard::Seen& status = board.at(slot);
   if (const int last = last_static_slot_of(reception); last != slot) {
     cross_slots(reception, slot, last);
     errors |= kBoundaryViolation;
   }
-  if (status.element[c]) errors |= kSyntaxError;   // a second communication element
+  if (status.element[c]) errors |= kSyntaxError;  // a second communication element
   status.element[c] = true;
   if (errors == 0 && !is_of_slot(reception.frame.header, slot, expected)) errors |= kContentError;
   status.errors[c] |= errors;
@@ -245,19 +245,19 @@ void FlexRayController::State::judge_static(const Reception& reception, int slot
 }
 
 // A valid frame in its slot, as this node's schedule expects it.
-void FlexRayController::State::accept(const Reception& reception, Channel channel, int slot, const FrameSlot& expected) {
+void FlexRayController::State::accept(const Reception& reception, Channel channel, int slot,
+                                      const FrameSlot& expected) {
   const wire::FrameHeader& header = reception.frame.header;
-  if (!in_startup(poc.kind))
-    events.frame_received(clock->cycle(), slot, channel, reception.frame, reception.end);
+  if (!in_startup(poc.kind)) events.frame_received(clock->cycle(), slot, channel, reception.frame, reception.end);
   if (header.sync)
     hear_sync(reception, slot, channel == Channel::kA ? schedules::Channels::kA : schedules::Channels::kB);
   if (header.payload_preamble) network_management.combine(reception.frame.payload);
   if (expected.pdu != kNoPdu && !store(expected, reception))
-    board.at(slot).errors[index_of(channel)] |= kContentError;   // a frame, but not of this slot's list
+    board.at(slot).errors[index_of(channel)] |= kContentError;  // a frame, but not of this slot's list
 }
 
-// The medium reports when the first bit of the TSS arrived, so no decoding time has to be taken off (pDecodingCorrection);
-// the bus' mean propagation delay is the schedule's to compensate.
+// The medium reports when the first bit of the TSS arrived, so no decoding time has to be taken off
+// (pDecodingCorrection); the bus' mean propagation delay is the schedule's to compensate.
 void FlexRayController::State::hear_sync(const Reception& reception, int slot, schedules::Channels channels) {
   const Microticks late = reception.start - clock->cycle_start() - line(slot).action_point;
   const auto deviation = [&](int compensation) { return static_cast<int>(late.value) - compensation; };
@@ -288,11 +288,11 @@ void FlexRayController::State::judge_dynamic(const Reception& reception, int min
   if (count_minislots(reception) > minislots.count()) errors |= kBoundaryViolation;
 
   const FrameSlot* expected = slots.expected(slot, counter, reception.channel, wire::message_id(reception.frame));
-  if (errors == 0 && (header.frame_id != slot || header.cycle != counter || header.sync || header.startup ||
-                      expected == nullptr || expected->pdu == kNoPdu || header.null_frame ||
-                      header.payload_preamble != expected->message_id.has_value() ||
-                      reception.frame.payload.size() <
-                          preamble_bytes(*expected) + static_cast<std::size_t>(cluster.pdu(expected->pdu).fragment_bytes)))
+  if (errors == 0 &&
+      (header.frame_id != slot || header.cycle != counter || header.sync || header.startup || expected == nullptr ||
+       expected->pdu == kNoPdu || header.null_frame || header.payload_preamble != expected->message_id.has_value() ||
+       reception.frame.payload.size() <
+           preamble_bytes(*expected) + static_cast<std::size_t>(cluster.pdu(expected->pdu).fragment_bytes)))
     errors |= kContentError;
   if (errors == 0 && !store(*expected, reception)) errors |= kContentError;
   if (errors == 0 && !in_startup(poc.kind))

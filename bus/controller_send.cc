@@ -12,7 +12,7 @@ using schedules::FrameSlot;
 
 namespace {
 
-constexpr std::array<std::byte, wire::kMaxPayloadBytes> kZeros{};   // a null frame's payload
+constexpr std::array<std::byte, wire::kMaxPayloadBytes> kZeros{};  // a null frame's payload
 
 }  // namespace
 
@@ -41,14 +41,13 @@ void FlexRayController::State::send_static(Microticks at) {
     return;
   }
   const Channel last_channel = includes(slot.channels, Channel::kB) ? Channel::kB : Channel::kA;
-  unsigned left = 0;   // bits of Channels
+  unsigned left = 0;  // bits of Channels
   for (const Channel channel : schedules::kBothChannels)
     if (includes(slot.channels, channel) &&
         send_frame(slot, channel, at, end, content, null_frame, content.last && channel == last_channel))
       left |= 1u << index_of(channel);
   // What nobody hears tells this node no more of the cluster's time than it tells the others.
-  if (left != 0 && sync_frame)
-    sync.own(slot.slot, static_cast<schedules::Channels>(left));
+  if (left != 0 && sync_frame) sync.own(slot.slot, static_cast<schedules::Channels>(left));
 }
 
 wire::DecodedFrame FlexRayController::State::frame_of(const FrameSlot& slot, const Cni::Fragment& content,
@@ -84,8 +83,8 @@ bool FlexRayController::State::send_frame(const FrameSlot& slot, Channel channel
   const wire::DecodedFrame said = frame_of(slot, content, null_frame);
   const bool in_bytes = port.wants_bytes(channel) || events.wants_bytes();
   const std::size_t size = in_bytes ? wire::encode_frame(said.header, channel, said.payload, frame) : 0;
-  const Transmission transmission{channel, Signal::kFrame, at, end, slot.slot,
-                                  std::span<const std::byte>(frame).first(size), said};
+  const Transmission transmission{
+      channel, Signal::kFrame, at, end, slot.slot, std::span<const std::byte>(frame).first(size), said};
   sending_from[index_of(channel)] = at;
   sending_to[index_of(channel)] = end;
   port.transmit(transmission);
@@ -121,7 +120,7 @@ void FlexRayController::State::plan_dynamic(Channel channel, Microticks now) {
     if (d.minislot > std::min(p.pLatestTx, minislots.count())) return;
     d.due = clock->start_of(minislots.action_point(d.minislot));
     if (d.due >= now) return;
-    d.due = kNever;   // missed: the clocks disagree by more than a minislot
+    d.due = kNever;  // missed: the clocks disagree by more than a minislot
   }
 }
 
@@ -139,8 +138,8 @@ void FlexRayController::State::send_dynamic(Channel channel, Microticks at) {
     cni.carried(slot, channel);
     const int words = static_cast<int>((preamble_bytes(slot) + content.payload.size() + 1) / 2);
     const int last = minislots.dts_end(*clock, at + bits(schedules::frame_bits(g, words)), bits(1));
-    TTF_CHECK(last <= minislots.count(), "slot {} ends in minislot {}: pLatestTx {} is too late for its frame", slot.slot,
-              last, p.pLatestTx);
+    TTF_CHECK(last <= minislots.count(), "slot {} ends in minislot {}: pLatestTx {} is too late for its frame",
+              slot.slot, last, p.pLatestTx);
     const Microticks end = clock->start_of(minislots.action_point(last));
     d.counter.occupied(d.minislot, last);
     send_frame(slot, channel, at, end, content, false, content.last);

@@ -1,5 +1,6 @@
 // Inside the controller: its data, and what it does with them. controller.cc drives protocol operation control and the
-// cycle, controller_send.cc sends, controller_receive.cc receives and judges, controller_window.cc is the symbol window.
+// cycle, controller_send.cc sends, controller_receive.cc receives and judges, controller_window.cc is the symbol
+// window.
 #pragma once
 
 #include <array>
@@ -32,9 +33,9 @@ struct FlexRayController::State {
   const SlotTable slots;
   const MinislotGrid minislots;
   const timebase::CycleGeometry geometry;
-  const bool told_of_receptions;           // its host
-  const timebase::Divisor nominal_slot;    // a static slot's microticks, give or take one
-  const Microticks static_frame;           // a static frame's length
+  const bool told_of_receptions;         // its host
+  const timebase::Divisor nominal_slot;  // a static slot's microticks, give or take one
+  const Microticks static_frame;         // a static frame's length
 
   // --- where it stands
   PocState poc;
@@ -46,49 +47,49 @@ struct FlexRayController::State {
   SyncCollector sync;
   ScheduleInitialisation initialisation;
   Microticks listen_timer = kNever, noise_timer = kNever, wakeup_sent = kNever;
-  Microticks partner_overdue = kNever;     // while a schedule is being derived
-  std::array<Microticks, 2> sending_from{kNever, kNever}, sending_to{};   // by channel: this node's last transmission
+  Microticks partner_overdue = kNever;                                   // while a schedule is being derived
+  std::array<Microticks, 2> sending_from{kNever, kNever}, sending_to{};  // by channel: this node's last transmission
 
   SlotBoard board;
-  std::array<bool, 2> going_on{};          // by channel: what went on when the last static segment ended still does
-  SyncStatus sync_status;                  // without its counter, which is protocol operation control's
+  std::array<bool, 2> going_on{};  // by channel: what went on when the last static segment ended still does
+  SyncStatus sync_status;          // without its counter, which is protocol operation control's
 
   // The static slot of this cycle that was looked up last: the other channel's frame of it comes next, then that of the
   // slot behind it. Slot 0 is behind nothing.
   struct SlotAt {
     int slot = 0;
-    Microticks from{}, to{};               // [from, to): none
-    int counter = 0;                       // of the cycle
-    std::array<const schedules::FrameSlot*, 2> expected{};   // by channel, as SlotTable has it
+    Microticks from{}, to{};                                // [from, to): none
+    int counter = 0;                                        // of the cycle
+    std::array<const schedules::FrameSlot*, 2> expected{};  // by channel, as SlotTable has it
   };
   SlotAt slot_at;
   // The static slots by the clock: at which microtick of the cycle they begin, and have their action points.
   struct GridLine {
     Microticks from{}, action_point{};
   };
-  std::vector<GridLine> grid;              // by slot - 1; behind the last one, where that ends
-  std::optional<int> grid_rate;            // the clock's, that it is of
-  int counter = 0;                         // of the clock's cycle: 0..gCycleCountMax
+  std::vector<GridLine> grid;    // by slot - 1; behind the last one, where that ends
+  std::optional<int> grid_rate;  // the clock's, that it is of
+  int counter = 0;               // of the clock's cycle: 0..gCycleCountMax
 
   // How far the cycle is.
   // kBefore: the first cycle is to start; kDynamic: with the symbol window.
   enum class Segment : std::uint8_t { kBefore, kStatic, kDynamic, kRest };
   Segment segment = Segment::kStatic;
-  Microticks due = kNever;                 // next_event(), which what arrives in a static slot changes nothing about
-  std::size_t next_static = 0;             // in slots.own_static()
+  Microticks due = kNever;      // next_event(), which what arrives in a static slot changes nothing about
+  std::size_t next_static = 0;  // in slots.own_static()
   struct Dynamic {
     DynamicSlotCounter counter;
-    std::size_t next = 0;                  // in slots.own_dynamic()
-    Microticks due = kNever;               // action point of that slot, as the counter stands
-    int minislot = 0;                      // it begins in
+    std::size_t next = 0;     // in slots.own_dynamic()
+    Microticks due = kNever;  // action point of that slot, as the counter stands
+    int minislot = 0;         // it begins in
   };
-  std::array<Dynamic, 2> dynamic;          // by channel
+  std::array<Dynamic, 2> dynamic;  // by channel
 
   // The symbol window, planned when the static segment ends; kNever where there is none.
   Microticks window_from = kNever, window_to = kNever, symbol_point = kNever;
-  std::optional<schedules::Channels> symbol_request;    // a media access test symbol is to be sent there
-  std::array<SymbolWindowSeen, 2> window_seen, window_last;   // by channel: under way, and the last that is over
-  std::array<bool, 2> window_element{};    // something has begun in it
+  std::optional<schedules::Channels> symbol_request;         // a media access test symbol is to be sent there
+  std::array<SymbolWindowSeen, 2> window_seen, window_last;  // by channel: under way, and the last that is over
+  std::array<bool, 2> window_element{};                      // something has begun in it
 
   std::array<std::byte, wire::kMaxPayloadBytes> payload{};
   std::array<std::byte, wire::kMaxFrameBytes> frame{};
@@ -97,7 +98,7 @@ struct FlexRayController::State {
   void tell(const PocEvent& event, Microticks at);
   void act(const PocActions& actions, Microticks at);
   void begin_schedule(Microticks start, int rate, std::int64_t cycle);
-  void lay_cycle();                        // `counter` and `grid`, by the clock
+  void lay_cycle();  // `counter` and `grid`, by the clock
   void drop_schedule();
 
   // --- the cycle (controller.cc)
@@ -111,8 +112,10 @@ struct FlexRayController::State {
   Macroticks slot_start(int slot) const { return {static_cast<std::int64_t>(slot - 1) * g.gdStaticSlot}; }
   Macroticks action_point(int slot) const { return slot_start(slot) + Macroticks{g.gdActionPointOffset}; }
   Macroticks static_end() const { return slot_start(g.gNumberOfStaticSlots + 1); }
-  const GridLine& line(int slot) const { return grid[static_cast<std::size_t>(slot - 1)]; }   // up to one behind the last
-  Microticks bits(int count) const;        // gdBit, rounded up to whole microticks
+  const GridLine& line(int slot) const {
+    return grid[static_cast<std::size_t>(slot - 1)];
+  }                                  // up to one behind the last
+  Microticks bits(int count) const;  // gdBit, rounded up to whole microticks
 
   // --- the symbol window (controller_window.cc)
   bool request_media_test_symbol(schedules::Channels channels);
@@ -155,9 +158,9 @@ struct FlexRayController::State {
     return sending_from[channel] != kNever && reception.start < sending_to[channel] &&
            reception.end > sending_from[channel];
   }
-  void hear_in_startup(const Reception& reception, bool conflict);   // or without a schedule
-  void hear(const Reception& reception);                   // without a schedule
-  void judge(const Reception& reception, bool conflict);   // within the schedule
+  void hear_in_startup(const Reception& reception, bool conflict);  // or without a schedule
+  void hear(const Reception& reception);                            // without a schedule
+  void judge(const Reception& reception, bool conflict);            // within the schedule
   void judge_static(const Reception& reception, int slot, std::uint8_t errors);
   bool is_of_slot(const wire::FrameHeader& header, int slot, const schedules::FrameSlot* expected) const {
     return header.frame_id == slot && header.cycle == slot_at.counter &&

@@ -48,7 +48,7 @@ void FlexRayController::State::judge_symbol_window(const Reception& reception, b
   if (!begins || !ends) status.boundary_violation = true;
   if (conflict) status.transmission_conflict = true;
   if (!begins) return;
-  if (reception.signal != Signal::kCas || conflict || window_element[c])   // nothing, or a second one
+  if (reception.signal != Signal::kCas || conflict || window_element[c])  // nothing, or a second one
     status.syntax_error = true;
   else if (ends)
     status.valid_mts = true;

@@ -36,8 +36,7 @@ void DynamicSlotCounter::occupied(int first, int last) {
 }
 
 MinislotGrid::MinislotGrid(const schedules::GlobalParameters& flexray)
-    : count_(flexray.gNumberOfMinislots),
-      length_(flexray.gdMinislot),
+    : count_(flexray.gNumberOfMinislots), length_(flexray.gdMinislot),
       action_point_(flexray.gdMinislotActionPointOffset) {
   // adActionPointDifference: the segment's first action point lies no earlier in it than a static slot's
   // does.
@@ -49,9 +48,7 @@ Macroticks MinislotGrid::start_of(int minislot) const {
   return {first_macrotick_ + static_cast<std::int64_t>(minislot - 1) * length_};
 }
 
-Macroticks MinislotGrid::action_point(int minislot) const {
-  return start_of(minislot) + Macroticks{action_point_};
-}
+Macroticks MinislotGrid::action_point(int minislot) const { return start_of(minislot) + Macroticks{action_point_}; }
 
 int MinislotGrid::minislot_at(const timebase::CycleClock& clock, Microticks at) const {
   if (count_ == 0 || at < clock.start_of(start_of(1))) return 0;
@@ -66,8 +63,7 @@ int MinislotGrid::minislot_at(const timebase::CycleClock& clock, Microticks at) 
   return low;
 }
 
-int MinislotGrid::dts_end(const timebase::CycleClock& clock, Microticks frame_end,
-                          Microticks shortest_dts) const {
+int MinislotGrid::dts_end(const timebase::CycleClock& clock, Microticks frame_end, Microticks shortest_dts) const {
   const Microticks earliest = frame_end + shortest_dts;
   int minislot = std::max(1, minislot_at(clock, earliest));
   while (minislot <= count_ && clock.start_of(action_point(minislot)) < earliest) ++minislot;

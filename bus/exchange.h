@@ -21,7 +21,7 @@ class Exchange {
   struct Heard {
     NodeId from{};
     bool gone = false;
-    std::span<const std::byte> bytes;   // valid until the next call
+    std::span<const std::byte> bytes;  // valid until the next call
   };
 
   virtual ~Exchange() = default;

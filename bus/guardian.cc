@@ -61,16 +61,13 @@ schedules::Cluster guardian_cluster(const schedules::Cluster& cluster, Channel c
 }
 
 Guardian::Guardian(const schedules::Cluster& cluster, Channel channel, const schedules::NodeParameters& clock)
-    : cluster_(cluster),
-      g_(cluster.flexray),
-      channel_(channel),
-      slots_(cluster, kNoNode),
-      minislots_(cluster.flexray),
-      lengths_(cluster.flexray, clock.pdMicrotick_ps),
-      compensation_{channel == Channel::kA ? clock.pDelayCompensationA : clock.pDelayCompensationB},
+    : cluster_(cluster), g_(cluster.flexray), channel_(channel), slots_(cluster, kNoNode), minislots_(cluster.flexray),
+      lengths_(cluster.flexray, clock.pdMicrotick_ps), compensation_{channel == Channel::kA
+                                                                         ? clock.pDelayCompensationA
+                                                                         : clock.pDelayCompensationB},
       tolerance_(lengths_.time(g_.gdActionPointOffset * g_.gdMacrotick_ps / 2)),
-      minislot_tolerance_(
-          std::min(tolerance_, lengths_.time(g_.gdMinislotActionPointOffset * g_.gdMacrotick_ps / 2))) {}
+      minislot_tolerance_(std::min(tolerance_, lengths_.time(g_.gdMinislotActionPointOffset * g_.gdMacrotick_ps / 2))) {
+}
 
 int Guardian::cycle_count(const timebase::CycleClock& clock) const {
   return static_cast<int>(clock.cycle() % (g_.gCycleCountMax + 1));
@@ -116,7 +113,8 @@ GuardianAnswer Guardian::in_static_slot(const timebase::CycleClock& clock, Micro
   const Microticks action_point =
       clock.start_of(Macroticks{static_cast<std::int64_t>(low - 1) * g_.gdStaticSlot + g_.gdActionPointOffset});
   if (std::abs((at - action_point).value) > tolerance_.value) return GuardianAnswer::no(GuardianReason::kOutsideWindow);
-  if (!header_fits(*frame, cycle_count(clock), signal.frame->header)) return GuardianAnswer::no(GuardianReason::kWrongHeader);
+  if (!header_fits(*frame, cycle_count(clock), signal.frame->header))
+    return GuardianAnswer::no(GuardianReason::kWrongHeader);
   return {GuardianReason::kForwarded, signal.start + lengths_.frame(g_.gPayloadLengthStatic)};
 }
 
@@ -125,12 +123,14 @@ GuardianAnswer Guardian::in_dynamic_segment(const timebase::CycleClock& clock, c
   const int minislot = minislots_.minislot_at(clock, at);
   const FrameSlot* frame = slots_.expected(counter.slot_in(minislot), cycle_count(clock), channel_);
   if (frame == nullptr || frame->sender != signal.branch) return GuardianAnswer::no(GuardianReason::kNotItsSlot);
-  if (minislot > cluster_.node(signal.branch).flexray->pLatestTx) return GuardianAnswer::no(GuardianReason::kOutsideWindow);
+  if (minislot > cluster_.node(signal.branch).flexray->pLatestTx)
+    return GuardianAnswer::no(GuardianReason::kOutsideWindow);
   // Near a minislot's boundary some receivers would count another minislot than others, and every slot behind it
   // differently.
   if (std::abs((at - clock.start_of(minislots_.action_point(minislot))).value) > minislot_tolerance_.value)
     return GuardianAnswer::no(GuardianReason::kOutsideWindow);
-  if (!header_fits(*frame, cycle_count(clock), signal.frame->header)) return GuardianAnswer::no(GuardianReason::kWrongHeader);
+  if (!header_fits(*frame, cycle_count(clock), signal.frame->header))
+    return GuardianAnswer::no(GuardianReason::kWrongHeader);
   // The trailing sequence goes on to the next minislot action point that leaves room for a bit of it; on the sender's
   // clock that may be one later than on this.
   const Microticks frame_end = at + lengths_.frame(signal.frame->header.payload_words);
@@ -138,7 +138,8 @@ GuardianAnswer Guardian::in_dynamic_segment(const timebase::CycleClock& clock, c
   return {GuardianReason::kForwarded, clock.start_of(minislots_.action_point(last)) + compensation_};
 }
 
-Microticks Guardian::end_of(const timebase::CycleClock& clock, Microticks start, Microticks end, Microticks until) const {
+Microticks Guardian::end_of(const timebase::CycleClock& clock, Microticks start, Microticks end,
+                            Microticks until) const {
   const int first = minislots_.minislot_at(clock, start - compensation_);
   if (first < 1 || first > minislots_.count()) return std::min(end, until);
   // The first action point that `end` is not clearly behind.

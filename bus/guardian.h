@@ -26,12 +26,12 @@
 //       make a leading coldstart node give way
 // How it ends what it lets through in the dynamic segment:
 //   G9  at a minislot action point of its own clock, whatever its sender does: there receivers look for the end of a
-//       trailing sequence, and between two of them some would count another minislot than others, and every slot behind it
-//       differently. What ends within half a minislot action point offset of one, as every fault-free node's frame does,
-//       is left alone, to the instant. What ends elsewhere, because its sender fell silent or its clock is off, the
-//       coupler holds active to the next one, as a trailing sequence would be; what lasts too long (G7) it cuts at the
-//       last one that a frame of that length may need. A frame whose trailing sequence alone was lengthened is what it
-//       was, one that broke off or was cut is undecodable
+//       trailing sequence, and between two of them some would count another minislot than others, and every slot behind
+//       it differently. What ends within half a minislot action point offset of one, as every fault-free node's frame
+//       does, is left alone, to the instant. What ends elsewhere, because its sender fell silent or its clock is off,
+//       the coupler holds active to the next one, as a trailing sequence would be; what lasts too long (G7) it cuts at
+//       the last one that a frame of that length may need. A frame whose trailing sequence alone was lengthened is what
+//       it was, one that broke off or was cut is undecodable
 #pragma once
 
 #include <array>
@@ -51,26 +51,26 @@ namespace ttf::bus {
 
 enum class GuardianReason : std::uint8_t {
   kForwarded,
-  kOtherForwarded,      // G7
-  kUndecodable,         // G5
-  kNobodysTime,         // G5: between the segments, in the idle time
-  kNotItsSlot,          // G1, G3
-  kOutsideWindow,       // G2, G3
-  kWrongHeader,         // G1, G3
-  kNoSymbolNow,         // G4, G5
-  kNoColdstartNode,     // G6
-  kNoStartupFrame,      // G6
-  kOtherLeads,          // S1, G8
-  kTooSoon,             // S2
-  kLeadFailed,          // S3
-  kNoWakeup,            // S5
+  kOtherForwarded,   // G7
+  kUndecodable,      // G5
+  kNobodysTime,      // G5: between the segments, in the idle time
+  kNotItsSlot,       // G1, G3
+  kOutsideWindow,    // G2, G3
+  kWrongHeader,      // G1, G3
+  kNoSymbolNow,      // G4, G5
+  kNoColdstartNode,  // G6
+  kNoStartupFrame,   // G6
+  kOtherLeads,       // S1, G8
+  kTooSoon,          // S2
+  kLeadFailed,       // S3
+  kNoWakeup,         // S5
 };
 inline constexpr std::array kAllGuardianReasons = {
-    GuardianReason::kForwarded,       GuardianReason::kOtherForwarded, GuardianReason::kUndecodable,
-    GuardianReason::kNobodysTime,     GuardianReason::kNotItsSlot,     GuardianReason::kOutsideWindow,
-    GuardianReason::kWrongHeader,     GuardianReason::kNoSymbolNow,    GuardianReason::kNoColdstartNode,
-    GuardianReason::kNoStartupFrame,  GuardianReason::kOtherLeads,     GuardianReason::kTooSoon,
-    GuardianReason::kLeadFailed,      GuardianReason::kNoWakeup};
+    GuardianReason::kForwarded,      GuardianReason::kOtherForwarded, GuardianReason::kUndecodable,
+    GuardianReason::kNobodysTime,    GuardianReason::kNotItsSlot,     GuardianReason::kOutsideWindow,
+    GuardianReason::kWrongHeader,    GuardianReason::kNoSymbolNow,    GuardianReason::kNoColdstartNode,
+    GuardianReason::kNoStartupFrame, GuardianReason::kOtherLeads,     GuardianReason::kTooSoon,
+    GuardianReason::kLeadFailed,     GuardianReason::kNoWakeup};
 std::string_view to_text(GuardianReason reason);
 
 // What begins at the coupler; instants in microticks of the guardian.
@@ -78,12 +78,12 @@ struct GuardianSignal {
   NodeId branch{};
   Signal signal{};
   Microticks start{};
-  const wire::DecodedFrame* frame = nullptr;   // of a frame
+  const wire::DecodedFrame* frame = nullptr;  // of a frame
 };
 
 struct GuardianAnswer {
   GuardianReason reason{};
-  Microticks until{};             // forwarded: what lasts longer is cut there; in the dynamic segment an action point (G9)
+  Microticks until{};  // forwarded: what lasts longer is cut there; in the dynamic segment an action point (G9)
   static constexpr GuardianAnswer no(GuardianReason reason) { return {reason, {}}; }
   bool forwards() const { return reason == GuardianReason::kForwarded; }
 };
@@ -118,8 +118,8 @@ class Guardian {
   GuardianAnswer judge(const timebase::CycleClock& clock, const DynamicSlotCounter& counter,
                        const GuardianSignal& signal) const;
   // When a signal ends at the coupler that has been forwarded since `start`, was to last until `until` at the most (of
-  // its answer) and is ended by its sender at `end`: `end` where nothing is done about it. G7, and in the dynamic segment
-  // G9; all three instants are the coupler's.
+  // its answer) and is ended by its sender at `end`: `end` where nothing is done about it. G7, and in the dynamic
+  // segment G9; all three instants are the coupler's.
   Microticks end_of(const timebase::CycleClock& clock, Microticks start, Microticks end, Microticks until) const;
   // Counts what was received in the dynamic segment, in whole or in part (bus/dynamic_segment.h).
   void count(const timebase::CycleClock& clock, DynamicSlotCounter& counter, Microticks start, Microticks end) const;

@@ -6,14 +6,11 @@ namespace ttf::bus {
 
 StartupTurns::StartupTurns(const schedules::Cluster& cluster, schedules::Channel channel,
                            const schedules::NodeParameters& clock)
-    : cluster_(cluster),
-      channel_(channel),
-      lengths_(cluster.flexray, clock.pdMicrotick_ps),
-      cycle_{clock.pMicroPerCycle},
+    : cluster_(cluster), channel_(channel),
+      lengths_(cluster.flexray, clock.pdMicrotick_ps), cycle_{clock.pMicroPerCycle},
       slack_(Microticks{2 * clock.pMicroPerCycle * kDriftOfAPair_ppm / 1'000'000} +
              lengths_.time(cluster.flexray.gdActionPointOffset * cluster.flexray.gdMacrotick_ps)),
-      may_lead_(cluster.nodes.size()),
-      may_wake_(cluster.nodes.size()) {}
+      may_lead_(cluster.nodes.size()), may_wake_(cluster.nodes.size()) {}
 
 void StartupTurns::reset() {
   leader_ = kNoNode;
@@ -34,7 +31,8 @@ GuardianAnswer StartupTurns::judge(const GuardianSignal& signal) const {
   switch (signal.signal) {
     case Signal::kUndecodable: return GuardianAnswer::no(GuardianReason::kUndecodable);
     case Signal::kWakeup:
-      if (p.pWakeupChannel != channel_ || at < may_wake_[index_of(signal.branch)]) return GuardianAnswer::no(GuardianReason::kNoWakeup);
+      if (p.pWakeupChannel != channel_ || at < may_wake_[index_of(signal.branch)])
+        return GuardianAnswer::no(GuardianReason::kNoWakeup);
       if (leads(at)) return GuardianAnswer::no(GuardianReason::kOtherLeads);
       return {GuardianReason::kForwarded, at + lengths_.wakeup_pattern(p.pWakeupPattern)};
     case Signal::kCas:
@@ -54,9 +52,9 @@ GuardianAnswer StartupTurns::judge(const GuardianSignal& signal) const {
   }
   if (!leading && leads(at)) return GuardianAnswer::no(GuardianReason::kOtherLeads);
   if (!leading && at < waits_until(signal.branch, at)) return GuardianAnswer::no(GuardianReason::kLeadFailed);
-  return {GuardianReason::kForwarded, at + (signal.signal == Signal::kCas
-                                                ? lengths_.symbol()
-                                                : lengths_.frame(cluster_.flexray.gPayloadLengthStatic))};
+  return {
+      GuardianReason::kForwarded,
+      at + (signal.signal == Signal::kCas ? lengths_.symbol() : lengths_.frame(cluster_.flexray.gPayloadLengthStatic))};
 }
 
 bool StartupTurns::forwarded(const GuardianSignal& signal, bool has_schedule) {

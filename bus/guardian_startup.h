@@ -62,12 +62,12 @@ class StartupTurns {
   const schedules::Cluster& cluster_;
   schedules::Channel channel_;
   SignalLengths lengths_;
-  Microticks cycle_, slack_;             // what a clock may be off in a cycle, twice, and an action point offset
+  Microticks cycle_, slack_;  // what a clock may be off in a cycle, twice, and an action point offset
   NodeId leader_ = kNoNode;
   Microticks lead_begin_{}, lead_end_{}, next_frame_{};
   // Of a lead that began with a symbol, of cycles 0, 1, ... ; kOutOfOrder for any other.
   int frames_ = 0;
-  std::vector<Microticks> may_lead_, may_wake_;   // by NodeId: from then on
+  std::vector<Microticks> may_lead_, may_wake_;  // by NodeId: from then on
 };
 
 }  // namespace ttf::bus

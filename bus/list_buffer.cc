@@ -33,12 +33,9 @@ std::span<const std::byte> OutgoingList::fragment(int index) const {
 }
 
 IncomingList::IncomingList(const schedules::PduLayout& layout)
-    : layout_(&layout),
-      sequence_signal_(wire::header_signal(layout, "sequence")),
-      fragment_signal_(wire::header_signal(layout, "fragment")),
-      count_signal_(wire::header_signal(layout, "count")),
-      collecting_bytes_(capacity(layout)),
-      complete_bytes_(capacity(layout)),
+    : layout_(&layout), sequence_signal_(wire::header_signal(layout, "sequence")),
+      fragment_signal_(wire::header_signal(layout, "fragment")), count_signal_(wire::header_signal(layout, "count")),
+      collecting_bytes_(capacity(layout)), complete_bytes_(capacity(layout)),
       present_(static_cast<std::size_t>(layout.max_fragments())) {
   for (std::size_t s = 0; s < layout.element.size(); ++s) {
     const schedules::Signal& signal = layout.element[s];
@@ -65,7 +62,7 @@ bool IncomingList::well_formed(std::span<const std::byte> payload, int fragment,
 
 // Counts the stale lists in a row; true at the one that tells a sender that counts anew.
 bool IncomingList::restarted(std::uint32_t raw) {
-  if (stale_lists_ > 0 && raw == stale_raw_) return false;   // another fragment, or the other channel
+  if (stale_lists_ > 0 && raw == stale_raw_) return false;  // another fragment, or the other channel
   stale_lists_ = stale_lists_ > 0 && ahead(raw, stale_raw_) > 0 ? stale_lists_ + 1 : 1;
   stale_raw_ = raw;
   return stale_lists_ == kRestartLists;
@@ -99,12 +96,12 @@ ArrivalEffect IncomingList::store(std::span<const std::byte> payload, int fragme
   return ArrivalEffect::kCompleted;
 }
 
-// Whether this is, to the last bit, a fragment that the newest list has already: so most of what arrives is, on the other
-// channel and in every cycle until there is another list.
+// Whether this is, to the last bit, a fragment that the newest list has already: so most of what arrives is, on the
+// other channel and in every cycle until there is another list.
 bool IncomingList::repeats(std::span<const std::byte> payload, int fragment) const {
   const auto index = static_cast<std::size_t>(fragment);
-  const bool there = collecting_ ? fragment < collecting_fragments_ && present_[index]
-                                 : complete_ && fragment < complete_fragments_;
+  const bool there =
+      collecting_ ? fragment < collecting_fragments_ && present_[index] : complete_ && fragment < complete_fragments_;
   const std::byte* const known = (collecting_ ? collecting_bytes_ : complete_bytes_).data() + index * payload.size();
   return there && std::memcmp(known, payload.data(), payload.size()) == 0;
 }
@@ -144,9 +141,10 @@ ArrivalEffect IncomingList::arrive(std::span<const std::byte> payload, std::opti
 
 std::optional<ListView> IncomingList::latest() const {
   if (!complete_) return std::nullopt;
-  return ListView{complete_sequence_, complete_fragments_,
-                  {complete_bytes_.data(), static_cast<std::size_t>(complete_fragments_) *
-                                               static_cast<std::size_t>(layout_->fragment_bytes)}};
+  return ListView{complete_sequence_,
+                  complete_fragments_,
+                  {complete_bytes_.data(),
+                   static_cast<std::size_t>(complete_fragments_) * static_cast<std::size_t>(layout_->fragment_bytes)}};
 }
 
 bool IncomingList::mark_read() {

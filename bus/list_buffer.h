@@ -2,12 +2,13 @@
 // newer list replaces an older one, and a list that is not complete under one sequence number is never handed out.
 //
 //   L1  a list is handed out whole, every fragment of one sequence number and count, or not at all
-//   L2  an older list never replaces a newer one. Sequence numbers compare on the circle of the field's 2^bits values (as
+//   L2  an older list never replaces a newer one. Sequence numbers compare on the circle of the field's 2^bits values
+//   (as
 //       in RFC 1982): b is newer than a where (b - a) mod 2^bits is 1..2^(bits-1). Fragments older than the newest list
 //       begun are stale: refused
 //   L3  a sender that counts anew is believed at its kRestartLists-th list: that many stale lists in a row, each newer
-//       than the one before and no other fragment between them, are no stragglers. The buffer begins again with the last
-//       of them, as at the very first list
+//       than the one before and no other fragment between them, are no stragglers. The buffer begins again with the
+//       last of them, as at the very first list
 //   L4  what no sender of the layout writes is refused: a count or fragment index the layout does not have, another
 //       fragment than the slot is for, a signal's code above its range
 //
@@ -27,7 +28,7 @@ namespace ttf::bus {
 
 // A complete list: the payloads of its fragments one after the other, each layout.fragment_bytes long.
 struct ListView {
-  std::uint32_t sequence = 0;          // unwrapped: counts on where the bus' field wraps
+  std::uint32_t sequence = 0;  // unwrapped: counts on where the bus' field wraps
   int fragments = 0;
   std::span<const std::byte> bytes;
 };
@@ -36,7 +37,7 @@ struct ListView {
 class OutgoingList {
  public:
   explicit OutgoingList(const schedules::PduLayout& layout);
-  void write(const ListView& list);                        // visible to the controller at once
+  void write(const ListView& list);  // visible to the controller at once
   bool empty() const { return fragments_ == 0; }
   std::uint32_t sequence() const { return sequence_; }
   int fragments() const { return fragments_; }
@@ -51,12 +52,12 @@ class OutgoingList {
 };
 
 enum class ArrivalEffect : std::uint8_t {
-  kIncomplete,   // stored; fragments still missing
-  kCompleted,    // the list is complete now and readable
-  kDuplicate,    // this fragment of this sequence was there already (second channel, or repetition)
-  kTorn,         // stored, incomplete; it displaced an incomplete list, which is lost: torn()
-  kStale,        // of a list older than the newest begun (L2); ignored
-  kMalformed,    // values that no sender of this layout produces (L4); ignored
+  kIncomplete,  // stored; fragments still missing
+  kCompleted,   // the list is complete now and readable
+  kDuplicate,   // this fragment of this sequence was there already (second channel, or repetition)
+  kTorn,        // stored, incomplete; it displaced an incomplete list, which is lost: torn()
+  kStale,       // of a list older than the newest begun (L2); ignored
+  kMalformed,   // values that no sender of this layout produces (L4); ignored
 };
 
 // The receiving side: collects fragments in any order, from one or two channels, and offers the newest complete list.
@@ -102,7 +103,7 @@ class IncomingList {
   int collecting_count_ = 0, collecting_fragments_ = 0, collecting_present_ = 0, complete_fragments_ = 0;
   std::optional<std::uint32_t> torn_;
   bool collecting_ = false, complete_ = false, read_ = false;
-  std::uint32_t stale_raw_ = 0;   // of the newest of the stale lists in a row
+  std::uint32_t stale_raw_ = 0;  // of the newest of the stale lists in a row
   int stale_lists_ = 0;
 };
 

@@ -22,9 +22,9 @@ inline constexpr std::size_t kMaxNetworkManagementBytes = 12;
 
 class NetworkManagement {
  public:
-  explicit NetworkManagement(int length);   // gNetworkManagementVectorLength, 0..12 bytes
+  explicit NetworkManagement(int length);  // gNetworkManagementVectorLength, 0..12 bytes
 
-  void reset();                                         // nothing has been heard; the own vector stays
+  void reset();  // nothing has been heard; the own vector stays
   // What this node says from its next frame on; zeros before. Exactly as long as the vector.
   void set_own(std::span<const std::byte> vector);
   std::span<const std::byte> own() const { return std::span(own_).first(length_); }

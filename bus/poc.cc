@@ -70,8 +70,8 @@ bool listen_timer_follows_channels(PocKind kind) {
 }
 
 bool corrects_clock(PocKind kind) {
-  return has_schedule(kind) && kind != PocKind::kInitialiseSchedule &&
-         kind != PocKind::kColdstartCollisionResolution && kind != PocKind::kColdstartGap;
+  return has_schedule(kind) && kind != PocKind::kInitialiseSchedule && kind != PocKind::kColdstartCollisionResolution &&
+         kind != PocKind::kColdstartGap;
 }
 
 }  // namespace ttf::bus

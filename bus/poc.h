@@ -71,12 +71,24 @@ enum class PocKind : std::uint8_t {
   kInitialiseSchedule = 0x29,
 };
 inline constexpr std::array kAllPocKinds = {
-    PocKind::kDefaultConfig, PocKind::kConfig, PocKind::kReady,
-    PocKind::kWakeupListen, PocKind::kWakeupSend, PocKind::kWakeupDetect,
-    PocKind::kColdstartListen, PocKind::kColdstartCollisionResolution, PocKind::kColdstartConsistencyCheck,
-    PocKind::kColdstartGap, PocKind::kIntegrationListen, PocKind::kInitialiseSchedule,
-    PocKind::kIntegrationColdstartCheck, PocKind::kColdstartJoin, PocKind::kIntegrationConsistencyCheck,
-    PocKind::kNormalActive, PocKind::kNormalPassive, PocKind::kHalt,
+    PocKind::kDefaultConfig,
+    PocKind::kConfig,
+    PocKind::kReady,
+    PocKind::kWakeupListen,
+    PocKind::kWakeupSend,
+    PocKind::kWakeupDetect,
+    PocKind::kColdstartListen,
+    PocKind::kColdstartCollisionResolution,
+    PocKind::kColdstartConsistencyCheck,
+    PocKind::kColdstartGap,
+    PocKind::kIntegrationListen,
+    PocKind::kInitialiseSchedule,
+    PocKind::kIntegrationColdstartCheck,
+    PocKind::kColdstartJoin,
+    PocKind::kIntegrationConsistencyCheck,
+    PocKind::kNormalActive,
+    PocKind::kNormalPassive,
+    PocKind::kHalt,
 };
 
 // What the media access may send.
@@ -87,24 +99,30 @@ enum class SlotMode : std::uint8_t { kKeySlotOnly = 0, kAllPending = 2, kAll = 3
 
 // How the last wake-up ended (E-Ray CCSV.WSV).
 enum class WakeupStatus : std::uint8_t {
-  kUndefined, kReceivedHeader, kReceivedPattern, kCollisionHeader, kCollisionPattern, kCollisionUnknown, kTransmitted
+  kUndefined,
+  kReceivedHeader,
+  kReceivedPattern,
+  kCollisionHeader,
+  kCollisionPattern,
+  kCollisionUnknown,
+  kTransmitted
 };
 
 // What the odd cycle's clock correction gave, until the next cycle start uses it.
 enum class ClockVerdict : std::uint8_t { kNone, kInOrder, kTermMissing, kLimitExceeded };
 
-inline constexpr int kMaxClockCorrectionFailed = 15;   // where the counter stops (R8)
+inline constexpr int kMaxClockCorrectionFailed = 15;  // where the counter stops (R8)
 
 struct PocParameters {
-  bool pKeySlotUsedForStartup = false;   // a coldstart node
+  bool pKeySlotUsedForStartup = false;  // a coldstart node
   bool pKeySlotOnlyEnabled = false;
   int gColdStartAttempts = 8;
-  int gMaxWithoutClockCorrectionPassive = 2;   // [double cycles]
-  int gMaxWithoutClockCorrectionFatal = 4;     // [double cycles]
-  int pAllowPassiveToActive = 0;               // [double cycles], 0: never
+  int gMaxWithoutClockCorrectionPassive = 2;  // [double cycles]
+  int gMaxWithoutClockCorrectionFatal = 4;    // [double cycles]
+  int pAllowPassiveToActive = 0;              // [double cycles], 0: never
   bool pAllowHaltDueToClock = false;
-  int pdListenTimeout = 0;                     // [uT]
-  int gListenNoise = 2;                        // factor on pdListenTimeout
+  int pdListenTimeout = 0;  // [uT]
+  int gListenNoise = 2;     // factor on pdListenTimeout
 
   Microticks listen_timeout() const { return {pdListenTimeout}; }
   Microticks noise_timeout() const { return listen_timeout() * gListenNoise; }
@@ -115,19 +133,19 @@ PocParameters poc_parameters(const schedules::GlobalParameters& global, const sc
 struct PocState {
   PocKind kind = PocKind::kDefaultConfig;
   int vRemainingColdstartAttempts = 0;
-  bool vColdstartInhibit = true;         // set by READY, cleared by ALLOW_COLDSTART
+  bool vColdstartInhibit = true;  // set by READY, cleared by ALLOW_COLDSTART
   SlotMode slot_mode = SlotMode::kAll;
-  int reference = 0;                     // frame id of the node whose schedule was taken, 0: none
-  int cycles = 0;                        // whole cycles begun in this state of start-up
-  int good_double_cycles = 0;            // consecutive, in integration consistency check
+  int reference = 0;           // frame id of the node whose schedule was taken, 0: none
+  int cycles = 0;              // whole cycles begun in this state of start-up
+  int good_double_cycles = 0;  // consecutive, in integration consistency check
   ClockVerdict clock = ClockVerdict::kNone;
   int vClockCorrectionFailed = 0;
-  int vAllowPassiveToActive = 0;         // good double cycles since passive, consecutive
-  bool halt_requested = false;           // vPOC!CHIHaltRequest
+  int vAllowPassiveToActive = 0;  // good double cycles since passive, consecutive
+  bool halt_requested = false;    // vPOC!CHIHaltRequest
   bool ready_requested = false;
-  bool frozen = false;                   // vPOC!Freeze: halted by FREEZE or a fatal error
-  bool coldstart_noise = false;          // vPOC!ColdstartNoise: the noise timer started the cluster
-  PocKind halted_from = PocKind::kDefaultConfig;   // E-Ray CCSV.PSL
+  bool frozen = false;                            // vPOC!Freeze: halted by FREEZE or a fatal error
+  bool coldstart_noise = false;                   // vPOC!ColdstartNoise: the noise timer started the cluster
+  PocKind halted_from = PocKind::kDefaultConfig;  // E-Ray CCSV.PSL
   WakeupStatus wakeup_status = WakeupStatus::kUndefined;
 
   bool operator==(const PocState&) const = default;
@@ -144,8 +162,8 @@ enum class PocAction : std::uint8_t {
   kStopListenTimer = 8,
   kRestartNoiseTimer = 16,  // noise_timeout()
   kSendWakeupPattern = 32,
-  kSendCas = 64,            // and begin cycle 0 of an own schedule behind it
-  kDeriveSchedule = 128,    // from the startup frame just received (PocState::reference)
+  kSendCas = 64,          // and begin cycle 0 of an own schedule behind it
+  kDeriveSchedule = 128,  // from the startup frame just received (PocState::reference)
 };
 
 class PocActions {
@@ -154,7 +172,10 @@ class PocActions {
   constexpr PocActions(PocAction action) : bits_(static_cast<std::uint8_t>(action)) {}
   constexpr bool has(PocAction action) const { return (bits_ & static_cast<std::uint8_t>(action)) != 0; }
   constexpr bool empty() const { return bits_ == 0; }
-  constexpr PocActions& operator|=(PocActions other) { bits_ |= other.bits_; return *this; }
+  constexpr PocActions& operator|=(PocActions other) {
+    bits_ |= other.bits_;
+    return *this;
+  }
   friend constexpr PocActions operator|(PocActions a, PocActions b) { return a |= b; }
   constexpr bool operator==(const PocActions&) const = default;
 
@@ -165,8 +186,8 @@ class PocActions {
 struct PocStep {
   PocState next;
   PocActions actions;
-  PocReason reason{};                            // of the step
-  PocReason consequence = PocReason::kNone;      // of entering a listen state: which one, and why that one
+  PocReason reason{};                        // of the step
+  PocReason consequence = PocReason::kNone;  // of entering a listen state: which one, and why that one
 };
 
 // The state after power-on.
@@ -180,9 +201,7 @@ constexpr bool in_startup(PocKind kind) {
   return kind >= PocKind::kColdstartListen && kind <= PocKind::kInitialiseSchedule;
 }
 // Whether the clock is the cluster's.
-constexpr bool in_operation(PocKind kind) {
-  return kind == PocKind::kNormalActive || kind == PocKind::kNormalPassive;
-}
+constexpr bool in_operation(PocKind kind) { return kind == PocKind::kNormalActive || kind == PocKind::kNormalPassive; }
 // Whether a schedule is derived or runs, that is whether cycle starts can come.
 bool has_schedule(PocKind kind);
 // Whether the listen timer runs only while all channels are idle, and begins anew whenever they are so again: elsewhere

@@ -17,7 +17,7 @@ PocStep gap(const Now& now) {
 
 PocStep attempt_coldstart(const Now& now, PocReason why) {
   PocStep step = enter(now, PocKind::kColdstartCollisionResolution, why, PocAction::kSendCas);
-  --step.next.vRemainingColdstartAttempts;   // listening needs more than one, so at least one stays
+  --step.next.vRemainingColdstartAttempts;  // listening needs more than one, so at least one stays
   step.next.coldstart_noise = why == PocReason::kColdstartAfterNoise;
   return step;
 }
@@ -34,7 +34,7 @@ PocStep resolution_cycle(const Now& now) {
 }
 
 PocStep consistency_cycle(const Now& now) {
-  if (now.state.cycles == 1) {   // cycle 4 has ended
+  if (now.state.cycles == 1) {  // cycle 4 has ended
     if (now.event.ended.frames == 0) return gap(now);
     PocStep step = stay(now, PocReason::kSomebodyJoined);
     step.next.cycles = 2;

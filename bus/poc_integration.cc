@@ -33,8 +33,9 @@ PocStep allow_coldstart_listening(const Now& now) {
 PocStep second_frame(const Now& now) {
   if (now.event.frame_id != now.state.reference || now.event.cycle % 2 == 0)
     return ignore(now, PocReason::kOddFrameAwaited);
-  return enter(now, now.parameters.pKeySlotUsedForStartup ? PocKind::kIntegrationColdstartCheck
-                                                          : PocKind::kIntegrationConsistencyCheck,
+  return enter(now,
+               now.parameters.pKeySlotUsedForStartup ? PocKind::kIntegrationColdstartCheck
+                                                     : PocKind::kIntegrationConsistencyCheck,
                PocReason::kScheduleDerived);
 }
 
@@ -46,7 +47,7 @@ PocStep note_clock_of_whole_cycles(const Now& now) {
 PocStep coldstart_check_cycle(const Now& now) {
   const StartupFramesSeen& ended = now.event.ended;
   if (now.state.cycles == 0) return begin_check(now);
-  if (now.state.cycles == 1)   // the even cycle has ended
+  if (now.state.cycles == 1)  // the even cycle has ended
     return enough_frames(ended) ? one_more_cycle(now, PocReason::kReferenceFrameSeen)
                                 : listen(now, PocReason::kReferenceFrameLost);
   if (!enough_pairs(ended)) return listen(now, PocReason::kReferencePairLost);
@@ -60,7 +61,7 @@ PocStep coldstart_check_cycle(const Now& now) {
 // Its own frame does not count: the leading node's at least is there. Cycles 4, 5, 6 are 1, 2, 3 here.
 PocStep join_cycle(const Now& now) {
   const StartupFramesSeen& ended = now.event.ended;
-  if (now.state.cycles == 2) {   // a double cycle has ended
+  if (now.state.cycles == 2) {  // a double cycle has ended
     if (ended.pairs == 0) return listen(now, PocReason::kJoinedAlone);
     if (const PocReason objection = clock_objection(now.state); objection != PocReason::kNone)
       return listen(now, objection);

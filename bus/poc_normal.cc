@@ -77,9 +77,9 @@ PocStep passive_cycle(const Now& now) {
   PocStep step = next_cycle(now, PocReason::kStaysPassive);
   const PocParameters& p = now.parameters;
   switch (now.state.clock) {
-    case ClockVerdict::kNone: return step;   // an even cycle has ended
+    case ClockVerdict::kNone: return step;  // an even cycle has ended
     case ClockVerdict::kInOrder:
-      if (p.pAllowPassiveToActive == 0) return step;   // never
+      if (p.pAllowPassiveToActive == 0) return step;  // never
       if (++step.next.vAllowPassiveToActive < p.pAllowPassiveToActive) return step;
       return become(step, PocKind::kNormalActive, PocReason::kBackToActive);
     case ClockVerdict::kTermMissing:

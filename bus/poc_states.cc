@@ -25,9 +25,7 @@ PocStep enter(const Now& now, PocKind kind, PocReason why, PocActions actions) {
   return step;
 }
 
-PocStep power_on(const Now& now) {
-  return {poc_power_on(now.parameters), {}, PocReason::kPowerOn, PocReason::kNone};
-}
+PocStep power_on(const Now& now) { return {poc_power_on(now.parameters), {}, PocReason::kPowerOn, PocReason::kNone}; }
 
 PocStep ready(const Now& now, PocReason why) {
   PocStep step = enter(now, PocKind::kReady, why);
@@ -74,8 +72,7 @@ PocStep listen_with(const PocParameters& parameters, PocStep step) {
 
 PocStep derive_schedule(const Now& now) {
   if (now.event.cycle % 2 != 0) return ignore(now, PocReason::kEvenFrameAwaited);
-  PocStep step =
-      enter(now, PocKind::kInitialiseSchedule, PocReason::kStartupFrameHeard, PocAction::kDeriveSchedule);
+  PocStep step = enter(now, PocKind::kInitialiseSchedule, PocReason::kStartupFrameHeard, PocAction::kDeriveSchedule);
   step.next.reference = now.event.frame_id;
   return step;
 }

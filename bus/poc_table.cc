@@ -19,8 +19,7 @@ constexpr std::size_t position(PocKind kind) {
 }
 constexpr std::size_t position(PocEventKind kind) { return static_cast<std::size_t>(kind); }
 
-template <class Kind>
-class SetOf {
+template <class Kind> class SetOf {
  public:
   constexpr SetOf(Kind one) : SetOf({one}) {}
   constexpr SetOf(std::initializer_list<Kind> some) {
@@ -59,20 +58,19 @@ constexpr States kChecking{K::kColdstartConsistencyCheck, K::kIntegrationColdsta
 
 // ---- answers that are said in full by their arguments
 
-template <PocReason why>
-PocStep ignores(const Now& now) { return ignore(now, why); }
+template <PocReason why> PocStep ignores(const Now& now) { return ignore(now, why); }
 
-template <PocReason why, PocAction action>
-PocStep stays(const Now& now) { return stay(now, why, action); }
+template <PocReason why, PocAction action> PocStep stays(const Now& now) { return stay(now, why, action); }
 
-template <PocKind kind, PocReason why, PocAction... actions>
-PocStep enters(const Now& now) { return enter(now, kind, why, (PocActions() | ... | PocActions(actions))); }
+template <PocKind kind, PocReason why, PocAction... actions> PocStep enters(const Now& now) {
+  return enter(now, kind, why, (PocActions() | ... | PocActions(actions)));
+}
 
-template <PocStep (*step)(const Now&, PocReason), PocReason why>
-PocStep does(const Now& now) { return step(now, why); }
+template <PocStep (*step)(const Now&, PocReason), PocReason why> PocStep does(const Now& now) { return step(now, why); }
 
-template <WakeupStatus status, PocReason why>
-PocStep ends_wakeup(const Now& now) { return end_wakeup(now, status, why); }
+template <WakeupStatus status, PocReason why> PocStep ends_wakeup(const Now& now) {
+  return end_wakeup(now, status, why);
+}
 
 // ---- the table
 
@@ -177,7 +175,8 @@ constexpr Rule kRules[] = {
     {States{K::kIntegrationListen, K::kInitialiseSchedule} | kNormal, E::kHeaderReceived,
      ignores<R::kHeaderWithoutMeaning>},
     {kNormal, E::kStartupFrame, ignores<R::kHeaderWithoutMeaning>},
-    {{K::kWakeupListen, K::kWakeupDetect, K::kColdstartCollisionResolution, K::kColdstartGap}, E::kStartupFrame,
+    {{K::kWakeupListen, K::kWakeupDetect, K::kColdstartCollisionResolution, K::kColdstartGap},
+     E::kStartupFrame,
      ignores<R::kHeaderCameFirst>},
 
     // What the controller tells only where it has been set going.
@@ -186,7 +185,8 @@ constexpr Rule kRules[] = {
     // The listen timer alone bounds the search for what collided with the pattern.
     {States{K::kWakeupSend, K::kWakeupDetect, K::kIntegrationListen} | kDeaf | kLeading | kFollowing | kNormal,
      E::kNoiseTimeout, ignores<R::kNoTimerRunning>},
-    {States{K::kWakeupListen, K::kWakeupDetect} | kDeaf | kStarting | kNormal, {E::kWakeupSent, E::kWakeupCollision},
+    {States{K::kWakeupListen, K::kWakeupDetect} | kDeaf | kStarting | kNormal,
+     {E::kWakeupSent, E::kWakeupCollision},
      ignores<R::kNotSendingWakeup>},
     {States{K::kIntegrationColdstartCheck, K::kColdstartJoin, K::kIntegrationConsistencyCheck} | kDeaf | kWaking |
          kListening | kLeading | kNormal,
@@ -203,8 +203,8 @@ static_assert(kStateCount <= 32 && kEventCount <= 32, "sets have 32 bits");
 
 struct Table {
   std::array<std::array<Answer, kEventCount>, kStateCount> answers{};
-  int pairs = 0;           // listed
-  bool twice = false;      // one of them more than once
+  int pairs = 0;       // listed
+  bool twice = false;  // one of them more than once
 };
 
 constexpr Table made_of(const auto& rules) {

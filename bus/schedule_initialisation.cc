@@ -33,12 +33,10 @@ std::optional<InitialSchedule> ScheduleInitialisation::hear(const StartupFrame& 
   const std::int64_t macroticks =
       static_cast<std::int64_t>(frame.frame_id - 1) * flexray_.gdStaticSlot + flexray_.gdActionPointOffset;
   const std::int64_t length = node_.pMicroPerCycle + rate;
-  const std::int64_t into_cycle =
-      (macroticks * length + flexray_.gMacroPerCycle - 1) / flexray_.gMacroPerCycle;
+  const std::int64_t into_cycle = (macroticks * length + flexray_.gMacroPerCycle - 1) / flexray_.gMacroPerCycle;
   const int compensation =
       frame.channel == schedules::Channel::kA ? node_.pDelayCompensationA : node_.pDelayCompensationB;
-  return InitialSchedule{frame.frame_id, frame.cycle, frame.start - Microticks{into_cycle + compensation},
-                         rate};
+  return InitialSchedule{frame.frame_id, frame.cycle, frame.start - Microticks{into_cycle + compensation}, rate};
 }
 
 }  // namespace ttf::bus

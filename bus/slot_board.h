@@ -22,14 +22,12 @@ class SlotBoard {
  public:
   // Of one slot, by channel.
   struct Seen {
-    std::array<bool, 2> valid{};            // a valid frame
-    std::array<bool, 2> element{};          // a communication element has begun in it
-    std::array<std::uint8_t, 2> errors{};   // SlotStatus
+    std::array<bool, 2> valid{};           // a valid frame
+    std::array<bool, 2> element{};         // a communication element has begun in it
+    std::array<std::uint8_t, 2> errors{};  // SlotStatus
 
     bool nothing(std::size_t channel) const { return !element[channel] && errors[channel] == 0; }
-    bool nothing() const {
-      return (std::bit_cast<std::uint16_t>(element) | std::bit_cast<std::uint16_t>(errors)) == 0;
-    }
+    bool nothing() const { return (std::bit_cast<std::uint16_t>(element) | std::bit_cast<std::uint16_t>(errors)) == 0; }
   };
 
   // Static slots 1..`slots`.
@@ -54,7 +52,7 @@ class SlotBoard {
     begin_count();
   }
   void end_segment() {
-    seen_.swap(kept_);                      // so noted_ is kept_'s
+    seen_.swap(kept_);  // so noted_ is kept_'s
     under_way_ = false;
   }
 
@@ -99,11 +97,11 @@ class SlotBoard {
     only_pairs_ = true;
   }
 
-  std::vector<Seen> seen_, kept_;           // by slot - 1
-  Seen* noted_;                             // begin of the one that at() is of
+  std::vector<Seen> seen_, kept_;  // by slot - 1
+  Seen* noted_;                    // begin of the one that at() is of
   bool under_way_ = false;
-  int pairs_ = 0;                           // slots that hear_b() was told of
-  bool only_pairs_ = true;                  // nobody else has touched any
+  int pairs_ = 0;           // slots that hear_b() was told of
+  bool only_pairs_ = true;  // nobody else has touched any
 };
 
 }  // namespace ttf::bus

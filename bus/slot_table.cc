@@ -31,8 +31,10 @@ SlotTable::SlotTable(const schedules::Cluster& cluster, NodeId node) {
   for (std::size_t counter = 0; counter < pairs_.size(); ++counter)
     for (int slot = 1; slot <= cluster.flexray.gNumberOfStaticSlots && pairs_[counter] >= 0; ++slot) {
       const auto sent = expected(slot, static_cast<int>(counter));
-      if ((sent[0] == nullptr) != (sent[1] == nullptr)) pairs_[counter] = -1;
-      else if (sent[0] != nullptr) ++pairs_[counter];
+      if ((sent[0] == nullptr) != (sent[1] == nullptr))
+        pairs_[counter] = -1;
+      else if (sent[0] != nullptr)
+        ++pairs_[counter];
     }
   for (auto& own : own_dynamic_) std::stable_sort(own.begin(), own.end(), by_slot);
 }

@@ -1,4 +1,5 @@
-// Which frame belongs in which slot, as one node sees it. Slots 1..gNumberOfStaticSlots are static, those above dynamic.
+// Which frame belongs in which slot, as one node sees it. Slots 1..gNumberOfStaticSlots are static, those above
+// dynamic.
 #pragma once
 
 #include <array>
@@ -47,21 +48,21 @@ class SlotTable {
  private:
   std::array<const schedules::FrameSlot*, 2> expected_by_cycle(int slot, int counter) const;
   std::vector<const schedules::FrameSlot*> own_static_;
-  std::array<std::vector<const schedules::FrameSlot*>, 2> own_dynamic_;      // by channel
+  std::array<std::vector<const schedules::FrameSlot*>, 2> own_dynamic_;  // by channel
   std::span<const schedules::FrameSlot* const> others_in(int slot) const {
     if (slot < 1 || static_cast<std::size_t>(slot) >= first_.size()) return {};
     const auto s = static_cast<std::size_t>(slot);
     return {others_.data() + first_[s - 1], others_.data() + first_[s]};
   }
-  std::vector<const schedules::FrameSlot*> others_;                          // what other nodes send, by slot
-  std::vector<std::size_t> first_;                                           // by slot - 1, where it begins in others_
+  std::vector<const schedules::FrameSlot*> others_;  // what other nodes send, by slot
+  std::vector<std::size_t> first_;                   // by slot - 1, where it begins in others_
   // What is expected of a slot where that is the same in every cycle.
   struct Steady {
     bool every_cycle = true;
-    std::array<const schedules::FrameSlot*, 2> frames{};                     // by channel
+    std::array<const schedules::FrameSlot*, 2> frames{};  // by channel
   };
-  std::vector<Steady> steady_;                                               // by slot - 1
-  std::vector<int> pairs_;                                                   // by counter
+  std::vector<Steady> steady_;  // by slot - 1
+  std::vector<int> pairs_;      // by counter
 };
 
 using schedules::in_cycle;

@@ -15,12 +15,13 @@ class SyncCollector {
   // sync_node_max: gSyncNodeMax; further sync frames of a cycle are not used.
   explicit SyncCollector(int sync_node_max) : sync_node_max_(sync_node_max) {}
 
-  void reset();                      // nothing of the past counts
+  void reset();  // nothing of the past counts
   void start_cycle(int counter);
   // This node's own sync frame leaves on these channels: it is exactly where it is expected.
   void own(int frame_id, schedules::Channels channels);
-  // A valid sync frame of another node, on one channel or both; `deviation` [uT], by channel: observed minus expected start.
-  // `startup`: it is a startup frame, near enough on one of them to count as one during start-up (pdAcceptedStartupRange).
+  // A valid sync frame of another node, on one channel or both; `deviation` [uT], by channel: observed minus expected
+  // start. `startup`: it is a startup frame, near enough on one of them to count as one during start-up
+  // (pdAcceptedStartupRange).
   void heard(int frame_id, schedules::Channels channels, const std::array<int, 2>& deviation, bool startup);
 
   const timebase::SyncMeasurements& measurements() const { return measurements_; }
@@ -41,8 +42,8 @@ class SyncCollector {
   int sync_node_max_;
   bool even_ = true;
   timebase::SyncMeasurements measurements_;
-  std::array<int, 2> valid_{};       // by channel
-  std::array<Ids, 2> startup_;       // of the double cycle's even and odd cycle
+  std::array<int, 2> valid_{};  // by channel
+  std::array<Ids, 2> startup_;  // of the double cycle's even and odd cycle
 };
 
 }  // namespace ttf::bus

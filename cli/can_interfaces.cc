@@ -28,9 +28,8 @@ std::map<std::string, std::string> interfaces_by_name(const schedules::Cluster& 
     if (std::ranges::find(cluster.can_buses, name, &schedules::CanBus::name) == cluster.can_buses.end()) {
       std::vector<std::string> names;
       for (const schedules::CanBus& bus : cluster.can_buses) names.push_back(bus.name);
-      throw refused(option,
-                    fmt::format("must name a CAN of {}: {}", cluster.file,
-                                names.empty() ? "it has none" : fmt::format("{}", fmt::join(names, ", "))));
+      throw refused(option, fmt::format("must name a CAN of {}: {}", cluster.file,
+                                        names.empty() ? "it has none" : fmt::format("{}", fmt::join(names, ", "))));
     }
     if (!named.emplace(name, interface).second) throw refused(option, "must be given once for each CAN");
   }
@@ -43,8 +42,7 @@ std::vector<std::string> can_interfaces(const schedules::Cluster& cluster, const
                                         const std::vector<std::string>& given) {
   if (bus.kind != launch::BusKind::kSocketCan) {
     if (!given.empty())
-      throw refused(given.front(),
-                    "goes with --bus socketcan:IF[,IF] only: elsewhere private CANs have no interfaces");
+      throw refused(given.front(), "goes with --bus socketcan:IF[,IF] only: elsewhere private CANs have no interfaces");
     return {};
   }
   const auto named = interfaces_by_name(cluster, given);
@@ -56,10 +54,9 @@ std::vector<std::string> can_interfaces(const schedules::Cluster& cluster, const
     const auto own = named.find(can.name);
     const std::string interface = own == named.end() ? can.name : own->second;
     if (!launch::is_interface_name(interface))
-      throw InputError(
-          {cluster.file, can.line, fmt::format("can.{}", can.name), "",
-           fmt::format("needs --can NAME=IF on SocketCAN, as its own name is none of an interface ({})",
-                       launch::kInterfaceNames)});
+      throw InputError({cluster.file, can.line, fmt::format("can.{}", can.name), "",
+                        fmt::format("needs --can NAME=IF on SocketCAN, as its own name is none of an interface ({})",
+                                    launch::kInterfaceNames)});
     if (const auto [user, only] = users.emplace(interface, can.name); !only)
       throw refused(fmt::format("{}={}", can.name, interface),
                     fmt::format("must be another interface than that of {}", user->second));
@@ -68,8 +65,7 @@ std::vector<std::string> can_interfaces(const schedules::Cluster& cluster, const
   return interfaces;
 }
 
-std::vector<std::string> can_options(const schedules::Cluster& cluster,
-                                     const std::vector<std::string>& interfaces) {
+std::vector<std::string> can_options(const schedules::Cluster& cluster, const std::vector<std::string>& interfaces) {
   std::vector<std::string> options;
   for (std::size_t i = 0; i < interfaces.size(); ++i)
     options.insert(options.end(), {"--can", fmt::format("{}={}", cluster.can_buses[i].name, interfaces[i])});

@@ -17,8 +17,7 @@ std::vector<std::string> can_interfaces(const schedules::Cluster& cluster, const
                                         const std::vector<std::string>& given);
 
 // --can options that give these interfaces again.
-std::vector<std::string> can_options(const schedules::Cluster& cluster,
-                                     const std::vector<std::string>& interfaces);
+std::vector<std::string> can_options(const schedules::Cluster& cluster, const std::vector<std::string>& interfaces);
 
 // What the preflight looks at.
 std::vector<launch::PrivateCan> private_cans(const schedules::Cluster& cluster,

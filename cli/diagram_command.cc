@@ -201,7 +201,8 @@ void add_diagram(CLI::App& app, Action& action) {
       ->add_option("--kind", options->kind,
                    "timing, startup (states and what was sent), lateness (of wake-ups, in real time), "
                    "position (x and y over time), plane (y over x), or boxes (of a recorded laser scan)")
-      ->check(CLI::IsMember({"timing", "startup", "lateness", "position", "plane", "boxes"}))->capture_default_str();
+      ->check(CLI::IsMember({"timing", "startup", "lateness", "position", "plane", "boxes"}))
+      ->capture_default_str();
   command->add_option("--frame", options->frame, "Which scan of a recording, with --kind boxes")
       ->check(CLI::NonNegativeNumber);
   command->add_option("-o,--out", options->out, "Picture to write: .svg, .png or .pdf")->required();

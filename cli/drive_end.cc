@@ -36,16 +36,16 @@ DriveEnd drive_end(const std::vector<NodeAtEnd>& nodes) {
 std::string DriveEnd::sentence() const {
   if (absent.empty()) return "";
   std::vector<std::string> names;
-  std::vector<std::pair<std::string, std::vector<std::string>>> by_state;   // in the order of their first nodes
+  std::vector<std::pair<std::string, std::vector<std::string>>> by_state;  // in the order of their first nodes
   for (const Absent& one : absent) {
     names.push_back(one.name);
     auto same = std::ranges::find(by_state, one.state, &std::pair<std::string, std::vector<std::string>>::first);
     if (same == by_state.end()) same = by_state.insert(by_state.end(), {one.state, {}});
     same->second.push_back(one.name);
   }
-  std::string text = nobody ? "nobody was in operation at the end: "
-                            : fmt::format("{} {} not in operation at the end: ", joined(names),
-                                          names.size() == 1 ? "was" : "were");
+  std::string text =
+      nobody ? "nobody was in operation at the end: "
+             : fmt::format("{} {} not in operation at the end: ", joined(names), names.size() == 1 ? "was" : "were");
   if (by_state.size() == 1) return text + by_state.front().first;
   for (const auto& [state, who] : by_state)
     text += fmt::format("{}{} ({})", state == by_state.front().first ? "" : "; ", state, joined(who));
@@ -62,9 +62,7 @@ std::vector<std::string> states_at_end(const schedules::Cluster& cluster, bool c
                                        const std::vector<experiments::NodeStartup>& changes) {
   std::vector<std::string> states;
   for (const schedules::Node& node : cluster.nodes)
-    states.emplace_back(!node.flexray ? ""
-                        : cold        ? "not powered on"
-                                      : bus::to_text(bus::PocKind::kNormalActive));
+    states.emplace_back(!node.flexray ? "" : cold ? "not powered on" : bus::to_text(bus::PocKind::kNormalActive));
   for (const experiments::NodeStartup& node : changes)
     if (cluster.node(node.node).flexray && !node.state.empty()) states[index_of(node.node)] = node.state;
   return states;

@@ -16,17 +16,17 @@ namespace ttf::cli {
 struct NodeAtEnd {
   std::string name;
   bool on_flexray = false;
-  std::optional<launch::Ending> ending;   // of its last process; nothing: it had none
-  std::string state;                      // of its controller, the last that is known; off FlexRay nobody asks
+  std::optional<launch::Ending> ending;  // of its last process; nothing: it had none
+  std::string state;                     // of its controller, the last that is known; off FlexRay nobody asks
 };
 
 struct DriveEnd {
   struct Absent {
-    std::string name, state;   // or how its process ended, where that was not well
+    std::string name, state;  // or how its process ended, where that was not well
   };
   // Those whose process did not end well, and those on FlexRay that were not normal active. In the order given.
   std::vector<Absent> absent;
-  bool nobody = false;   // of those on FlexRay was in operation
+  bool nobody = false;  // of those on FlexRay was in operation
 
   // "a, b were not in operation at the end: integration listen"; empty where all were.
   std::string sentence() const;
@@ -43,8 +43,8 @@ class EndWatch {
  public:
   explicit EndWatch(std::size_t nodes) : endings_(nodes) {}
 
-  launch::Hooks around(launch::Hooks hooks);   // which are called as ever; outlives them
-  bool begun() const { return begun_; }        // all were ready, or all that had to be
+  launch::Hooks around(launch::Hooks hooks);  // which are called as ever; outlives them
+  bool begun() const { return begun_; }       // all were ready, or all that had to be
   // With the states of their controllers.
   std::vector<NodeAtEnd> nodes(const schedules::Cluster& cluster, const std::vector<std::string>& states) const;
 

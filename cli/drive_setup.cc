@@ -104,11 +104,8 @@ std::string folder_of(const nodes::Scenario& scenario) {
 }
 
 DriveJudge::DriveJudge(const nodes::Scenario& scenario, const schedules::Cluster& cluster)
-    : scenario_(scenario),
-      cluster_(cluster),
-      plan_(nodes::resolve(scenario.faults, cluster)),
-      measures_(sim::evaluation_start(scenario)),
-      startup_(cluster.cycle()),
+    : scenario_(scenario), cluster_(cluster), plan_(nodes::resolve(scenario.faults, cluster)),
+      measures_(sim::evaluation_start(scenario)), startup_(cluster.cycle()),
       faults_(cluster, plan_, !scenario.startup.cold) {}
 
 std::vector<records::Sink*> DriveJudge::sinks() {

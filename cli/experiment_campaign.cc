@@ -22,7 +22,7 @@ using experiments::CampaignFile;
 using experiments::Coverage;
 using experiments::FaultResult;
 
-constexpr std::size_t kShownHarms = 40;   // the others are in the results' table
+constexpr std::size_t kShownHarms = 40;  // the others are in the results' table
 
 std::uint32_t fault_of(const std::string& text, const CampaignFile& campaign) {
   std::uint32_t fault = 0;
@@ -61,8 +61,10 @@ nlohmann::ordered_json to_json(const Coverage& coverage, Duration cycle) {
                               {"guardian_and_two_channels", coverage.guarded},
                               {"harmed_in_hypothesis", coverage.harmed_in_hypothesis}};
   for (const experiments::ClassCoverage& row : coverage.classes) {
-    nlohmann::ordered_json one{{"class", nodes::name_of(row.kind)}, {"in_hypothesis", row.in_hypothesis},
-                               {"injected", row.injected},          {"activated", row.activated},
+    nlohmann::ordered_json one{{"class", nodes::name_of(row.kind)},
+                               {"in_hypothesis", row.in_hypothesis},
+                               {"injected", row.injected},
+                               {"activated", row.activated},
                                {"detected", row.detected}};
     for (const experiments::Check check : experiments::kAllChecks)
       one["detected_by"][std::string(name_of(check))] = row.by_check[static_cast<std::size_t>(check)];

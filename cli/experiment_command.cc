@@ -80,11 +80,11 @@ void add_experiment(CLI::App& app, Action& action) {
   command->add_option("--jobs", options->jobs, "Workers (default: one per processor)")->check(CLI::Range(1u, 1024u));
   command->add_option("--replications", options->replications, "As many of every point, whatever the file says")
       ->check(CLI::Range(1u, experiments::kMostReplications));
-  auto* shard = command->add_option("--shard", options->shard,
-                                    "i/n: every n-th fault or replication only, from the i-th on");
+  auto* shard =
+      command->add_option("--shard", options->shard, "i/n: every n-th fault or replication only, from the i-th on");
   auto* merge = command->add_option("--merge", options->merge, "Folders of all shards, whose results are put together");
-  auto* replay = command->add_option("--replay", options->replay,
-                                     "One fault alone, or one run as point/paradigm/replication");
+  auto* replay =
+      command->add_option("--replay", options->replay, "One fault alone, or one run as point/paradigm/replication");
   auto* resume = command->add_flag("--resume", options->resume, "Go on with what --out has already");
   command->add_option("--out", options->out, "Folder for results (a sweep's default: out/<name>)");
   auto* json = command->add_flag("--json", options->json, "The answer as JSON on standard output");

@@ -36,8 +36,8 @@ class ScratchFolder {
  public:
   ScratchFolder() : path_((fs::temp_directory_path() / "ttfusion_XXXXXX").string()) {
     if (::mkdtemp(path_.data()) == nullptr)
-      throw std::runtime_error(fmt::format("{}: cannot be created: {}", path_,
-                                           std::error_code(errno, std::generic_category()).message()));
+      throw std::runtime_error(
+          fmt::format("{}: cannot be created: {}", path_, std::error_code(errno, std::generic_category()).message()));
   }
   ~ScratchFolder() {
     std::error_code none;
@@ -78,12 +78,12 @@ void check_same_experiment(const SweepDrives& drives, const report::ExperimentFo
   std::vector<std::string> names;
   for (const experiments::Paradigm& paradigm : sweep.paradigms) names.push_back(paradigm.name);
   const std::size_t points = sweep.points();
-  const bool all_there = std::ranges::all_of(
-      folder.points, [&](const report::ExperimentPoint& point) { return point.point < points; });
+  const bool all_there =
+      std::ranges::all_of(folder.points, [&](const report::ExperimentPoint& point) { return point.point < points; });
   if (!all_there || head.identity != drives.identity() || head.measures != drives.columns() ||
       names != folder.paradigms)
-    throw NoDrives(fmt::format("{}, or a file that it names, is not as it was when the experiment was driven",
-                               sweep.file));
+    throw NoDrives(
+        fmt::format("{}, or a file that it names, is not as it was when the experiment was driven", sweep.file));
 }
 
 report::Drive driven(const SweepDrives& drives, const results::Run& known) {
@@ -91,7 +91,7 @@ report::Drive driven(const SweepDrives& drives, const results::Run& known) {
   const ScratchFolder scratch;
   if (!same(drive_again(drives, known.key, scratch.path()), known))
     throw NoDrives(fmt::format("{}, driven again, came to other figures than in results.sqlite", paradigm));
-  report::RunFolder folder = report::read_run_folder(scratch.path());   // whose logs are in memory now
+  report::RunFolder folder = report::read_run_folder(scratch.path());  // whose logs are in memory now
   report::Drive drive = std::move(folder.drives.front());
   drive.folder.clear();
   drive.label = paradigm;
@@ -142,8 +142,7 @@ report::ExperimentDrives drives_of(const report::ExperimentFolder& folder, const
     result.drives = all_driven(folder, path, result.point, result.replication);
   } catch (const NoDrives& reason) {
     if (file)
-      throw InputError(
-          {"command line", 0, "--file", *file, std::string("cannot be driven again: ") + reason.what()});
+      throw InputError({"command line", 0, "--file", *file, std::string("cannot be driven again: ") + reason.what()});
     result.why_none = fmt::format("No drive is shown here: {}.", reason.what());
   } catch (const InputError& error) {
     if (file) throw;

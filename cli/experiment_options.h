@@ -19,7 +19,7 @@ struct ExperimentOptions {
   std::vector<std::string> merge;
   std::optional<std::string> replay;
   unsigned jobs = 0;
-  std::uint32_t replications = 0;   // none: as many as the file says
+  std::uint32_t replications = 0;  // none: as many as the file says
   bool resume = false;
   bool json = false;
 };
@@ -31,9 +31,9 @@ enum class ExperimentKind : std::uint8_t { kSweep, kFaultCampaign };
 // Throws InputError.
 ExperimentKind kind_of(const ExperimentOptions& options);
 
-// How many replications are asked for: as many as the option says; without it as many as the folders have been made for that
-// are gone on with or put together, or else as many as the file says. Then `options` says so only where the file does not.
-// Throws InputError.
+// How many replications are asked for: as many as the option says; without it as many as the folders have been made for
+// that are gone on with or put together, or else as many as the file says. Then `options` says so only where the file
+// does not. Throws InputError.
 void settle_replications(ExperimentOptions& options, experiments::SweepFile& sweep);
 
 int run_fault_campaign(const ExperimentOptions& options);

@@ -28,7 +28,7 @@ int run_on_ranks(const ExperimentOptions& given, experiments::Ranks& ranks) {
       throw InputError(
           {options.file, 0, "kind", "fault_campaign", "must be sweep under mpirun: a campaign has --shard"});
     sweep.emplace(experiments::load_sweep(options.file));
-    if (ranks.rank() == 0) settle_replications(options, *sweep);   // the others are told which runs
+    if (ranks.rank() == 0) settle_replications(options, *sweep);  // the others are told which runs
     drives.emplace(*sweep);
   } catch (const InputError& error) {
     mine = std::current_exception();

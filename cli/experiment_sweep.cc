@@ -26,7 +26,7 @@ using experiments::SweepDrives;
 using experiments::SweepFile;
 using results::Store;
 
-constexpr std::size_t kShownFailures = 10;   // the others are in runs.csv
+constexpr std::size_t kShownFailures = 10;  // the others are in runs.csv
 
 std::string folder_of(const ExperimentOptions& options, const SweepFile& sweep) {
   return options.out.empty() ? "out/" + sweep.name : options.out;
@@ -61,9 +61,8 @@ results::RunKey key_of(const std::string& text, const SweepFile& sweep) {
   }
   throw InputError(
       {"command line", 0, "--replay", text,
-       fmt::format(
-           "must be point/paradigm/replication, of points 0..{} and replications 0..{}; paradigms: {}",
-           sweep.points() - 1, sweep.replications - 1, names_of(sweep))});
+       fmt::format("must be point/paradigm/replication, of points 0..{} and replications 0..{}; paradigms: {}",
+                   sweep.points() - 1, sweep.replications - 1, names_of(sweep))});
 }
 
 int replay(const ExperimentOptions& options, const SweepDrives& drives) {
@@ -99,7 +98,8 @@ Store opened(const SweepDrives& drives, const std::string& path) {
 Store store_of(const ExperimentOptions& options, const SweepDrives& drives, const std::string& path) {
   const SweepFile& sweep = drives.sweep();
   if (!std::filesystem::exists(path))
-    return Store::create(path, {sweep.name, drives.identity(), TTF_VERSION, sweep.text, drives.columns(), sweep.replications});
+    return Store::create(
+        path, {sweep.name, drives.identity(), TTF_VERSION, sweep.text, drives.columns(), sweep.replications});
   if (!options.resume)
     throw InputError({path, 0, "", "", "is there already: --resume goes on with it, another --out begins anew"});
   Store store = opened(drives, path);
@@ -147,10 +147,13 @@ nlohmann::ordered_json to_json(const results::Interval& interval) {
 }
 
 nlohmann::ordered_json to_json(const SweepFile& sweep, const experiments::SweepAnswer& answer) {
-  nlohmann::ordered_json json{{"experiment", sweep.name},     {"file", sweep.file},
-                              {"question", sweep.question},   {"seed", sweep.seed},
+  nlohmann::ordered_json json{{"experiment", sweep.name},
+                              {"file", sweep.file},
+                              {"question", sweep.question},
+                              {"seed", sweep.seed},
                               {"confidence", sweep.confidence},
-                              {"runs", answer.runs},          {"failed", answer.failed},
+                              {"runs", answer.runs},
+                              {"failed", answer.failed},
                               {"baseline", sweep.paradigms[sweep.baseline].name},
                               {"answer", experiments::answer_sentences(sweep, answer)}};
   for (const std::string& name : sweep.measures) {
@@ -203,8 +206,8 @@ int drive_and_answer(const ExperimentOptions& options, const SweepDrives& drives
   // All that can be wrong with what is asked for, before anything is written.
   const experiments::Shard shard = shard_of(options.shard);
   if (!options.shard.empty() && sweep.stop)
-    throw InputError({"command line", 0, "--shard", options.shard,
-                      "needs an experiment without `stop`: no shard sees enough"});
+    throw InputError(
+        {"command line", 0, "--shard", options.shard, "needs an experiment without `stop`: no shard sees enough"});
   std::vector<Store> shards;
   for (const std::string& from : options.merge) shards.push_back(opened(drives, store_in(from)));
 

@@ -39,9 +39,10 @@ int export_perfetto(const ExportOptions& options, const recording::MergedLogs& r
   const recording::TraceCounts counts = trace.finish();
   file.finish();
   if (options.json)
-    fmt::print("{{\n  \"format\": \"perfetto\",\n  \"slices\": {},\n  \"instants\": {},\n"
-               "  \"counter_values\": {},\n  \"flows\": {}\n}}\n",
-               counts.slices, counts.instants, counts.counters, counts.flows);
+    fmt::print(
+        "{{\n  \"format\": \"perfetto\",\n  \"slices\": {},\n  \"instants\": {},\n"
+        "  \"counter_values\": {},\n  \"flows\": {}\n}}\n",
+        counts.slices, counts.instants, counts.counters, counts.flows);
   fmt::print(stderr, "{}, {} and {} of measurements written to {}\n", counted(counts.slices, "slice"),
              counted(counts.instants, "instant"), counted(counts.flows, "way"), options.out);
   return 0;

@@ -37,8 +37,7 @@ std::string node_names(const std::vector<NodeId>& nodes, const schedules::Cluste
 constexpr std::string_view kUnattributed = "unattributed";
 
 // Every fault's effects by what it is called in the tables, and last what belongs to none.
-template <class Each>
-void for_each(const FaultFindings& findings, Each each) {
+template <class Each> void for_each(const FaultFindings& findings, Each each) {
   for (const FaultSeen& fault : findings.faults)
     each(fmt::format("{}", fault.fault), fault, std::optional(fault.begins));
   each(std::string(kUnattributed), findings.unattributed, std::optional<TrueTime>());
@@ -103,10 +102,10 @@ std::string harm_words(Harm harm, const HarmSeen& harmed, const schedules::Clust
       harmed.sender == kNoNode ? "" : fmt::format("slot {} of {}", harmed.slot, node_name(harmed.sender, cluster));
   const bool often = harmed.times > 1;
   switch (harm) {
-    case Harm::kFrameLost:   // of whatever slots and senders
-      return often ? fmt::format("{}: {} lost, the first: {} on any channel", node, counted(harmed.times, "frame"),
-                                 where)
-                   : fmt::format("{}: a frame lost: {} on any channel", node, where);
+    case Harm::kFrameLost:  // of whatever slots and senders
+      return often
+                 ? fmt::format("{}: {} lost, the first: {} on any channel", node, counted(harmed.times, "frame"), where)
+                 : fmt::format("{}: a frame lost: {} on any channel", node, where);
     case Harm::kFrameForged:
       return often ? fmt::format("{}: {} of another taken for valid, the first: {}", node,
                                  counted(harmed.times, "frame"), where)
@@ -147,8 +146,11 @@ nlohmann::ordered_json checks_json(const FaultEffects& effects, const schedules:
     for (const bool faulty : {false, true}) {
       const CheckSeen& seen = (faulty ? effects.by_faulty : effects.by_others)[static_cast<std::size_t>(check)];
       if (seen.cycles == 0) continue;
-      nlohmann::ordered_json one = {{"check", name_of(check)}, {"by_faulty_node", faulty}, {"cycles", seen.cycles},
-                                    {"first_s", seconds(seen.first)}, {"nodes", names_json(seen.nodes, cluster)}};
+      nlohmann::ordered_json one = {{"check", name_of(check)},
+                                    {"by_faulty_node", faulty},
+                                    {"cycles", seen.cycles},
+                                    {"first_s", seconds(seen.first)},
+                                    {"nodes", names_json(seen.nodes, cluster)}};
       if (check == experiments::Check::kGuardian) {
         one["guardians"] = nlohmann::ordered_json::array();
         for (const auto channel : schedules::kBothChannels)
@@ -164,12 +166,19 @@ void add_effects(nlohmann::ordered_json& one, const FaultEffects& effects, const
   one["checks"] = checks_json(effects, cluster);
   one["guardians"] = nlohmann::ordered_json::array();
   for (const GuardianSeen& kept : effects.guardians)
-    one["guardians"].push_back({{"what", kept.cut ? "cut" : "blocked"}, {"why", kept.why}, {"signals", kept.signals},
-                                {"first_cycle", kept.first_cycle}, {"first_s", seconds(kept.first)}});
+    one["guardians"].push_back({{"what", kept.cut ? "cut" : "blocked"},
+                                {"why", kept.why},
+                                {"signals", kept.signals},
+                                {"first_cycle", kept.first_cycle},
+                                {"first_s", seconds(kept.first)}});
   one["states"] = nlohmann::ordered_json::array();
   for (const StateSeen& state : effects.states)
-    one["states"].push_back({{"node", node_name(state.node, cluster)}, {"from", state.from}, {"to", state.to},
-                             {"why", state.why}, {"first_s", seconds(state.first)}, {"times", state.times}});
+    one["states"].push_back({{"node", node_name(state.node, cluster)},
+                             {"from", state.from},
+                             {"to", state.to},
+                             {"why", state.why},
+                             {"first_s", seconds(state.first)},
+                             {"times", state.times}});
   one["harmed"] = effects.harmed();
   one["harms"] = nlohmann::ordered_json::array();
   for (const Harm harm : experiments::kAllHarms)

@@ -12,6 +12,10 @@
 #include "cli/drive_end.h"
 #include "cli/drive_setup.h"
 #include "cli/fault_tables.h"
+#include "cli/launch/folder_lock.h"
+#include "cli/launch/run_folder.h"
+#include "cli/launch/signal_watch.h"
+#include "cli/launch/supervisor.h"
 #include "cli/launch_live.h"
 #include "cli/launch_plan.h"
 #include "cli/launch_result.h"
@@ -20,17 +24,13 @@
 #include "cli/real_time_outputs.h"
 #include "cli/run_outputs.h"
 #include "cli/startup_outputs.h"
-#include "cli/launch/folder_lock.h"
-#include "cli/launch/run_folder.h"
-#include "cli/launch/signal_watch.h"
-#include "cli/launch/supervisor.h"
 #include "core/decimal.h"
 
 namespace ttf::cli {
 namespace {
 
 constexpr const char* kSummary = "summary.json";
-constexpr const char* kNotInOperation = "not_in_operation_at_end";   // in there, and in the manifest
+constexpr const char* kNotInOperation = "not_in_operation_at_end";  // in there, and in the manifest
 
 // As it was given.
 std::vector<std::string> command_line() {
@@ -92,8 +92,7 @@ void remove_earlier(const std::optional<launch::EarlierLaunch>& earlier, const L
 }
 
 // `Launch`: LiveLaunch or VirtualLaunch.
-template <class Launch>
-int run_plan(LaunchPlan plan, const LaunchArguments& arguments) {
+template <class Launch> int run_plan(LaunchPlan plan, const LaunchArguments& arguments) {
   nlohmann::ordered_json facts{{"command", command_line()}};
   facts.update(facts_of(plan.set));
   const auto earlier = launch::earlier_launch(plan.set.folder);
@@ -111,14 +110,14 @@ int run_plan(LaunchPlan plan, const LaunchArguments& arguments) {
   const int exit_code = supervisor->run().exit_code;
   const launch::HealthTable health = supervisor->health();
   supervisor.reset();
-  held_back.reset();   // what comes now may be interrupted as ever
+  held_back.reset();  // what comes now may be interrupted as ever
   print_warnings(drive.warnings());
   const std::optional<StrategyResult> result = drive.result(folder.logs());
   const StrategyResult* const told = result ? &*result : nullptr;
   std::optional<DriveEnd> end;
   if (watch.begun()) end = drive_end(watch.nodes(plan.set.cluster, drive.states_at_end(health, told)));
   if (result) tell_result(plan.set, *result, end, arguments);
-  std::fflush(stdout);   // both may go to one file
+  std::fflush(stdout);  // both may go to one file
   const int code = end ? tell_end(plan.set, *end, told, exit_code, folder) : exit_code;
   fmt::print(stderr, "written to {}\n", plan.set.folder);
   return code;
@@ -156,8 +155,9 @@ void add_launch(CLI::App& app, Action& action) {
       ->allow_extra_args(false);
   command->add_flag("--dry-run", arguments->dry_run,
                     "Only say what would be started, and whether what it needs is there");
-  command->add_option("--out", arguments->set.out,
-                      "Folder of the run: logs, output, manifest (default: out/<scenario>/launch)")
+  command
+      ->add_option("--out", arguments->set.out,
+                   "Folder of the run: logs, output, manifest (default: out/<scenario>/launch)")
       ->check(kNamed);
   command->add_flag("--json", arguments->json, "Summary, or with --dry-run the plan, as JSON on standard output");
   command->add_flag("--no-pictures", arguments->no_pictures, "Leave logs and tables only");

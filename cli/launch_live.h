@@ -30,7 +30,7 @@ class LiveLaunch {
 
  private:
   const NodeSet& set_;
-  std::map<std::string, std::set<std::size_t>> not_granted_;   // by sentence, whom
+  std::map<std::string, std::set<std::size_t>> not_granted_;  // by sentence, whom
   std::optional<bus::HostTime> origin_;
   sim::DriveOutcome outcome_;
 };

@@ -5,7 +5,6 @@
 #include <array>
 #include <chrono>
 
-
 namespace ttf::cli {
 namespace {
 

@@ -46,9 +46,9 @@ socketcan::BitRates bit_rates(const std::string& medium) {
   const auto data = formed ? bit_rate(text.substr(slash + 1)) : std::nullopt;
   if (!nominal || !data || *nominal < schedules::kSlowestCan || *nominal > schedules::kFastestNominal ||
       *data < *nominal || *data > schedules::kFastestData)
-    throw refuse(fmt::format(
-        "must be can-fd:NOMINAL/DATA in bit/s, as in can-fd:1M/5M: nominal {}..{}, data from nominal to {}",
-        schedules::kSlowestCan, schedules::kFastestNominal, schedules::kFastestData));
+    throw refuse(
+        fmt::format("must be can-fd:NOMINAL/DATA in bit/s, as in can-fd:1M/5M: nominal {}..{}, data from nominal to {}",
+                    schedules::kSlowestCan, schedules::kFastestNominal, schedules::kFastestData));
   return {*nominal, *data};
 }
 
@@ -93,8 +93,7 @@ void print_json(const schedules::Cluster& cluster, const Verdict& verdict) {
                               {"longest_frame_us", in_us(verdict.longest)},
                               {"late_us", nullptr},
                               {"window_holds", verdict.window_holds()}};
-  if (verdict.smallest <= kLargestTimeScale)
-    json["smallest_time_scale"] = static_cast<double>(verdict.smallest) * 1e-6;
+  if (verdict.smallest <= kLargestTimeScale) json["smallest_time_scale"] = static_cast<double>(verdict.smallest) * 1e-6;
   if (verdict.window) json["late_us"] = in_us(verdict.window->late);
   for (const SlotOnCan& slot : verdict.not_holding)
     json["not_holding"].push_back({{"slot", slot.slot},
@@ -107,24 +106,23 @@ void print_json(const schedules::Cluster& cluster, const Verdict& verdict) {
 }
 
 bool alike(const SlotOnCan& a, const SlotOnCan& b) {
-  return b.slot == a.slot + 1 && a.channels == b.channels && a.dynamic == b.dynamic &&
-         a.can_frames == b.can_frames && a.needs == b.needs && a.has == b.has;
+  return b.slot == a.slot + 1 && a.channels == b.channels && a.dynamic == b.dynamic && a.can_frames == b.can_frames &&
+         a.needs == b.needs && a.has == b.has;
 }
 
 // Slots of a kind in a row share a line.
 std::string table(const Verdict& verdict) {
-  std::string text = fmt::format("{:>11}  {:<2}  {:>10}  {:>10}  {:>10}\n", "slots", "ch", "CAN frames",
-                                 "needs [us]", "has [us]");
+  std::string text =
+      fmt::format("{:>11}  {:<2}  {:>10}  {:>10}  {:>10}\n", "slots", "ch", "CAN frames", "needs [us]", "has [us]");
   const auto& slots = verdict.not_holding;
   for (std::size_t i = 0; i < slots.size();) {
     std::size_t end = i + 1;
     while (end < slots.size() && alike(slots[end - 1], slots[end])) ++end;
-    const std::string numbers = end - i == 1 ? fmt::format("{}", slots[i].slot)
-                                             : fmt::format("{}-{}", slots[i].slot, slots[end - 1].slot);
-    text +=
-        fmt::format("{:>11}  {:<2}  {:>10}  {:>10.1f}  {:>10.1f}{}\n", numbers,
-                    schedules::channels_text(slots[i].channels), slots[i].can_frames, in_us(slots[i].needs),
-                    in_us(verdict.has(slots[i])), slots[i].dynamic ? "  dynamic" : "");
+    const std::string numbers =
+        end - i == 1 ? fmt::format("{}", slots[i].slot) : fmt::format("{}-{}", slots[i].slot, slots[end - 1].slot);
+    text += fmt::format("{:>11}  {:<2}  {:>10}  {:>10.1f}  {:>10.1f}{}\n", numbers,
+                        schedules::channels_text(slots[i].channels), slots[i].can_frames, in_us(slots[i].needs),
+                        in_us(verdict.has(slots[i])), slots[i].dynamic ? "  dynamic" : "");
     i = end;
   }
   return text;
@@ -152,12 +150,11 @@ void print_text(const schedules::Cluster& cluster, const Verdict& verdict) {
 }  // namespace
 
 void add_medium_arguments(CLI::App& command, MediumArguments& arguments) {
-  CLI::Option* medium = command.add_option(
-      "--medium", arguments.medium,
-      "can-fd:NOMINAL/DATA in bit/s, as in can-fd:1M/5M: which slots do not hold on such a CAN");
+  CLI::Option* medium =
+      command.add_option("--medium", arguments.medium,
+                         "can-fd:NOMINAL/DATA in bit/s, as in can-fd:1M/5M: which slots do not hold on such a CAN");
   command
-      .add_option("--time-scale", arguments.time_scale,
-                  "With --medium: the schedule stretched in real time, 0.1..1000")
+      .add_option("--time-scale", arguments.time_scale, "With --medium: the schedule stretched in real time, 0.1..1000")
       ->needs(medium);
 }
 

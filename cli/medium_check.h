@@ -10,7 +10,7 @@
 namespace ttf::cli {
 
 struct MediumArguments {
-  std::optional<std::string> medium;      // nothing: not asked for
+  std::optional<std::string> medium;  // nothing: not asked for
   std::optional<std::string> time_scale;
 };
 void add_medium_arguments(CLI::App& command, MediumArguments& arguments);

@@ -11,8 +11,8 @@ namespace ttf::cli {
 struct NodeOptions {
   NodeSet set;
   NodeId node{};
-  std::string log;      // the node's own
-  bool json = false;    // what came of it as JSON on standard output
+  std::string log;    // the node's own
+  bool json = false;  // what came of it as JSON on standard output
 };
 
 // Drives the node to the drive's end in virtual time, together with the others over set.bus; its exit code. A

@@ -26,11 +26,11 @@ static_assert(sizeof(ExecutiveCounts) == std::size(kCounts) * sizeof(std::uint64
 }  // namespace
 
 sim::DriveOutcome run_node_drive(const NodeDrive& drive, bus::Exchange& exchange) {
-  const auto log = begin_log(
-      drive.log_path, manifest_of(*drive.scenario, *drive.cluster, drive.strategy, drive.seed, *drive.recording),
-      *drive.scenario, *drive.cluster);
+  const auto log = begin_log(drive.log_path,
+                             manifest_of(*drive.scenario, *drive.cluster, drive.strategy, drive.seed, *drive.recording),
+                             *drive.scenario, *drive.cluster);
   sim::TurnTaking others(*drive.cluster, drive.node, exchange);
-  const sim::DriveConfig config{drive.scenario, drive.cluster,          drive.strategy, drive.seed, 0,
+  const sim::DriveConfig config{drive.scenario,        drive.cluster, drive.strategy, drive.seed, 0,
                                 drive.recording->rows, &others};
   sim::DriveOutcome outcome = sim::run_drive(config, *log);
   log->close();

@@ -10,9 +10,9 @@
 namespace ttf::cli {
 
 struct NodeEnding {
-  nlohmann::ordered_json counts;   // counts_json()
-  nlohmann::ordered_json health;   // the last
-  std::string failure;             // why the run failed; empty: it did not
+  nlohmann::ordered_json counts;  // counts_json()
+  nlohmann::ordered_json health;  // the last
+  std::string failure;            // why the run failed; empty: it did not
 };
 
 // A supervisor is told the last health; that the node is done, only if it is. With `as_json` what came of it, failed

@@ -38,13 +38,12 @@ using runner::Health;
 constexpr std::chrono::milliseconds kLivePatience{10'000};
 
 nlohmann::ordered_json health_json(const Health& health) {
-  nlohmann::ordered_json json{{"missed_slots", health.timing.slots_missed},
-                              {"late_wakeups", health.timing.late_wakeups},
-                              {"lateness_us",
-                               {{"p50", in_us(health.wakeup_p50)},
-                                {"p99", in_us(health.wakeup_p99)},
-                                {"max", in_us(health.wakeup_longest)}}},
-                              {"drops", health.drops()}};
+  nlohmann::ordered_json json{
+      {"missed_slots", health.timing.slots_missed},
+      {"late_wakeups", health.timing.late_wakeups},
+      {"lateness_us",
+       {{"p50", in_us(health.wakeup_p50)}, {"p99", in_us(health.wakeup_p99)}, {"max", in_us(health.wakeup_longest)}}},
+      {"drops", health.drops()}};
   if (!health.state.empty()) {
     json["sync_precision_us"] = in_us(health.largest_offset);
     json["state"] = health.state;
@@ -132,8 +131,8 @@ runner::RunnerConfig config_of(const NodeOptions& options, const Start& start, i
     config.power_on = TrueTime{};
   } else if (set.scenario.startup.cold) {
     config.cold = nodes::node_starts(set.scenario.startup, set.cluster, set.seed, 0)[index_of(options.node)];
-    config.power_on = config.cold.how == nodes::ColdStart::kSleeps ? sim::kFirstCycle
-                                                                   : sim::kFirstCycle + config.cold.after;
+    config.power_on =
+        config.cold.how == nodes::ColdStart::kSleeps ? sim::kFirstCycle : sim::kFirstCycle + config.cold.after;
   }
   return config;
 }
@@ -150,7 +149,7 @@ recording::LogManifest wall_manifest(const NodeSet& set) {
 
 int run_node_live(const NodeOptions& options) {
   const NodeSet& set = options.set;
-  launch::SignalWatch signals;   // before there are threads
+  launch::SignalWatch signals;  // before there are threads
   auto supervisor = launch::ControlLine::from_environment();
   if (!supervisor) {
     check_told_start(set);

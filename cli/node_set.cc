@@ -23,16 +23,15 @@ namespace ttf::cli {
 namespace {
 
 constexpr std::int64_t kNsPerSecond = 1'000'000'000;
-constexpr Range<std::int64_t> kDurations_ns{kNsPerSecond / 10, 3600 * kNsPerSecond};   // as a scenario's
+constexpr Range<std::int64_t> kDurations_ns{kNsPerSecond / 10, 3600 * kNsPerSecond};  // as a scenario's
 constexpr std::size_t kLongestHost = 255;
-constexpr Range<std::int64_t> kStarts_ns{0, 4'102'444'800 * kNsPerSecond};             // to the end of 2099
+constexpr Range<std::int64_t> kStarts_ns{0, 4'102'444'800 * kNsPerSecond};  // to the end of 2099
 
 // The drive of a cluster that is given without one: the paper's first, on this cluster whatever the strategy.
 nodes::Scenario default_scene(const schedules::Cluster& cluster) {
   const auto quoted = [](const std::string& text) { return nlohmann::json(text).dump(); };
   const std::string file = quoted(std::filesystem::absolute(cluster.file).string());
-  return nodes::parse_scenario(
-      fmt::format(R"(name: {}
+  return nodes::parse_scenario(fmt::format(R"(name: {}
 description: "The default scene: a car ahead accelerates along the sensor vehicle's axis, from 30 m to 40 m within 1.5 s"
 seed: 1
 duration: 3 s
@@ -52,8 +51,8 @@ world:
         - {{duration: 1500 ms, acceleration: 2.89}}
 reference: {{}}
 )",
-                  quoted(cluster.name), file, file, file),
-      "default_scene.yaml");
+                                           quoted(cluster.name), file, file, file),
+                               "default_scene.yaml");
 }
 
 // A cluster file has FlexRay parameters, a scenario names clusters.
@@ -65,8 +64,8 @@ bool is_cluster_file(const std::string& file) {
 }
 
 void set_duration(nodes::Scenario& scenario, const std::string& name, const std::string& text) {
-  const std::string unit = fmt::format(" s ({} is evaluated from {} s on)", name,
-                                       scaled_text(scenario.evaluate_from.ns, kNsPerSecond));
+  const std::string unit =
+      fmt::format(" s ({} is evaluated from {} s on)", name, scaled_text(scenario.evaluate_from.ns, kNsPerSecond));
   const Range<std::int64_t> allowed{std::max(kDurations_ns.low, scenario.evaluate_from.ns), kDurations_ns.high};
   scenario.duration = scenario.world.duration =
       Duration{decimal_option("--duration", text, kNsPerSecond, allowed, unit)};
@@ -169,15 +168,14 @@ NodeSet read_node_set(const NodeSetArguments& arguments) {
   set.session = session_option(arguments.session);
   set.virtual_time = arguments.virtual_time;
   set.topics = !arguments.no_topics && !arguments.virtual_time;
-  if (arguments.time_scale)
-    set.time_scale_ppm = time_scale_option(*arguments.time_scale);
+  if (arguments.time_scale) set.time_scale_ppm = time_scale_option(*arguments.time_scale);
   refuse_other_time(arguments);
   if (arguments.start_at)
     set.start_at_ns = decimal_option("--start-at", *arguments.start_at, kNsPerSecond, kStarts_ns, " s");
   set.rejoin = arguments.rejoin;
   set.host = arguments.host ? host_option(*arguments.host) : this_host();
 
-  std::string drive = set.file;   // as messages call it
+  std::string drive = set.file;  // as messages call it
   if (is_cluster_file(set.file)) {
     set.cluster = checked_cluster(set.file);
     set.scenario = default_scene(set.cluster);
@@ -200,9 +198,17 @@ NodeSet read_node_set(const NodeSetArguments& arguments) {
 }
 
 std::vector<std::string> NodeSet::options() const {
-  std::vector<std::string> list{file,    "--strategy", std::string(nodes::name_of(strategy)),
-                                "--seed", fmt::to_string(seed), "--bus", bus.text(), "--session", session,
-                                "--duration", scaled_text(scenario.duration.ns, kNsPerSecond)};
+  std::vector<std::string> list{file,
+                                "--strategy",
+                                std::string(nodes::name_of(strategy)),
+                                "--seed",
+                                fmt::to_string(seed),
+                                "--bus",
+                                bus.text(),
+                                "--session",
+                                session,
+                                "--duration",
+                                scaled_text(scenario.duration.ns, kNsPerSecond)};
   for (std::string& option : can_options(cluster, can_interfaces)) list.push_back(std::move(option));
   if (start_at_ns) list.insert(list.end(), {"--start-at", scaled_text(*start_at_ns, kNsPerSecond)});
   if (rejoin) list.emplace_back("--rejoin");

@@ -22,7 +22,7 @@ struct NodeSetArguments {
   std::string strategy = "tt";
   std::optional<std::string> seed, time_scale, duration;
   std::string bus = "dds";
-  std::vector<std::string> cans;          // NAME=IF
+  std::vector<std::string> cans;  // NAME=IF
   std::string session = "ttfusion";
   std::string out;
   bool virtual_time = false;
@@ -36,22 +36,22 @@ struct NodeSetArguments {
 void add_node_set_options(CLI::App& command, NodeSetArguments& arguments);
 
 struct NodeSet {
-  std::string file;                 // scenario or cluster, as given
-  nodes::Scenario scenario;         // with the duration asked for
-  schedules::Cluster cluster;       // of the strategy, checked
+  std::string file;            // scenario or cluster, as given
+  nodes::Scenario scenario;    // with the duration asked for
+  schedules::Cluster cluster;  // of the strategy, checked
   fusion::StrategyKind strategy{};
   std::uint64_t seed = 0;
   launch::Bus bus;
-  std::vector<std::string> can_interfaces;   // on SocketCAN: by Cluster::can_buses; else empty
-  std::string session;              // who is in another one is not heard
+  std::vector<std::string> can_interfaces;  // on SocketCAN: by Cluster::can_buses; else empty
+  std::string session;                      // who is in another one is not heard
   bool virtual_time = false;
-  std::int64_t time_scale_ppm = 1'000'000;   // the schedule lasts so much longer in real time; in virtual time always 1
+  std::int64_t time_scale_ppm = 1'000'000;  // the schedule lasts so much longer in real time; in virtual time always 1
   // The start that all nodes without a supervisor have in common, by CLOCK_REALTIME; in real time only.
   std::optional<std::int64_t> start_at_ns;
-  std::string host;                 // whose clock the node's log goes by, for the merge of several hosts' logs
-  bool rejoin = false;              // begins cold and integrates into the cluster that runs; in real time only
-  bool topics = true;               // in real time: what goes on is published for ROS 2
-  std::string folder;               // where the nodes' logs go: NAME.mcap (launch::file_stem)
+  std::string host;     // whose clock the node's log goes by, for the merge of several hosts' logs
+  bool rejoin = false;  // begins cold and integrates into the cluster that runs; in real time only
+  bool topics = true;   // in real time: what goes on is published for ROS 2
+  std::string folder;   // where the nodes' logs go: NAME.mcap (launch::file_stem)
 
   // The options that make another process read this very node set.
   std::vector<std::string> options() const;

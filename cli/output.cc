@@ -60,13 +60,13 @@ void create_folder(const std::string& path) {
 
 void try_folder(const std::string& path) {
   namespace fs = std::filesystem;
-  std::vector<fs::path> made;   // the innermost first
+  std::vector<fs::path> made;  // the innermost first
   std::error_code none;
   for (fs::path folder = fs::absolute(path).lexically_normal(); !fs::exists(folder, none) && folder.has_relative_path();
        folder = folder.parent_path())
     made.push_back(folder);
   const auto unmake = [&] {
-    for (const fs::path& folder : made) fs::remove(folder, none);   // not what somebody has put something into
+    for (const fs::path& folder : made) fs::remove(folder, none);  // not what somebody has put something into
   };
   try {
     create_folder(path);
@@ -89,7 +89,7 @@ void print_warnings(std::string_view text) {
 }
 
 void refuse_overwriting(const std::string& input, const std::string& path, const std::string& flag) {
-  std::error_code none;   // what does not exist yet is nobody's input
+  std::error_code none;  // what does not exist yet is nobody's input
   if (std::filesystem::equivalent(input, path, none))
     throw InputError({"command line", 0, flag, path, "must be another file than the input"});
 }

@@ -13,8 +13,8 @@ namespace {
 
 using experiments::NodeTiming;
 using experiments::RealTimeFindings;
-using records::BinnedDurations;
 using recording::NodeLateness;
+using records::BinnedDurations;
 
 // What is told of a distribution: its median, what one in a hundred and one in a thousand is beyond, and its end.
 constexpr int kQuantiles[] = {500, 990, 999};
@@ -28,7 +28,7 @@ void add_cells(std::vector<std::string>& cells, const BinnedDurations& late) {
 
 struct Distribution {
   std::string name;
-  BinnedDurations NodeLateness::* of;
+  BinnedDurations NodeLateness::*of;
 };
 
 // Those of every node beside each other; empty where no node has any.
@@ -53,8 +53,7 @@ std::string problems(const StrategyResult& result) {
     table.add({result.cluster.node(node).name, fmt::format("{}", timing.late_wake_ups),
                fmt::format("{}", timing.slots_missed), fmt::format("{}", timing.late_frames),
                fmt::format("{}", timing.early_frames), fmt::format("{}", timing.missing.withheld),
-               fmt::format("{}", timing.missing.away),
-               fmt::format("{}", timing.lost_on_the_way()),
+               fmt::format("{}", timing.missing.away), fmt::format("{}", timing.lost_on_the_way()),
                timing.largest_offset_correction ? report::cell(in_us(*timing.largest_offset_correction), 1) : "-"});
   return table.text() +
          "Slots missed: withheld by this node; frames: of others, not heard by it. Slot problems, in the table above: "
@@ -67,8 +66,8 @@ std::string media(const StrategyResult& result) {
   report::Table table({"medium of", "sent", "received", "no room to send", "lost", "dropped", "foreign", "malformed"});
   for (const auto& [node, counts] : result.real_time->medium) {
     std::vector<std::string> cells{result.cluster.node(node).name};
-    for (const std::uint64_t count : {counts.sent, counts.received, counts.not_sent, counts.lost, counts.dropped,
-                                      counts.foreign, counts.malformed})
+    for (const std::uint64_t count :
+         {counts.sent, counts.received, counts.not_sent, counts.lost, counts.dropped, counts.foreign, counts.malformed})
       cells.push_back(fmt::format("{}", count));
     table.add(std::move(cells));
   }
@@ -86,8 +85,8 @@ std::string sums(const StrategyResult& result) {
     const auto cell = [&](Duration d) {
       return all.empty() ? "-" : report::cell(scaled_us(result, d) / unit_us, decimals);
     };
-    table.add({name, fmt::format("{}", all.count()), cell(all.quantile(500)), cell(all.quantile(990)),
-               cell(all.longest())});
+    table.add(
+        {name, fmt::format("{}", all.count()), cell(all.quantile(500)), cell(all.quantile(990)), cell(all.longest())});
   };
   const bool one_host = result.real_time->precision.size() == 1;
   for (const experiments::HostPrecision& host : result.real_time->precision)
@@ -107,8 +106,8 @@ nlohmann::ordered_json late_json(const BinnedDurations& late) {
 }
 
 nlohmann::ordered_json medium_json(const records::MediumCounts& counts) {
-  return {{"sent", counts.sent},       {"received", counts.received},   {"not_sent", counts.not_sent},
-          {"lost", counts.lost},       {"foreign", counts.foreign},     {"malformed", counts.malformed},
+  return {{"sent", counts.sent},      {"received", counts.received}, {"not_sent", counts.not_sent},
+          {"lost", counts.lost},      {"foreign", counts.foreign},   {"malformed", counts.malformed},
           {"dropped", counts.dropped}};
 }
 

@@ -36,11 +36,11 @@ void ReplayStory::fault_acts(const records::FaultActivity& activity) {
 
 void ReplayStory::guardian_intervened(const sim::StarCoupler::Intervention& intervention) {
   const bool cut = intervention.reason == bus::GuardianReason::kForwarded;
-  say(intervention.at, fmt::format("guardian of {} {} {} of {}{}{}",
-                                   letter(intervention.channel), cut ? "cuts off" : "blocks",
-                                   text(intervention.signal),
-                                   intervention.branch == kNoNode ? "nobody" : cluster_.node(intervention.branch).name,
-                                   cut ? "" : ": ", cut ? "" : bus::to_text(intervention.reason)),
+  say(intervention.at,
+      fmt::format("guardian of {} {} {} of {}{}{}", letter(intervention.channel), cut ? "cuts off" : "blocks",
+                  text(intervention.signal),
+                  intervention.branch == kNoNode ? "nobody" : cluster_.node(intervention.branch).name, cut ? "" : ": ",
+                  cut ? "" : bus::to_text(intervention.reason)),
       Of::kGuardians);
 }
 

@@ -23,7 +23,7 @@ class ReplayStory final : public experiments::TrialStory {
   void finish();
 
  private:
-  static constexpr std::uint64_t kShown = 12;   // acts of the fault, and as many of the guardians
+  static constexpr std::uint64_t kShown = 12;  // acts of the fault, and as many of the guardians
   enum class Of : std::uint8_t { kOthers, kFault, kGuardians };
   struct Line {
     TrueTime at;
@@ -33,7 +33,7 @@ class ReplayStory final : public experiments::TrialStory {
   void say(TrueTime at, std::string text, Of of = Of::kOthers) { lines_.push_back({at, of, std::move(text)}); }
 
   const schedules::Cluster& cluster_;
-  std::vector<Line> lines_;   // in the order they were told: a guardian's doing, and who noticed what, long afterwards
+  std::vector<Line> lines_;  // in the order they were told: a guardian's doing, and who noticed what, long afterwards
 };
 
 }  // namespace ttf::cli

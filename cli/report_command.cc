@@ -32,8 +32,8 @@ struct ReportOptions {
   std::string out;
 };
 
-constexpr std::size_t kMostDrives = 10;   // timing diagrams of an experiment's page
-constexpr Duration kDrawn = Duration::milliseconds(960);   // in all of them together, 160 ms each at most
+constexpr std::size_t kMostDrives = 10;                   // timing diagrams of an experiment's page
+constexpr Duration kDrawn = Duration::milliseconds(960);  // in all of them together, 160 ms each at most
 
 std::string experiment_html(const ReportOptions& options, report::DiagramWindow window) {
   const report::ExperimentFolder folder = report::read_experiment_folder(options.folders[0]);
@@ -55,9 +55,9 @@ std::string html(const ReportOptions& options) {
   for (const std::string& folder : options.folders)
     experiments += report::kind_of_folder(folder) == report::FolderKind::kExperiment;
   if (experiments == 0) {
-    for (const auto& [name, given] : {std::pair("--file", options.file.has_value()),
-                                      std::pair("--point", options.point.has_value()),
-                                      std::pair("--no-drives", options.no_drives)})
+    for (const auto& [name, given] :
+         {std::pair("--file", options.file.has_value()), std::pair("--point", options.point.has_value()),
+          std::pair("--no-drives", options.no_drives)})
       if (given) throw InputError({"command line", 0, name, "", "goes with an experiment, not with runs"});
     std::vector<report::RunFolder> folders;
     for (const std::string& path : options.folders) {
@@ -104,16 +104,17 @@ void add_report(CLI::App& app, Action& action) {
       "          ttfusion report out/process_noise -o answer.html\n"
       "          ttfusion report out/process_noise --point 7 -o point7.html");
   command->add_option("folders", options->folders, "What run, launch or experiment left in --out")
-      ->required()->check(kNamed);
+      ->required()
+      ->check(kNamed);
   command
       ->add_option("--from", options->from_s,
                    "Start of the timing diagrams, true time in seconds (default: from where the drive is judged)")
       ->check(CLI::NonNegativeNumber);
   command->add_option("--to", options->to_s, "End of the timing diagrams (default: 160 ms later; 2 s later at most)")
       ->check(CLI::NonNegativeNumber);
-  auto* file = command->add_option(
-      "--file", options->file,
-      "An experiment's file, where it is not where it was: a run of each paradigm is driven again");
+  auto* file =
+      command->add_option("--file", options->file,
+                          "An experiment's file, where it is not where it was: a run of each paradigm is driven again");
   auto* point = command->add_option("--point", options->point, "Of which point (default: the first)");
   auto* none = command->add_flag("--no-drives", options->no_drives, "Drive nothing again: no timing diagrams");
   none->excludes(file)->excludes(point);

@@ -63,8 +63,7 @@ int run_scenario(const RunOptions& options) {
   const std::string folder = options.out.empty() ? folder_of(scenario) : options.out;
   // Before anything is simulated or an earlier run's log is written over.
   for (const fusion::StrategyKind strategy : chosen(options.strategy))
-    sim::check_fits(scenario, checked_cluster(scenario, strategy), strategy,
-                    recording.rows != nullptr);
+    sim::check_fits(scenario, checked_cluster(scenario, strategy), strategy, recording.rows != nullptr);
   create_folder(folder);
 
   std::vector<StrategyResult> results;
@@ -83,10 +82,10 @@ int run_scenario(const RunOptions& options) {
                comparison_table(results));
     if (!scenario.faults.empty())
       for (const StrategyResult& result : results)
-        fmt::print("\n{}", faults_text(nodes::name_of(result.strategy), result.faults, result.fault_free,
-                                     result.cluster));
+        fmt::print("\n{}",
+                   faults_text(nodes::name_of(result.strategy), result.faults, result.fault_free, result.cluster));
   }
-  std::fflush(stdout);   // both may go to one file
+  std::fflush(stdout);  // both may go to one file
   fmt::print(stderr, "written to {}\n", folder);
   return 0;
 }
@@ -101,10 +100,8 @@ void add_run(CLI::App& app, Action& action) {
   command->add_option("--strategy", options->strategy, "Only one strategy; all three otherwise")
       ->check(CLI::IsMember({"buff", "adva", "tt"}));
   command->add_option("--seed", options->seed, "Seed of every random stream, instead of the scenario's");
-  command->add_option("--input", options->input, "Recorded observations in place of the sensor models")
-      ->check(kNamed);
-  command->add_option("--out", options->out, "Folder for logs and pictures (default: out/<scenario>)")
-      ->check(kNamed);
+  command->add_option("--input", options->input, "Recorded observations in place of the sensor models")->check(kNamed);
+  command->add_option("--out", options->out, "Folder for logs and pictures (default: out/<scenario>)")->check(kNamed);
   command->add_flag("--json", options->json, "Summary as JSON on standard output");
   command->add_flag("--no-log", options->no_log, "Write no logs (and so no pictures)");
   command->add_flag("--no-pictures", options->no_pictures, "Write logs only");

@@ -29,7 +29,7 @@ using Value = std::string (*)(const StrategyResult&);
 struct Row {
   const char* name;
   Value value;
-  bool rare = false;   // what a sound drive has none of: shown where some strategy has some
+  bool rare = false;  // what a sound drive has none of: shown where some strategy has some
 };
 
 std::string number(std::uint64_t n) { return fmt::format("{}", n); }
@@ -60,7 +60,8 @@ const Row kRows[] = {
      [](const StrategyResult& r) { return report::cell(r.summary.position_rmse_truth, 3); }},
     {"velocity RMSE against truth [m/s]",
      [](const StrategyResult& r) { return report::cell(r.summary.velocity_rmse_truth, 3); }},
-    {"  x, y, vx, vy", [](const StrategyResult& r) {
+    {"  x, y, vx, vy",
+     [](const StrategyResult& r) {
        const auto& rmse = r.summary.rmse_truth;
        return fmt::format("{} {} {} {}", report::cell(rmse[0], 2), report::cell(rmse[1], 2), report::cell(rmse[2], 2),
                           report::cell(rmse[3], 2));
@@ -70,10 +71,10 @@ const Row kRows[] = {
     {"velocity RMSE against DGPS [m/s]",
      [](const StrategyResult& r) { return report::cell(r.summary.velocity_rmse_reference, 3); }},
     {"NEES (4 degrees of freedom)", [](const StrategyResult& r) { return report::cell(r.summary.nees, 2); }},
-    {"  95 % band", [](const StrategyResult& r) {
-       return r.summary.nees_samples == 0
-                  ? std::string("-")
-                  : fmt::format("{:.2f}..{:.2f}", r.summary.nees_low, r.summary.nees_high);
+    {"  95 % band",
+     [](const StrategyResult& r) {
+       return r.summary.nees_samples == 0 ? std::string("-")
+                                          : fmt::format("{:.2f}..{:.2f}", r.summary.nees_low, r.summary.nees_high);
      }},
     {"age when fused, mean [ms]", [](const StrategyResult& r) { return mean_cell(r.summary.age_fused); }},
     {"age when fused, worst [ms]", [](const StrategyResult& r) { return worst_cell(r.summary.age_fused); }},
@@ -83,7 +84,8 @@ const Row kRows[] = {
     {"  arrived out of sequence", [](const StrategyResult& r) { return number(r.summary.out_of_sequence); }},
     {"  fused late (retrodicted)", [](const StrategyResult& r) { return number(r.summary.fused_late); }},
     {"  times held back", [](const StrategyResult& r) { return number(r.summary.held); }},
-    {"  held back for, mean / worst [ms]", [](const StrategyResult& r) {
+    {"  held back for, mean / worst [ms]",
+     [](const StrategyResult& r) {
        const experiments::AgeStatistics& held = r.summary.held_for;
        return held.count == 0 ? std::string("-") : mean_cell(held) + " / " + worst_cell(held);
      }},
@@ -91,20 +93,20 @@ const Row kRows[] = {
     {"    too old to be fused", [](const StrategyResult& r) { return number(r.summary.dropped); }, true},
     {"    torn on the way", [](const StrategyResult& r) { return number(r.outcome.counts.torn_lists); }, true},
     {"    overwritten before they were read",
-     [](const StrategyResult& r) { return number(r.outcome.counts.overwritten_lists); },
-     true},
+     [](const StrategyResult& r) { return number(r.outcome.counts.overwritten_lists); }, true},
     {"    discarded: no time of measuring",
-     [](const StrategyResult& r) { return number(r.outcome.counts.discarded_lists); },
-     true},
+     [](const StrategyResult& r) { return number(r.outcome.counts.discarded_lists); }, true},
     {"fragments refused", [](const StrategyResult& r) { return number(r.outcome.counts.refused_fragments); }, true},
     {"uses of an image", [](const StrategyResult& r) { return number(uses(r)); }},
     {"  refused for its age", [](const StrategyResult& r) { return number(r.summary.stale_uses); }, true},
     {"  with a warning", [](const StrategyResult& r) { return number(r.summary.warnings); }},
-    {"objects compared / missed / spurious", [](const StrategyResult& r) {
+    {"objects compared / missed / spurious",
+     [](const StrategyResult& r) {
        if (r.summary.matched + r.summary.missed + r.summary.spurious == 0) return std::string("-");
        return fmt::format("{} / {} / {}", r.summary.matched, r.summary.missed, r.summary.spurious);
      }},
-    {"precision of the time base [us]", [](const StrategyResult& r) {
+    {"precision of the time base [us]",
+     [](const StrategyResult& r) {
        const auto precision = precision_us(r);
        return precision ? report::cell(*precision, 3) : std::string("-");
      }},
@@ -177,22 +179,34 @@ nlohmann::ordered_json to_json(const nodes::Scenario& scenario, std::uint64_t se
     nlohmann::ordered_json one;
     one["strategy"] = nodes::name_of(result.strategy);
     one["cluster"] = result.cluster.name;
-    one["rmse_truth"] = {{"position_m", s.position_rmse_truth}, {"velocity_mps", s.velocity_rmse_truth},
-                         {"x", s.rmse_truth[0]}, {"y", s.rmse_truth[1]}, {"vx", s.rmse_truth[2]},
+    one["rmse_truth"] = {{"position_m", s.position_rmse_truth},
+                         {"velocity_mps", s.velocity_rmse_truth},
+                         {"x", s.rmse_truth[0]},
+                         {"y", s.rmse_truth[1]},
+                         {"vx", s.rmse_truth[2]},
                          {"vy", s.rmse_truth[3]}};
-    one["rmse_reference"] = {{"position_m", s.position_rmse_reference}, {"velocity_mps", s.velocity_rmse_reference},
+    one["rmse_reference"] = {{"position_m", s.position_rmse_reference},
+                             {"velocity_mps", s.velocity_rmse_reference},
                              {"compared", s.reference_compared}};
-    one["nees"] = {{"mean", s.nees}, {"samples", s.nees_samples}, {"degrees_of_freedom", 4},
+    one["nees"] = {{"mean", s.nees},
+                   {"samples", s.nees_samples},
+                   {"degrees_of_freedom", 4},
                    {"band_95", {s.nees_low, s.nees_high}}};
     one["age_when_fused"] = ages(s.age_fused);
     one["age_when_used"] = ages(s.age_used);
     for (const auto& [sensor, statistics] : s.age_used_by_sensor)
       one["age_when_used_by_sensor"][result.cluster.sensor(sensor).name] = ages(statistics);
-    one["observations"] = {{"received", s.received}, {"out_of_sequence", s.out_of_sequence}, {"fused", s.fused},
-                           {"late", s.fused_late}, {"held", s.held}, {"dropped", s.dropped},
-                           {"duplicates", s.duplicates}, {"torn", result.outcome.counts.torn_lists},
+    one["observations"] = {{"received", s.received},
+                           {"out_of_sequence", s.out_of_sequence},
+                           {"fused", s.fused},
+                           {"late", s.fused_late},
+                           {"held", s.held},
+                           {"dropped", s.dropped},
+                           {"duplicates", s.duplicates},
+                           {"torn", result.outcome.counts.torn_lists},
                            {"overwritten", result.outcome.counts.overwritten_lists},
-                           {"discarded", result.outcome.counts.discarded_lists}, {"lost", lost_lists(result)}};
+                           {"discarded", result.outcome.counts.discarded_lists},
+                           {"lost", lost_lists(result)}};
     one["held_back_for"] = ages(s.held_for);
     one["objects"] = {{"compared", s.matched}, {"missed", s.missed}, {"spurious", s.spurious}};
     one["uses"] = s.uses;

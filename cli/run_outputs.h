@@ -23,10 +23,10 @@ struct StrategyResult {
   schedules::Cluster cluster;
   sim::DriveOutcome outcome;
   experiments::DriveSummary summary;
-  std::vector<experiments::NodeStartup> startup;   // nodes that started up or changed their state
+  std::vector<experiments::NodeStartup> startup;  // nodes that started up or changed their state
   experiments::FaultFindings faults;
-  std::vector<NodeId> fault_free;                  // to the end, of those on FlexRay
-  std::optional<experiments::RealTimeFindings> real_time;   // of a run by the wall clock
+  std::vector<NodeId> fault_free;                          // to the end, of those on FlexRay
+  std::optional<experiments::RealTimeFindings> real_time;  // of a run by the wall clock
   std::string log_path;
   std::string content_hash;
 };

@@ -35,7 +35,6 @@ struct ScheduleOptions {
   MediumArguments medium;
 };
 
-
 // Null where nothing is sent in the dynamic segment.
 nlohmann::ordered_json dynamic_json(const schedules::Cluster& cluster) {
   nlohmann::ordered_json json;
@@ -139,7 +138,7 @@ int export_cluster(const ScheduleOptions& options) {
   const schedules::FibexImport import = schedules::import_fibex(options.file);
   for (const Finding& finding : import.left_out) fmt::print(stderr, "note: {}\n", finding.sentence());
   const std::string yaml = schedules::skeleton_yaml(import);
-  schedules::parse_cluster(yaml, options.out.empty() ? "cluster.yaml" : options.out);   // what is written can be read
+  schedules::parse_cluster(yaml, options.out.empty() ? "cluster.yaml" : options.out);  // what is written can be read
   write_text(yaml, options.out);
   return 0;
 }

@@ -11,7 +11,7 @@
 namespace ttf::cli {
 
 std::string startup_text(const std::vector<StrategyResult>& results, bool cold) {
-  std::vector<std::pair<std::string, std::string>> tables;   // with the strategies they are of
+  std::vector<std::pair<std::string, std::string>> tables;  // with the strategies they are of
   for (const StrategyResult& result : results) {
     if (result.startup.empty()) continue;
     report::Table table({"node", cold ? "powered on [ms]" : "powered on again [ms]",
@@ -47,7 +47,9 @@ nlohmann::ordered_json startup_json(const StrategyResult& result) {
     if (node.powered) one["powered_on_ms"] = in_ms(*node.powered);
     one["active"] = nullptr;
     if (node.active)
-      one["active"] = {{"cycle", node.active->cycle}, {"at_ms", in_ms(node.active->at)}, {"from", node.active->from},
+      one["active"] = {{"cycle", node.active->cycle},
+                       {"at_ms", in_ms(node.active->at)},
+                       {"from", node.active->from},
                        {"why", node.active->why}};
     one["state"] = node.state;
     one["why"] = node.why;

@@ -84,7 +84,7 @@ int run_track(const TrackOptions& options) {
 
   if (options.out.empty()) {
     fmt::print("{}", tracks);
-    std::fflush(stdout);   // both may go to one file
+    std::fflush(stdout);  // both may go to one file
     fmt::print(stderr, "{}", track_table(result));
     return 0;
   }

@@ -49,9 +49,9 @@ OfSensor of_sensor(const char* option, const std::string& text, const ReplayConf
 Duration duration_option(const char* option, const std::string& text, std::string_view value, Range<Duration> allowed) {
   const std::optional<Duration> duration = parse_duration(value);
   if (!duration || !allowed.contains(*duration))
-    refuse_option(option, text, fmt::format("must be SENSOR= and {}..{} s with its unit, as in 40ms",
-                                            scaled_text(allowed.low.ns, 1'000'000'000),
-                                            scaled_text(allowed.high.ns, 1'000'000'000)));
+    refuse_option(option, text,
+                  fmt::format("must be SENSOR= and {}..{} s with its unit, as in 40ms",
+                              scaled_text(allowed.low.ns, 1'000'000'000), scaled_text(allowed.high.ns, 1'000'000'000)));
   return *duration;
 }
 

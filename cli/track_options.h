@@ -12,10 +12,10 @@ namespace ttf::cli {
 
 struct TrackOptions {
   std::string observations, config, format = "csv", strategy, seed = "1", out;
-  std::vector<std::string> noise;         // SENSOR:WHAT=SIGMA
-  std::vector<std::string> worst_delay;   // SENSOR=DURATION
-  std::vector<std::string> period;        // SENSOR=DURATION
-  std::vector<std::string> delay;         // SENSOR=DURATION or SENSOR=LEAST..MOST
+  std::vector<std::string> noise;        // SENSOR:WHAT=SIGMA
+  std::vector<std::string> worst_delay;  // SENSOR=DURATION
+  std::vector<std::string> period;       // SENSOR=DURATION
+  std::vector<std::string> delay;        // SENSOR=DURATION or SENSOR=LEAST..MOST
   std::size_t shuffle = 1;
   bool predict = false, skip_damaged = false, json = false;
 };

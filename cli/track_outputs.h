@@ -14,7 +14,7 @@ struct TrackResult {
   std::string strategy;
   std::vector<std::string> sensors;
   experiments::ReplayAccount account;
-  std::size_t damaged = 0;   // rows left out
+  std::size_t damaged = 0;  // rows left out
 };
 
 std::string track_table(const TrackResult& result);

@@ -13,8 +13,8 @@ namespace ttf {
 }  // namespace ttf
 
 // TTF_CHECK(slot < slots, "slot {} of {}", slot, slots)
-#define TTF_CHECK(condition, ...)                                                            \
-  do {                                                                                       \
-    if (!(condition)) [[unlikely]]                                                           \
-      ::ttf::check_failed(__FILE__, __LINE__, #condition, ::fmt::format("" __VA_ARGS__));    \
+#define TTF_CHECK(condition, ...)                                                         \
+  do {                                                                                    \
+    if (!(condition)) [[unlikely]]                                                        \
+      ::ttf::check_failed(__FILE__, __LINE__, #condition, ::fmt::format("" __VA_ARGS__)); \
   } while (false)

@@ -8,11 +8,11 @@
 
 namespace ttf {
 
-enum class NodeId : std::uint8_t {};      // index in Cluster::nodes
-enum class PduId : std::uint8_t {};       // index in Cluster::pdus
-enum class SensorId : std::uint8_t {};    // index in Cluster::sensors
-enum class ObjectId : std::uint16_t {};   // index in the world's objects; truth, never on a bus
-enum class TrackId : std::uint16_t {};    // given when a track is first confirmed (fusion/identities.h)
+enum class NodeId : std::uint8_t {};     // index in Cluster::nodes
+enum class PduId : std::uint8_t {};      // index in Cluster::pdus
+enum class SensorId : std::uint8_t {};   // index in Cluster::sensors
+enum class ObjectId : std::uint16_t {};  // index in the world's objects; truth, never on a bus
+enum class TrackId : std::uint16_t {};   // given when a track is first confirmed (fusion/identities.h)
 
 inline constexpr NodeId kNoNode{0xff};
 inline constexpr PduId kNoPdu{0xff};
@@ -27,9 +27,6 @@ struct MeasurementId {
   constexpr auto operator<=>(const MeasurementId&) const = default;
 };
 
-template <class Id>
-constexpr std::size_t index_of(Id id) {
-  return static_cast<std::size_t>(id);
-}
+template <class Id> constexpr std::size_t index_of(Id id) { return static_cast<std::size_t>(id); }
 
 }  // namespace ttf

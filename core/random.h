@@ -38,8 +38,8 @@ struct StreamKey {
   std::uint64_t seed = 0;
   std::uint32_t replication = 0;
   Purpose purpose = Purpose::kTest;
-  std::uint16_t entity = 0;   // node, sensor or object
-  std::uint32_t index = 0;    // measurement, activation, ... ; 0 for a stream that is read through
+  std::uint16_t entity = 0;  // node, sensor or object
+  std::uint32_t index = 0;   // measurement, activation, ... ; 0 for a stream that is read through
 };
 
 std::array<std::uint32_t, 4> philox4x32_10(std::array<std::uint32_t, 4> counter, std::array<std::uint32_t, 2> key);
@@ -51,14 +51,15 @@ class RandomStream {
   // second one at the next call, for nothing. integer() takes kWordsOfUniform, and rarely more.
   static constexpr std::uint32_t kWordsOfABlock = 4, kWordsOfUniform = 2, kWordsOfANormalPair = 4;
 
-  // From block `first` on: a stream whose parts have a known length is cut into blocks, and a part read without the others.
+  // From block `first` on: a stream whose parts have a known length is cut into blocks, and a part read without the
+  // others.
   explicit RandomStream(StreamKey key, std::uint32_t first = 0) : key_(key), block_(first) {}
 
   std::uint64_t bits();
-  double uniform();                           // in [0, 1), 53 random bits
-  double uniform(double low, double high);    // in [low, high)
+  double uniform();                                           // in [0, 1), 53 random bits
+  double uniform(double low, double high);                    // in [low, high)
   std::int64_t integer(std::int64_t low, std::int64_t high);  // in [low, high], unbiased
-  double normal();                            // mean 0, variance 1 (Box-Muller, both values used)
+  double normal();                                            // mean 0, variance 1 (Box-Muller, both values used)
 
  private:
   std::uint32_t word();

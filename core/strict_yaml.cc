@@ -25,8 +25,7 @@ namespace {
 
 int line_of(const YAML::Node& node) { return node.IsDefined() && node.Mark().line >= 0 ? node.Mark().line + 1 : 0; }
 
-template <class T>
-std::optional<T> parse_number(std::string_view text) {
+template <class T> std::optional<T> parse_number(std::string_view text) {
   T value{};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
@@ -80,8 +79,7 @@ std::string duration_text(Duration d) {
   return fmt::format("{} ns", d.ns);
 }
 
-template <class T>
-std::string range_text(const Range<T>& range, std::string_view unit, std::string_view what) {
+template <class T> std::string range_text(const Range<T>& range, std::string_view unit, std::string_view what) {
   return fmt::format("must be {} {}..{}{}{}", what, range.low, range.high, unit.empty() ? "" : " ", unit);
 }
 
@@ -266,9 +264,7 @@ std::vector<YamlMap> YamlMap::maps(std::string_view key) {
   return list;
 }
 
-std::vector<YamlMap> YamlMap::maps_if(std::string_view key) {
-  return has(key) ? maps(key) : std::vector<YamlMap>{};
-}
+std::vector<YamlMap> YamlMap::maps_if(std::string_view key) { return has(key) ? maps(key) : std::vector<YamlMap>{}; }
 
 std::vector<YamlMap::Entry> YamlMap::entries(std::string_view key) {
   content_->asked.emplace(key);
@@ -360,15 +356,13 @@ void YamlMap::finish() {
       findings_->add({content_->file, line, key_path(key), "", "is given twice in one mapping"});
     else if (!content_->asked.contains(key))
       findings_->add({content_->file, line, key_path(key), "",
-                      content_->asked.empty() ? std::string("is not a known key here")
-                                              : fmt::format("is not a known key here (known: {})",
-                                                            fmt::join(content_->asked, ", "))});
+                      content_->asked.empty()
+                          ? std::string("is not a known key here")
+                          : fmt::format("is not a known key here (known: {})", fmt::join(content_->asked, ", "))});
   }
 }
 
-StrictYaml StrictYaml::load(const std::string& path) {
-  return parse(read_file(path), path);
-}
+StrictYaml StrictYaml::load(const std::string& path) { return parse(read_file(path), path); }
 
 StrictYaml StrictYaml::parse(std::string text, std::string name) {
   StrictYaml document;

@@ -25,20 +25,18 @@
 
 namespace ttf {
 
-template <class T>
-struct Range {
+template <class T> struct Range {
   T low;
   T high;
   bool contains(T value) const { return value >= low && value <= high; }
 };
 
-template <class Enum>
-using Choices = std::vector<std::pair<std::string_view, Enum>>;
+template <class Enum> using Choices = std::vector<std::pair<std::string_view, Enum>>;
 
 class YamlMap {
  public:
   bool has(std::string_view key) const;
-  bool is_map(std::string_view key) const;   // for keys that take a word or a mapping
+  bool is_map(std::string_view key) const;  // for keys that take a word or a mapping
 
   std::int64_t integer(std::string_view key, Range<std::int64_t> allowed, std::string_view unit = "");
   std::int64_t integer_or(std::string_view key, std::int64_t fallback, Range<std::int64_t> allowed,
@@ -46,7 +44,8 @@ class YamlMap {
   double number(std::string_view key, Range<double> allowed, std::string_view unit = "");
   double number_or(std::string_view key, double fallback, Range<double> allowed, std::string_view unit = "");
   // A decimal number times `scale`, which must come out whole: "12.5" with scale 1000 is 12500 (ns to ps).
-  std::int64_t scaled(std::string_view key, std::int64_t scale, Range<std::int64_t> allowed, std::string_view unit = "");
+  std::int64_t scaled(std::string_view key, std::int64_t scale, Range<std::int64_t> allowed,
+                      std::string_view unit = "");
   bool boolean(std::string_view key);
   bool boolean_or(std::string_view key, bool fallback);
   std::string text(std::string_view key);
@@ -55,25 +54,23 @@ class YamlMap {
   Duration duration(std::string_view key, Range<Duration> allowed);
   Duration duration_or(std::string_view key, Duration fallback, Range<Duration> allowed);
 
-  template <class Enum>
-  Enum choice(std::string_view key, const Choices<Enum>& choices) {
+  template <class Enum> Enum choice(std::string_view key, const Choices<Enum>& choices) {
     std::vector<std::string_view> names;
     for (const auto& entry : choices) names.push_back(entry.first);
     return choices[choice_index(key, names)].second;
   }
-  template <class Enum>
-  Enum choice_or(std::string_view key, Enum fallback, const Choices<Enum>& choices) {
+  template <class Enum> Enum choice_or(std::string_view key, Enum fallback, const Choices<Enum>& choices) {
     return has(key) ? choice(key, choices) : fallback;
   }
 
-  YamlMap map(std::string_view key);                          // a missing map is a finding, then reads as empty
+  YamlMap map(std::string_view key);  // a missing map is a finding, then reads as empty
   std::optional<YamlMap> map_if(std::string_view key);
-  std::vector<YamlMap> maps(std::string_view key);            // a sequence of mappings
-  std::vector<YamlMap> maps_if(std::string_view key);         // the same, empty when the key is absent
+  std::vector<YamlMap> maps(std::string_view key);     // a sequence of mappings
+  std::vector<YamlMap> maps_if(std::string_view key);  // the same, empty when the key is absent
   // A sequence with at least one entry; what is wrong with one is a finding about key[i], and it is left out.
   std::vector<std::string> texts(std::string_view key);
   std::vector<std::int64_t> integers(std::string_view key, Range<std::int64_t> allowed, std::string_view unit = "");
-  std::vector<std::pair<std::string, YamlMap>> named_maps(std::string_view key);  // name: {...}, in file order
+  std::vector<std::pair<std::string, YamlMap>> named_maps(std::string_view key);       // name: {...}, in file order
   std::vector<std::pair<std::string, std::string>> named_texts(std::string_view key);  // name: text, in file order
 
   // Adds a finding about `key` (or about this mapping, when empty), with its line and value.

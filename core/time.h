@@ -6,8 +6,8 @@
 //
 // All are signed 64-bit nanosecond counts from the start of the run (about +-292 years). There is no conversion
 // between them here: converting needs a clock (timebase/) and is spelled out. Differences of one time are a
-// Duration. Floating point exists only as a filter's dt, `Duration::seconds()`, and in what people read, `in_us()`, `in_ms()` and
-// `in_units_of()`.
+// Duration. Floating point exists only as a filter's dt, `Duration::seconds()`, and in what people read, `in_us()`,
+// `in_ms()` and `in_units_of()`.
 #pragma once
 
 #include <compare>
@@ -16,8 +16,7 @@
 namespace ttf {
 
 // A strongly typed signed count: quantities of different tags never mix.
-template <class Tag>
-struct Count {
+template <class Tag> struct Count {
   std::int64_t value = 0;
 
   constexpr auto operator<=>(const Count&) const = default;
@@ -26,8 +25,14 @@ struct Count {
   friend constexpr Count operator-(Count a) { return {-a.value}; }
   friend constexpr Count operator*(Count a, std::int64_t factor) { return {a.value * factor}; }
   friend constexpr Count operator*(std::int64_t factor, Count a) { return {a.value * factor}; }
-  constexpr Count& operator+=(Count other) { value += other.value; return *this; }
-  constexpr Count& operator-=(Count other) { value -= other.value; return *this; }
+  constexpr Count& operator+=(Count other) {
+    value += other.value;
+    return *this;
+  }
+  constexpr Count& operator-=(Count other) {
+    value -= other.value;
+    return *this;
+  }
 };
 
 // Ticks of one node's oscillator (about 25 ns); as an instant, counted since the node's power-on.
@@ -50,34 +55,42 @@ struct Duration {
   friend constexpr Duration operator-(Duration a) { return {-a.ns}; }
   friend constexpr Duration operator*(Duration a, std::int64_t factor) { return {a.ns * factor}; }
   friend constexpr Duration operator*(std::int64_t factor, Duration a) { return {a.ns * factor}; }
-  constexpr Duration& operator+=(Duration other) { ns += other.ns; return *this; }
-  constexpr Duration& operator-=(Duration other) { ns -= other.ns; return *this; }
+  constexpr Duration& operator+=(Duration other) {
+    ns += other.ns;
+    return *this;
+  }
+  constexpr Duration& operator-=(Duration other) {
+    ns -= other.ns;
+    return *this;
+  }
 };
 
 // An instant on the scale named by Tag, in nanoseconds since the start of the run.
-template <class Tag>
-struct Instant {
+template <class Tag> struct Instant {
   std::int64_t ns = 0;
 
   constexpr auto operator<=>(const Instant&) const = default;
   friend constexpr Duration operator-(Instant a, Instant b) { return {a.ns - b.ns}; }
   friend constexpr Instant operator+(Instant t, Duration d) { return {t.ns + d.ns}; }
   friend constexpr Instant operator-(Instant t, Duration d) { return {t.ns - d.ns}; }
-  constexpr Instant& operator+=(Duration d) { ns += d.ns; return *this; }
+  constexpr Instant& operator+=(Duration d) {
+    ns += d.ns;
+    return *this;
+  }
 };
 
 using TrueTime = Instant<struct TrueScale>;
 using LocalTime = Instant<struct LocalScale>;
 using GlobalTime = Instant<struct GlobalScale>;
 
-// Microseconds, milliseconds, and how often one lasts within another (cycles, mostly), for people: never to compute with.
+// Microseconds, milliseconds, and how often one lasts within another (cycles, mostly), for people: never to compute
+// with.
 constexpr double in_us(Duration d) { return static_cast<double>(d.ns) * 1e-3; }
 constexpr double in_ms(Duration d) { return static_cast<double>(d.ns) * 1e-6; }
-template <class Tag>
-constexpr double in_ms(Instant<Tag> t) {
-  return static_cast<double>(t.ns) * 1e-6;
-}
+template <class Tag> constexpr double in_ms(Instant<Tag> t) { return static_cast<double>(t.ns) * 1e-6; }
 
-constexpr double in_units_of(Duration unit, Duration d) { return static_cast<double>(d.ns) / static_cast<double>(unit.ns); }
+constexpr double in_units_of(Duration unit, Duration d) {
+  return static_cast<double>(d.ns) / static_cast<double>(unit.ns);
+}
 
 }  // namespace ttf

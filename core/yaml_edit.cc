@@ -44,7 +44,8 @@ YAML::Node parsed(const std::string& text, const std::string& name) {
 
 }  // namespace
 
-std::string with_value(const std::string& text, const std::string& name, std::string_view path, std::string_view value) {
+std::string with_value(const std::string& text, const std::string& name, std::string_view path,
+                       std::string_view value) {
   const YAML::Node found = at(parsed(text, name), path);
   if (!found.IsDefined())
     throw InputError({name, 0, std::string(path), "", "must be in the file: only what is written there can be varied"});

@@ -8,8 +8,8 @@
 namespace ttf::experiments {
 namespace {
 
-constexpr Duration kLongestCycle = Duration::milliseconds(16);   // cCycleMax
-constexpr std::int64_t kGapCycles = 5;   // from one stamp to the one after the next it is four
+constexpr Duration kLongestCycle = Duration::milliseconds(16);  // cCycleMax
+constexpr std::int64_t kGapCycles = 5;                          // from one stamp to the one after the next it is four
 
 // Within 36 years of the run's start: what else a damaged log says is not computed with.
 bool possible(std::int64_t ns) {
@@ -33,7 +33,7 @@ std::int64_t AchievedPrecision::within_round(std::int64_t ns) const {
 }
 
 void AchievedPrecision::add(const records::Stamp& stamp) {
-  const bool by_the_cluster = stamp.global.ns != stamp.local.ns;   // else it has no global time (records::Stamp)
+  const bool by_the_cluster = stamp.global.ns != stamp.local.ns;  // else it has no global time (records::Stamp)
   if (round_ns_ == 0 || !by_the_cluster || !possible(stamp.true_time.ns) || !possible(stamp.global.ns)) return;
   std::deque<Offset>& own = offsets_[stamp.node];
   if (!own.empty() && stamp.true_time <= own.back().at) return;

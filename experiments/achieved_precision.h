@@ -35,15 +35,15 @@ class AchievedPrecision {
  private:
   struct Offset {
     TrueTime at{};
-    std::int64_t ns = 0;   // global less true time
+    std::int64_t ns = 0;  // global less true time
   };
   std::int64_t within_round(std::int64_t ns) const;
   void compare(TrueTime at);
 
   std::int64_t round_ns_ = 0;
   Duration longest_gap_{};
-  std::map<NodeId, std::deque<Offset>> offsets_;   // of each: what is needed still
-  std::deque<TrueTime> instants_;                  // to be compared, when all have said what they showed then
+  std::map<NodeId, std::deque<Offset>> offsets_;  // of each: what is needed still
+  std::deque<TrueTime> instants_;                 // to be compared, when all have said what they showed then
   records::BinnedDurations apart_;
 };
 

@@ -25,16 +25,16 @@ namespace ttf::experiments {
 struct ListArrival {
   MeasurementId id;
   GlobalTime measured{}, arrival{};
-  std::uint32_t copy = 0;   // how often it was heard before
+  std::uint32_t copy = 0;  // how often it was heard before
   std::vector<fusion::Observation> observations;
 
   fusion::Scan scan() const { return {id, measured, observations}; }
 };
 
 struct Arrivals {
-  std::vector<std::string> sensors;   // by SensorId
-  std::vector<std::string> classes;   // by fusion::ClassId, in the order of their names
-  std::vector<ListArrival> lists;     // in the order of arrival; at one instant, in that of measurement
+  std::vector<std::string> sensors;  // by SensorId
+  std::vector<std::string> classes;  // by fusion::ClassId, in the order of their names
+  std::vector<ListArrival> lists;    // in the order of arrival; at one instant, in that of measurement
 };
 
 // Where the configuration lists no sensor: lists those of the rows, by name, each as `any`. Throws InputError, naming
@@ -52,9 +52,9 @@ Arrivals arrivals_of(const std::vector<recording::ObservationRow>& rows, const R
 // place among the sensors, the number of the list and which copy of it it is, never on what else there is.
 struct SimulatedArrivals {
   struct Delay {
-    Duration least, most;   // drawn evenly, both ends included
+    Duration least, most;  // drawn evenly, both ends included
   };
-  std::vector<std::optional<Delay>> delays;   // by sensor; of those without one the recorded delays stay
+  std::vector<std::optional<Delay>> delays;  // by sensor; of those without one the recorded delays stay
   // Each so many lists that arrive one after the other come together when the last of them arrives, in drawn order; 1:
   // as they come.
   std::size_t shuffle = 1;

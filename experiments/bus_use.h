@@ -20,7 +20,7 @@ class BusUse final : public records::Sink {
   void on(const records::SlotFrameSent& frame) override;
   void on(const records::CanFrameSent& frame) override;
 
-  std::uint64_t frames_sent() const { return frames_sent_; }   // on FlexRay, each channel's
+  std::uint64_t frames_sent() const { return frames_sent_; }  // on FlexRay, each channel's
   // Of the busier channel, and of each CAN.
   double flexray_load(Duration elapsed) const;
   std::vector<double> can_load(Duration elapsed) const;

@@ -63,8 +63,7 @@ class Line {
     if (cells_[column].empty()) return std::nullopt;
     return integer(column, 0, std::int64_t{1} << 62);
   }
-  template <class All>
-  unsigned bits(std::size_t column, const All& all) const {
+  template <class All> unsigned bits(std::size_t column, const All& all) const {
     unsigned bits = 0;
     std::string_view left = cells_[column];
     while (!left.empty()) {

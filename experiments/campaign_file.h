@@ -5,11 +5,10 @@
 //   cluster: ../schedules/flexray_demo.yaml       from this file's folder
 //   faults: 100000                                each injected alone, once in every variant
 //   seed: 1
-//   start_up: 0.25                                share of the faults that meet a start-up; the others a running cluster
-//   cycles: {steady_state: 60, start_up: 90}      how long a run lasts
-//   restart_halted_after: 2                       cycles after which its host restarts a halted controller; 0: never
-//   classes: {crash: 1, drift: 2, ...}            weights, 0 where not named; all alike without `classes`
-//   variants:
+//   start_up: 0.25                                share of the faults that meet a start-up; the others a running
+//   cluster cycles: {steady_state: 60, start_up: 90}      how long a run lasts restart_halted_after: 2 cycles after
+//   which its host restarts a halted controller; 0: never classes: {crash: 1, drift: 2, ...}            weights, 0
+//   where not named; all alike without `classes` variants:
 //     guardian: {topology: star, guardian: true, channels: AB}
 //     bus: {topology: bus, guardian: false, channels: AB}
 //   expect: {harmed_with_guardian: 0}             at most so many faults of the hypothesis; optional
@@ -31,23 +30,23 @@ struct Variant {
   std::string name;
   schedules::Topology topology = schedules::Topology::kBus;
   bool guardian = false;
-  schedules::Channels channels = schedules::Channels::kAB;   // kA: everything on channel A alone
+  schedules::Channels channels = schedules::Channels::kAB;  // kA: everything on channel A alone
 
   bool guarded() const { return guardian && channels == schedules::Channels::kAB; }
 };
 
 struct CampaignFile {
   std::string name;
-  std::string file;                       // for messages
+  std::string file;  // for messages
   std::string cluster_file;
   std::int64_t faults = 0;
   std::uint64_t seed = 0;
   double startup_share = 0.0;
   int steady_cycles = 0, startup_cycles = 0;
-  int restart_halted_after = 0;           // [cycles]
-  std::array<std::int64_t, nodes::kAllFaultKinds.size()> weights{};   // in their order
+  int restart_halted_after = 0;                                      // [cycles]
+  std::array<std::int64_t, nodes::kAllFaultKinds.size()> weights{};  // in their order
   std::vector<Variant> variants;
-  std::optional<std::int64_t> expected_harmed;   // with guardian and two channels, of the hypothesis
+  std::optional<std::int64_t> expected_harmed;  // with guardian and two channels, of the hypothesis
 };
 
 // Both throw InputError.

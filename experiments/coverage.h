@@ -29,19 +29,19 @@ struct ClassCoverage {
   nodes::FaultKind kind{};
   bool in_hypothesis = true;
   std::uint64_t injected = 0, activated = 0;
-  std::uint64_t detected = 0;                                        // of the activated, by another node or a guardian
-  std::array<std::uint64_t, kAllChecks.size()> by_check{};           // one fault may count for several
-  std::uint64_t by_itself = 0;                                       // its own controller noticed something
+  std::uint64_t detected = 0;                               // of the activated, by another node or a guardian
+  std::array<std::uint64_t, kAllChecks.size()> by_check{};  // one fault may count for several
+  std::uint64_t by_itself = 0;                              // its own controller noticed something
   std::uint64_t harmed = 0;
   std::array<std::uint64_t, kAllHarms.size()> by_harm{};
-  std::uint64_t without = 0;                                         // start-ups that fail without the fault, too
+  std::uint64_t without = 0;  // start-ups that fail without the fault, too
   Spread detect, passive, halt, reintegrate;
 };
 
 struct Coverage {
   std::string variant;
-  bool guarded = false;                    // with guardians and two channels
-  std::vector<ClassCoverage> classes;      // in the order of the kinds; those with faults only
+  bool guarded = false;                // with guardians and two channels
+  std::vector<ClassCoverage> classes;  // in the order of the kinds; those with faults only
   std::uint64_t harmed_in_hypothesis = 0;
 };
 

@@ -23,7 +23,7 @@ namespace ttf::experiments {
 struct ErrorRow {
   TrueTime at{};
   ObjectId object{};
-  std::array<double, 4> error{};   // x, y [m], vx, vy [m/s]: estimate less truth
+  std::array<double, 4> error{};  // x, y [m], vx, vy [m/s]: estimate less truth
   // The filter's standard deviations of the same, and its normalised estimation error squared; not a number where the
   // image was used again, as its covariance says nothing about then.
   std::array<double, 4> sigma{};
@@ -42,19 +42,19 @@ std::vector<NeesRow> nees_rows(const std::vector<ErrorRow>& errors);
 enum class AgeOf : std::uint8_t {
   kFused,
   kUsed
-};   // a measurement when fused; its sensor's newest when an image is used
+};  // a measurement when fused; its sensor's newest when an image is used
 inline constexpr Duration kAgeBin = Duration::milliseconds(1);
 
 class DriveRows final : public records::Sink {
  public:
   explicit DriveRows(double gate_m = kGate_m) : gate_(gate_m) {}
-  void finish();   // completes what waits for its truth; once, at the end
+  void finish();  // completes what waits for its truth; once, at the end
 
   const std::vector<ErrorRow>& errors() const { return errors_; }
   // How many ages are in [n, n + 1) bins of kAgeBin.
   using Histogram = std::map<std::int64_t, std::uint64_t>;
   const std::map<std::pair<AgeOf, SensorId>, Histogram>& ages() const { return ages_; }
-  std::optional<ObjectId> referenced() const { return referenced_; }   // the object that a reference is of
+  std::optional<ObjectId> referenced() const { return referenced_; }  // the object that a reference is of
 
   using records::Sink::on;
   void on(const records::ListFused&) override;
@@ -72,7 +72,7 @@ class DriveRows final : public records::Sink {
   struct Image {
     std::uint32_t sequence = 0;
     std::vector<std::pair<SensorId, TrueTime>> newest;
-    std::vector<Predicted> predicted;   // as its objects
+    std::vector<Predicted> predicted;  // as its objects
   };
   struct Use {
     TrueTime at{};
@@ -89,10 +89,10 @@ class DriveRows final : public records::Sink {
   std::map<std::pair<AgeOf, SensorId>, Histogram> ages_;
   std::optional<ObjectId> referenced_;
   std::map<SensorId, std::pair<MeasurementId, TrueTime>> newest_fused_;
-  std::vector<Predicted> predicted_;   // for the image that is being written
-  std::deque<Image> images_;           // the last few
+  std::vector<Predicted> predicted_;  // for the image that is being written
+  std::deque<Image> images_;          // the last few
   std::optional<Use> pending_;
-  std::vector<records::TruthState> truth_;   // of one instant
+  std::vector<records::TruthState> truth_;  // of one instant
 };
 
 }  // namespace ttf::experiments

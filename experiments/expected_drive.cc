@@ -10,7 +10,7 @@
 namespace ttf::experiments {
 namespace {
 
-constexpr double kWorldStep_s = 0.01;      // in each of which the world draws (sim/world/world.h)
+constexpr double kWorldStep_s = 0.01;  // in each of which the world draws (sim/world/world.h)
 constexpr std::size_t kMostTruths = 128, kMostSeen = 128, kMostImages = 8;
 
 // As white noise: along the heading the acceleration, across it what the turn rate does at this speed.
@@ -50,16 +50,15 @@ void ExpectedError::on(const records::TruthState& truth) {
 void ExpectedError::on(const records::ObservationSeen& observation) {
   const TrueTime measured = records::true_time_of(observation.stamp, observation.measured);
   const auto off = [&](const records::TruthState& truth) { return std::abs((truth.at - measured).ns); };
-  const auto truth = std::min_element(truth_.begin(), truth_.end(),
-                                      [&](const auto& a, const auto& b) { return off(a) < off(b); });
+  const auto truth =
+      std::min_element(truth_.begin(), truth_.end(), [&](const auto& a, const auto& b) { return off(a) < off(b); });
   if (truth == truth_.end()) return;
   const double distance = std::hypot(observation.x - truth->x, observation.y - truth->y);
   if (distance > kGate_m) return;
   Seen seen{observation.id, observation.measured, distance, {}};
   seen.noise << observation.sxx, observation.sxy, observation.sxy, observation.syy;
-  const auto known = std::find_if(seen_.begin(), seen_.end(), [&](const Seen& one) {
-    return one.id == seen.id && one.measured == seen.measured;
-  });
+  const auto known = std::find_if(seen_.begin(), seen_.end(),
+                                  [&](const Seen& one) { return one.id == seen.id && one.measured == seen.measured; });
   if (known == seen_.end()) {
     seen_.push_back(seen);
     if (seen_.size() > kMostSeen) seen_.pop_front();
@@ -76,9 +75,8 @@ void ExpectedError::on(const records::ListFused& list) {
   }
   fusing_ = list.stamp.global;
   if (list.disposition != records::Disposition::kFused && list.disposition != records::Disposition::kFusedLate) return;
-  const auto seen = std::find_if(seen_.begin(), seen_.end(), [&](const Seen& one) {
-    return one.id == list.id && one.measured == list.measured;
-  });
+  const auto seen = std::find_if(seen_.begin(), seen_.end(),
+                                 [&](const Seen& one) { return one.id == list.id && one.measured == list.measured; });
   if (seen == seen_.end()) return;
   recursion_.fuse({seen->measured, seen->noise});
   seen_.erase(seen);

@@ -39,21 +39,21 @@ class ExpectedError final : public records::Sink {
   struct Seen {
     MeasurementId id;
     GlobalTime measured{};
-    double distance = 0.0;   // from the truth [m]
+    double distance = 0.0;  // from the truth [m]
     Eigen::Matrix2d noise = Eigen::Matrix2d::Zero();
   };
   struct Image {
     std::uint32_t sequence = 0;
-    double square = 0.0;     // expected [m^2]
+    double square = 0.0;  // expected [m^2]
   };
 
   TrueTime from_;
   PointMotion motion_;
   ErrorRecursion recursion_;
-  GlobalTime fusing_{};                     // instant of the newest list's fusion
-  std::deque<records::TruthState> truth_;   // the last few instants
-  std::deque<Seen> seen_;                   // of lists that are not fused yet: the observation next to the object
-  std::deque<Image> images_;                // the last few
+  GlobalTime fusing_{};                    // instant of the newest list's fusion
+  std::deque<records::TruthState> truth_;  // the last few instants
+  std::deque<Seen> seen_;                  // of lists that are not fused yet: the observation next to the object
+  std::deque<Image> images_;               // the last few
   double sum_ = 0.0;
   std::uint64_t uses_ = 0;
 };

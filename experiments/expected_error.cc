@@ -17,8 +17,7 @@ Eigen::Matrix4d blocks(const Eigen::Matrix2d& position, const Eigen::Matrix2d& m
 Eigen::Matrix4d moved_on(const Eigen::Matrix4d& p, const Eigen::Matrix2d& density, double dt) {
   Eigen::Matrix4d f = Eigen::Matrix4d::Identity();
   f.topRightCorner<2, 2>() = dt * Eigen::Matrix2d::Identity();
-  return f * p * f.transpose() +
-         blocks(density * (dt * dt * dt / 3.0), density * (dt * dt / 2.0), density * dt);
+  return f * p * f.transpose() + blocks(density * (dt * dt * dt / 3.0), density * (dt * dt / 2.0), density * dt);
 }
 
 Eigen::Matrix4d corrected(const Eigen::Matrix4d& p, const Eigen::Matrix<double, 4, 2>& gain,

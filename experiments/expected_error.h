@@ -56,7 +56,7 @@ class ErrorRecursion {
     Eigen::Matrix4d assumed = Eigen::Matrix4d::Zero(), actual = Eigen::Matrix4d::Zero();
   };
   PointMotion motion_;
-  std::vector<Step> steps_;            // in the order of measurement
+  std::vector<Step> steps_;  // in the order of measurement
 };
 
 }  // namespace ttf::experiments

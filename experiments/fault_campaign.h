@@ -15,13 +15,13 @@ namespace ttf::experiments {
 struct FaultResult {
   std::uint32_t index = 0;
   DrawnFault drawn;
-  std::vector<FaultOutcome> outcomes;      // by variant
+  std::vector<FaultOutcome> outcomes;  // by variant
 };
 
 struct CampaignClusters {
-  explicit CampaignClusters(const CampaignFile& campaign);   // throws InputError
-  schedules::Cluster base;                        // faults are drawn in
-  std::vector<schedules::Cluster> variants;       // in the file's order
+  explicit CampaignClusters(const CampaignFile& campaign);  // throws InputError
+  schedules::Cluster base;                                  // faults are drawn in
+  std::vector<schedules::Cluster> variants;                 // in the file's order
 };
 
 // `progress`: called now and then by the calling thread, with how many faults are done.

@@ -52,7 +52,7 @@ FaultCauses::Reach FaultCauses::reach_of(const nodes::Fault& fault) const {
       break;
     case FaultKind::kMasquerading:
     case FaultKind::kChannelSwap: reach.channel = true; break;
-    case FaultKind::kTransient: reach.channel = reach.clocks = true; break;   // sync frames, too
+    case FaultKind::kTransient: reach.channel = reach.clocks = true; break;  // sync frames, too
     case FaultKind::kDuplicateColdstart:
     case FaultKind::kWrongSchedule: reach.hearing = reach.channel = reach.clocks = true; break;
     case FaultKind::kByzantineClock: reach.clocks = true; break;
@@ -104,8 +104,7 @@ bool FaultCauses::disturbs(const Suspect& suspect, const Signal& signal) const {
 }
 
 // One that has never acted is it only where no other fits: what it does may be seen a moment before it is said.
-template <class Fits>
-FaultCauses::Cause FaultCauses::latest(TrueTime until, Fits fits) const {
+template <class Fits> FaultCauses::Cause FaultCauses::latest(TrueTime until, Fits fits) const {
   Cause cause;
   std::pair<bool, TrueTime> newest;
   for (std::size_t f = 0; f < suspects_.size(); ++f) {
@@ -137,9 +136,7 @@ FaultCauses::Cause FaultCauses::of_signal(const Signal& signal) const {
 FaultCauses::Cause FaultCauses::of_node(NodeId node, TrueTime at) const {
   Cause cause = latest(at, [&](const Suspect& suspect) { return owns(suspect, node, at); });
   if (!cause && node == kNoNode)
-    cause = latest(at, [&](const Suspect& suspect) {
-      return suspect.reach.clocks && acting(suspect, at - patience_);
-    });
+    cause = latest(at, [&](const Suspect& suspect) { return suspect.reach.clocks && acting(suspect, at - patience_); });
   if (cause) return cause;
   return latest(at, [&](const Suspect& suspect) { return acting(suspect, at - patience_); });
 }

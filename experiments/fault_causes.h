@@ -28,7 +28,7 @@ namespace ttf::experiments {
 
 class FaultCauses {
  public:
-  using Cause = std::optional<std::size_t>;   // index in the plan
+  using Cause = std::optional<std::size_t>;  // index in the plan
 
   // `plan`: resolved for the cluster; both must outlive this.
   FaultCauses(const nodes::FaultPlan& plan, const schedules::Cluster& cluster);
@@ -45,11 +45,11 @@ class FaultCauses {
 
   // What was received in a slot, or at a star's branch.
   struct Signal {
-    NodeId owner = kNoNode;             // who sends there; kNoNode: nobody
-    NodeId receiver = kNoNode;          // who saw it; kNoNode: a guardian
+    NodeId owner = kNoNode;     // who sends there; kNoNode: nobody
+    NodeId receiver = kNoNode;  // who saw it; kNoNode: a guardian
     schedules::Channels channels{};
-    TrueTime from{}, until{};           // when
-    bool silence = false;               // there was nothing
+    TrueTime from{}, until{};  // when
+    bool silence = false;      // there was nothing
   };
   Cause of_signal(const Signal& signal) const;
   // What became of a node's state or of its clock; kNoNode: of all clocks together.
@@ -58,14 +58,14 @@ class FaultCauses {
  private:
   struct Reach {
     bool hearing = false, channel = false, clocks = false;
-    Duration lasts{};                   // what it puts on a channel, from the instant it acts on
+    Duration lasts{};  // what it puts on a channel, from the instant it acts on
   };
   struct Suspect {
     const nodes::Fault* fault = nullptr;
     Reach reach;
-    std::vector<bool> named, out;       // by NodeId; `out` by its doing
+    std::vector<bool> named, out;  // by NodeId; `out` by its doing
     std::optional<TrueTime> began, ended;
-    std::deque<TrueTime> acts;          // of the last cycles, and one before
+    std::deque<TrueTime> acts;  // of the last cycles, and one before
   };
   Reach reach_of(const nodes::Fault& fault) const;
   static bool begun(const Suspect& suspect, TrueTime by);
@@ -73,12 +73,11 @@ class FaultCauses {
   static bool owns(const Suspect& suspect, NodeId node, TrueTime since);
   static TrueTime last_act(const Suspect& suspect, TrueTime until);
   bool disturbs(const Suspect& suspect, const Signal& signal) const;
-  template <class Fits>
-  Cause latest(TrueTime until, Fits fits) const;
+  template <class Fits> Cause latest(TrueTime until, Fits fits) const;
 
   const schedules::Cluster& cluster_;
-  Duration patience_;                   // of a controller without sync frames
-  std::vector<Suspect> suspects_;       // by index in the plan
+  Duration patience_;              // of a controller without sync frames
+  std::vector<Suspect> suspects_;  // by index in the plan
 };
 
 }  // namespace ttf::experiments

@@ -17,15 +17,12 @@ using nodes::Fault;
 using nodes::FaultKind;
 using schedules::Channels;
 
-constexpr int kMostPayloadWords = schedules::kMostFragmentBytes / 2;   // cPayloadLengthMax
+constexpr int kMostPayloadWords = schedules::kMostFragmentBytes / 2;  // cPayloadLengthMax
 
 class Drawing {
  public:
   Drawing(const CampaignFile& campaign, const schedules::Cluster& cluster, std::uint32_t index)
-      : campaign_(campaign),
-        cluster_(cluster),
-        g_(cluster.flexray),
-        cycle_(cluster.cycle()),
+      : campaign_(campaign), cluster_(cluster), g_(cluster.flexray), cycle_(cluster.cycle()),
         draw_({campaign.seed, index, Purpose::kCampaign, 0, 0}) {}
 
   DrawnFault fault() {
@@ -73,8 +70,8 @@ class Drawing {
     switch (fault.kind) {
       case FaultKind::kCrash: return;
       case FaultKind::kOmission:
-        fault.direction = one_of(std::vector{nodes::FaultDirection::kSend, nodes::FaultDirection::kReceive,
-                                             nodes::FaultDirection::kBoth});
+        fault.direction = one_of(
+            std::vector{nodes::FaultDirection::kSend, nodes::FaultDirection::kReceive, nodes::FaultDirection::kBoth});
         return occasions(fault);
       case FaultKind::kBabblingIdiot:
         fault.signal = one_of(std::vector{nodes::FaultSignal::kNoise, nodes::FaultSignal::kFrame});
@@ -88,9 +85,7 @@ class Drawing {
         fault.shift = signed_up_to(Duration{2 * g_.gdActionPointOffset * g_.gdMacrotick_ps / 1000});
         receivers(fault);
         return occasions(fault);
-      case FaultKind::kSosValue:
-        receivers(fault);
-        return occasions(fault);
+      case FaultKind::kSosValue: receivers(fault); return occasions(fault);
       case FaultKind::kBitFlipHeader:
       case FaultKind::kBitFlipPayload:
       case FaultKind::kBitFlipTrailer:
@@ -173,7 +168,7 @@ class Drawing {
     const Duration length = between(Duration::microseconds(1), Duration::microseconds(300));
     const bool noise = fault.kind == FaultKind::kNoise ||
                        (fault.kind == FaultKind::kBabblingIdiot && fault.signal == nodes::FaultSignal::kNoise);
-    if (noise) fault.length = length;   // frames and symbols are as long as they are
+    if (noise) fault.length = length;  // frames and symbols are as long as they are
     // From back to back to once in some cycles, evenly in the logarithm.
     const double ns = 1e4 * std::pow(static_cast<double>(cycle_.ns) * 3e-4, draw_.uniform());
     fault.interval = Duration{static_cast<std::int64_t>(ns)};
@@ -195,15 +190,12 @@ class Drawing {
     }
     return slots;
   }
-  Channels channels() {
-    return one_of(std::vector{Channels::kAB, Channels::kAB, Channels::kA, Channels::kB});
-  }
+  Channels channels() { return one_of(std::vector{Channels::kAB, Channels::kAB, Channels::kA, Channels::kB}); }
 
   Duration between(Duration low, Duration high) { return {draw_.integer(low.ns, high.ns)}; }
   Duration signed_up_to(Duration most) { return draw_.uniform() < 0.5 ? between({100}, most) : -between({100}, most); }
   int number(int low, int high) { return static_cast<int>(draw_.integer(low, high)); }
-  template <class T>
-  T one_of(const std::vector<T>& choices) {
+  template <class T> T one_of(const std::vector<T>& choices) {
     return choices[static_cast<std::size_t>(draw_.integer(0, static_cast<std::int64_t>(choices.size()) - 1))];
   }
 
@@ -229,7 +221,7 @@ std::string parameters_text(const Fault& fault, const schedules::Cluster& cluste
   std::string out;
   for (const auto& [key, value] : nodes::keys_of(fault, cluster)) {
     if (!out.empty()) out += "; ";
-    std::string cell = value;   // a list's commas would be the table's
+    std::string cell = value;  // a list's commas would be the table's
     for (std::size_t at = 0; (at = cell.find(", ", at)) != std::string::npos;) cell.replace(at, 2, 1, '+');
     out += fmt::format("{}: {}", key, cell);
   }

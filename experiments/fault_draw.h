@@ -16,8 +16,8 @@
 namespace ttf::experiments {
 
 struct DrawnFault {
-  nodes::Fault fault;        // resolved
-  bool starts_up = false;    // it meets a start-up
+  nodes::Fault fault;      // resolved
+  bool starts_up = false;  // it meets a start-up
 };
 
 bool in_hypothesis(const nodes::Fault& fault);

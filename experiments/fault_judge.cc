@@ -223,9 +223,8 @@ void FaultJudge::precision(Duration apart, TrueTime when) {
 }
 
 bool FaultJudge::all_fault_free_active() const {
-  return std::all_of(nodes_.begin(), nodes_.end(), [](const Node& node) {
-    return node.faulty || node.state == PocKind::kNormalActive;
-  });
+  return std::all_of(nodes_.begin(), nodes_.end(),
+                     [](const Node& node) { return node.faulty || node.state == PocKind::kNormalActive; });
 }
 
 const Judgement& FaultJudge::finish(TrueTime when) {

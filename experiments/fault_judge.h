@@ -32,14 +32,20 @@
 namespace ttf::experiments {
 
 enum class Check : std::uint8_t {
-  kSyntax, kContent, kBoundary, kConflict, kNoFrame,   // of a slot: bus::SlotStatus
-  kMissingTerm, kLimit,                                // of clock correction
-  kPassive, kHalt,                                     // states
-  kGuardian,                                           // kept something from the others
+  kSyntax,
+  kContent,
+  kBoundary,
+  kConflict,
+  kNoFrame,  // of a slot: bus::SlotStatus
+  kMissingTerm,
+  kLimit,  // of clock correction
+  kPassive,
+  kHalt,      // states
+  kGuardian,  // kept something from the others
 };
-inline constexpr std::array kAllChecks = {Check::kSyntax,   Check::kContent,     Check::kBoundary, Check::kConflict,
-                                          Check::kNoFrame,  Check::kMissingTerm, Check::kLimit,    Check::kPassive,
-                                          Check::kHalt,     Check::kGuardian};
+inline constexpr std::array kAllChecks = {Check::kSyntax,  Check::kContent,     Check::kBoundary, Check::kConflict,
+                                          Check::kNoFrame, Check::kMissingTerm, Check::kLimit,    Check::kPassive,
+                                          Check::kHalt,    Check::kGuardian};
 std::string_view name_of(Check check);
 
 enum class Harm : std::uint8_t { kLeftActive, kNotStarted, kPrecision, kFrameLost, kFrameForged };
@@ -48,8 +54,7 @@ inline constexpr std::array kAllHarms = {Harm::kLeftActive, Harm::kNotStarted, H
 std::string_view name_of(Harm harm);
 
 // Those of `all` whose bit is set, joined by "+".
-template <class All>
-std::string names_of(unsigned bits, const All& all) {
+template <class All> std::string names_of(unsigned bits, const All& all) {
   std::string out;
   for (std::size_t i = 0; i < all.size(); ++i) {
     if ((bits >> i & 1u) == 0) continue;
@@ -66,32 +71,32 @@ NodeId owner_of(const schedules::Cluster& cluster, int slot, schedules::Channel 
 
 // What the judge has found.
 struct Judgement {
-  using Since = std::optional<TrueTime>;                   // the first time, if any
-  std::array<Since, kAllChecks.size()> seen_by_others{};   // by Check
-  std::array<Since, kAllChecks.size()> seen_by_itself{};   // by the faulty node's own controller
+  using Since = std::optional<TrueTime>;                  // the first time, if any
+  std::array<Since, kAllChecks.size()> seen_by_others{};  // by Check
+  std::array<Since, kAllChecks.size()> seen_by_itself{};  // by the faulty node's own controller
   struct Harmed {
     TrueTime first{};
-    NodeId node = kNoNode;      // the harmed one; kNoNode: of the precision
-    NodeId sender = kNoNode;    // whose frame it is about
+    NodeId node = kNoNode;    // the harmed one; kNoNode: of the precision
+    NodeId sender = kNoNode;  // whose frame it is about
     int slot = 0;
   };
-  std::array<std::optional<Harmed>, kAllHarms.size()> harms{};   // by Harm
-  Since passive, halt;                                     // of any node, the faulty one included
+  std::array<std::optional<Harmed>, kAllHarms.size()> harms{};  // by Harm
+  Since passive, halt;                                          // of any node, the faulty one included
   // Of any node that lost normal active or its supply: the longest time until it was normal active again, from then or
   // from the end of the fault, whichever was later; and how many did not come back.
   std::optional<Duration> reintegration;
   int still_out = 0;
 
   bool harmed() const;
-  Since detected() const;                                  // by others
+  Since detected() const;  // by others
 };
 
 struct JudgeSettings {
-  std::vector<bool> faulty;               // by NodeId: named by the fault
-  TrueTime from{};                        // the fault begins: what was before does not count
-  TrueTime until{};                       // it ends
+  std::vector<bool> faulty;  // by NodeId: named by the fault
+  TrueTime from{};           // the fault begins: what was before does not count
+  TrueTime until{};          // it ends
   Duration assumed_precision{};
-  bool starts_up = false;                 // the run begins with start-up, so all fault-free nodes have to become active
+  bool starts_up = false;  // the run begins with start-up, so all fault-free nodes have to become active
   // What the same start-up shows without the fault, and until when: these checks count from then on only.
   TrueTime settled{};
   std::array<bool, kAllChecks.size()> usual{};
@@ -126,7 +131,7 @@ class FaultJudge {
     schedules::Channels channels{};
     bool faulty = false;
     bool was_active = false;
-    std::optional<TrueTime> out_since;    // lost normal active, or its supply
+    std::optional<TrueTime> out_since;  // lost normal active, or its supply
   };
   // A frame as its controller sent it.
   struct Sent {
@@ -142,8 +147,8 @@ class FaultJudge {
   struct Owed {
     NodeId sender = kNoNode;
     TrueTime sent{};
-    std::vector<bool> receivers;          // by NodeId
-    std::array<Sent, 2> as_sent;          // by channel
+    std::vector<bool> receivers;  // by NodeId
+    std::array<Sent, 2> as_sent;  // by channel
   };
   bool faulty(NodeId node) const { return node != kNoNode && nodes_[index_of(node)].faulty; }
   bool counts(TrueTime at) const { return at >= settings_.from; }
@@ -155,7 +160,7 @@ class FaultJudge {
   const schedules::Cluster& cluster_;
   JudgeSettings settings_;
   std::vector<Node> nodes_;
-  std::vector<Owed> owed_;                // by slot
+  std::vector<Owed> owed_;  // by slot
   Judgement judgement_;
 };
 

@@ -31,7 +31,7 @@ bool falls_back(const records::StateChanged& change) {
   const auto from = static_cast<PocKind>(change.from);
   switch (static_cast<PocKind>(change.to)) {
     case PocKind::kHalt:
-    case PocKind::kWakeupDetect:   // somebody else is on the channel
+    case PocKind::kWakeupDetect:  // somebody else is on the channel
     case PocKind::kColdstartGap: return true;
     case PocKind::kColdstartListen:
     case PocKind::kIntegrationListen:
@@ -73,19 +73,14 @@ bool FaultFindings::harmed() const {
 }
 
 FaultReport::FaultReport(const schedules::Cluster& cluster, nodes::FaultPlan plan, bool begins_integrated)
-    : cluster_(cluster),
-      plan_(std::move(plan)),
-      cycle_(cluster.cycle()),
+    : cluster_(cluster), plan_(std::move(plan)), cycle_(cluster.cycle()),
       slot_(macroticks(cluster.flexray, cluster.flexray.gdStaticSlot)),
       action_point_(macroticks(cluster.flexray, cluster.flexray.gdActionPointOffset)),
-      assumed_precision_(schedules::assumed_precision(cluster.flexray)),
-      nodes_(cluster.nodes.size()),
-      causes_(plan_, cluster),
-      clocks_(cluster),
+      assumed_precision_(schedules::assumed_precision(cluster.flexray)), nodes_(cluster.nodes.size()),
+      causes_(plan_, cluster), clocks_(cluster),
       ledger_(
           cluster, [this](NodeId node) { return counts(node); }, [this](const SlotLoss& loss) { lost(loss); }),
-      place_(plan_.faults.size()),
-      counted_(plan_.faults.size() + 1) {
+      place_(plan_.faults.size()), counted_(plan_.faults.size() + 1) {
   for (std::size_t n = 0; n < nodes_.size(); ++n)
     (begins_integrated ? nodes_[n].active : nodes_[n].has_to_start) = cluster.nodes[n].flexray.has_value();
 }
@@ -109,7 +104,7 @@ std::int64_t FaultReport::cycle_at(TrueTime at) const {
 }
 
 void FaultReport::on(const records::FaultActivity& activity) {
-  if (activity.fault >= place_.size()) return;   // of another plan
+  if (activity.fault >= place_.size()) return;  // of another plan
   const nodes::Fault& fault = plan_.faults[activity.fault];
   auto& place = place_[activity.fault];
   if (!place) {
@@ -171,8 +166,7 @@ void FaultReport::on(const records::PowerChanged& power) {
   if (index_of(node) >= nodes_.size()) return;
   const Cause cause = causes_.of_node(node, at);
   const std::string_view off = "without supply", on = "with supply";
-  if (!power.on || !starts_as_planned(node))
-    changed(cause, node, power.on ? off : on, power.on ? on : off, "", at);
+  if (!power.on || !starts_as_planned(node)) changed(cause, node, power.on ? off : on, power.on ? on : off, "", at);
   if (power.on) return;
   if (cause) causes_.left(node, *cause);
   left_active(cause, node, at);
@@ -288,8 +282,12 @@ void FaultReport::lost(const SlotLoss& loss) {
   unsigned channels = 0;
   for (const auto channel : {schedules::Channel::kA, schedules::Channel::kB})
     if (owner_of(cluster_, loss.slot, channel, loss.cycle) == loss.sender) channels |= 1u << index_of(channel);
-  const FaultCauses::Signal signal{loss.sender, loss.receiver, static_cast<schedules::Channels>(channels),
-                                   loss.at - action_point_, loss.at - action_point_ + slot_, false};
+  const FaultCauses::Signal signal{loss.sender,
+                                   loss.receiver,
+                                   static_cast<schedules::Channels>(channels),
+                                   loss.at - action_point_,
+                                   loss.at - action_point_ + slot_,
+                                   false};
   harm(causes_.of_signal(signal), loss.forged ? Harm::kFrameForged : Harm::kFrameLost, loss.at, loss.receiver,
        loss.sender, loss.slot);
 }
@@ -298,8 +296,7 @@ void FaultReport::harm(Cause cause, Harm harm, TrueTime at, NodeId node, NodeId 
   // A frame that was under way when the first fault began may be lost by it.
   if (!causes_.any_begun(at + slot_)) return;
   std::vector<HarmSeen>& harms = effects(cause).harms[static_cast<std::size_t>(harm)];
-  const auto known =
-      std::find_if(harms.begin(), harms.end(), [&](const HarmSeen& seen) { return seen.node == node; });
+  const auto known = std::find_if(harms.begin(), harms.end(), [&](const HarmSeen& seen) { return seen.node == node; });
   if (known != harms.end())
     ++known->times;
   else

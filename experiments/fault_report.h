@@ -32,58 +32,58 @@ namespace ttf::experiments {
 
 // One check, as seen by nodes of one side: those without a fault, or those with one.
 struct CheckSeen {
-  std::uint64_t cycles = 0;            // in which it was seen
-  TrueTime first{};                    // where there are any
-  std::vector<NodeId> nodes;           // in the order in which they saw it first; a guardian is no node
-  std::array<bool, 2> guardians{};     // by channel
+  std::uint64_t cycles = 0;         // in which it was seen
+  TrueTime first{};                 // where there are any
+  std::vector<NodeId> nodes;        // in the order in which they saw it first; a guardian is no node
+  std::array<bool, 2> guardians{};  // by channel
 };
 
 struct StateSeen {
   NodeId node{};
-  std::string from, to, why;   // as at the first time; to "without supply", "with supply" where its power went or came
+  std::string from, to, why;  // as at the first time; to "without supply", "with supply" where its power went or came
   TrueTime first{};
   std::uint64_t times = 0;
 };
 
 // What guardians kept from the others for one reason, in the words of the records.
 struct GuardianSeen {
-  bool cut = false;                    // else blocked
+  bool cut = false;  // else blocked
   std::string why;
   std::uint64_t signals = 0;
-  std::int64_t first_cycle = 0;        // running cycle
+  std::int64_t first_cycle = 0;  // running cycle
   TrueTime first{};
 };
 
 struct HarmSeen {
-  NodeId node = kNoNode;               // the harmed one; kNoNode: of the precision
+  NodeId node = kNoNode;  // the harmed one; kNoNode: of the precision
   TrueTime first{};
-  NodeId sender = kNoNode;             // whose frame it was about at the first time, where it was about one
+  NodeId sender = kNoNode;  // whose frame it was about at the first time, where it was about one
   int slot = 0;
   std::uint64_t times = 0;
 };
 
 // What came of one fault, or of none.
 struct FaultEffects {
-  std::array<CheckSeen, kAllChecks.size()> by_others, by_faulty;   // by Check
+  std::array<CheckSeen, kAllChecks.size()> by_others, by_faulty;  // by Check
   std::vector<GuardianSeen> guardians;
   std::vector<StateSeen> states;
-  std::array<std::vector<HarmSeen>, kAllHarms.size()> harms;       // by Harm, every harmed node once
+  std::array<std::vector<HarmSeen>, kAllHarms.size()> harms;  // by Harm, every harmed node once
   bool harmed() const;
-  bool nothing() const;                // nobody saw anything, nothing changed
+  bool nothing() const;  // nobody saw anything, nothing changed
 };
 
 struct FaultSeen : FaultEffects {
-  std::uint32_t fault = 0;             // index in the plan
-  std::string kind, text;              // as the plan names it; what it did first, empty if nothing
-  NodeId node = kNoNode;               // kNoNode: the medium's
+  std::uint32_t fault = 0;  // index in the plan
+  std::string kind, text;   // as the plan names it; what it did first, empty if nothing
+  NodeId node = kNoNode;    // kNoNode: the medium's
   TrueTime begins{};
   std::optional<TrueTime> ends, first_act;
   std::uint64_t acts = 0;
 };
 
 struct FaultFindings {
-  std::vector<FaultSeen> faults;       // as many of the plan's as began, in that order
-  FaultEffects unattributed;           // what fits none of them
+  std::vector<FaultSeen> faults;  // as many of the plan's as began, in that order
+  FaultEffects unattributed;      // what fits none of them
   bool harmed() const;
 };
 
@@ -113,8 +113,8 @@ class FaultReport final : public records::Sink {
   using Cause = FaultCauses::Cause;
   struct Node {
     bool active = false, faulty = false;
-    bool has_to_start = false;             // and has not yet
-    bool cut_off = false;                  // a fault has taken its supply, or keeps it
+    bool has_to_start = false;  // and has not yet
+    bool cut_off = false;       // a fault has taken its supply, or keeps it
   };
   // A cycle is counted once however many nodes and slots it is about: by its counter, where that comes again after a
   // round.
@@ -137,15 +137,15 @@ class FaultReport final : public records::Sink {
   const schedules::Cluster& cluster_;
   const nodes::FaultPlan plan_;
   Duration cycle_, slot_, action_point_, assumed_precision_;
-  std::vector<Node> nodes_;                // by NodeId
+  std::vector<Node> nodes_;  // by NodeId
   FaultCauses causes_;
   FrameClocks clocks_;
   SlotLedger ledger_;
   // The newest cycle known, by a fault-free node's clock.
   std::optional<std::pair<TrueTime, std::int64_t>> cycle_began_;
   FaultFindings findings_;
-  std::vector<std::optional<std::size_t>> place_;   // in findings_.faults, by index in the plan
-  std::vector<Counted> counted_;           // by index in the plan, and of what is unattributed
+  std::vector<std::optional<std::size_t>> place_;  // in findings_.faults, by index in the plan
+  std::vector<Counted> counted_;                   // by index in the plan, and of what is unattributed
 };
 
 }  // namespace ttf::experiments

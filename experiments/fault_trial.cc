@@ -19,10 +19,10 @@ namespace {
 using bus::PocKind;
 using schedules::Channel;
 
-constexpr Duration kBeforeFirstCycle = Duration::milliseconds(1);   // in a running cluster
-constexpr int kSamplesPerCycle = 4;                                 // of the precision
-constexpr int kCyclesToPowerOn = 2;                                 // all nodes, in a start-up
-constexpr int kCyclesToSettle = 2;                                  // after the last node became active
+constexpr Duration kBeforeFirstCycle = Duration::milliseconds(1);  // in a running cluster
+constexpr int kSamplesPerCycle = 4;                                // of the precision
+constexpr int kCyclesToPowerOn = 2;                                // all nodes, in a start-up
+constexpr int kCyclesToSettle = 2;                                 // after the last node became active
 constexpr std::int64_t kGuardianDriftPpb = 1'500'000;
 
 // The lists and the network management vector of one node, written anew in every cycle.
@@ -74,14 +74,9 @@ class Trial final : public sim::Disturbance, public sim::Plant, public records::
   // `drawn` null: the same start-up without the fault.
   Trial(const CampaignFile& campaign, const schedules::Cluster& cluster, const DrawnFault* drawn, bool starts_up,
         std::uint32_t index, const JudgeSettings& settings, TrialStory* story, bool bit_true)
-      : campaign_(campaign),
-        cluster_(cluster),
-        plan_{campaign.file, drawn != nullptr ? std::vector{drawn->fault} : std::vector<nodes::Fault>{}},
-        believed_(plan_, cluster),
-        index_(index),
-        faulty_(settings.faulty),
-        judge_(cluster, settings),
-        story_(story),
+      : campaign_(campaign), cluster_(cluster), plan_{campaign.file, drawn != nullptr ? std::vector{drawn->fault}
+                                                                                      : std::vector<nodes::Fault>{}},
+        believed_(plan_, cluster), index_(index), faulty_(settings.faulty), judge_(cluster, settings), story_(story),
         restart_at_(cluster.nodes.size(), kNever) {
     std::vector<sim::BusNode> nodes;
     std::vector<bus::ControllerEvents*> events;
@@ -103,11 +98,10 @@ class Trial final : public sim::Disturbance, public sim::Plant, public records::
     }
     std::vector<timebase::Oscillator> guardians;
     for (const Channel channel : {Channel::kA, Channel::kB})
-      guardians.push_back(oscillator(cluster.nodes.size() + index_of(channel),
-                                     sim::StarCoupler::needed(cluster, channel)
-                                         ? sim::StarCoupler::microtick_ps(cluster, channel)
-                                         : 25'000,
-                                     std::nullopt, kGuardianDriftPpb));
+      guardians.push_back(oscillator(
+          cluster.nodes.size() + index_of(channel),
+          sim::StarCoupler::needed(cluster, channel) ? sim::StarCoupler::microtick_ps(cluster, channel) : 25'000,
+          std::nullopt, kGuardianDriftPpb));
     simulation_ = std::make_unique<sim::BusSimulation>(cluster, std::move(nodes), std::move(events), guardians);
     injector_ = std::make_unique<sim::Injector>(plan_, cluster, *this, campaign.seed, index, *this, origin);
     simulation_->set_disturbance(this);
@@ -247,14 +241,13 @@ class Trial final : public sim::Disturbance, public sim::Plant, public records::
   std::vector<bool> faulty_;
   FaultJudge judge_;
   TrialStory* story_;
-  std::vector<TrueTime> restart_at_;      // by NodeId
+  std::vector<TrueTime> restart_at_;  // by NodeId
   std::vector<std::unique_ptr<Witness>> witnesses_;
   std::unique_ptr<sim::BusSimulation> simulation_;
   std::unique_ptr<sim::Injector> injector_;
 };
 
-template <class Times>
-std::uint16_t bits_of(const Times& times) {
+template <class Times> std::uint16_t bits_of(const Times& times) {
   unsigned bits = 0;
   for (std::size_t i = 0; i < times.size(); ++i) bits |= times[i].has_value() ? 1u << i : 0u;
   return static_cast<std::uint16_t>(bits);

@@ -17,17 +17,17 @@ namespace ttf::experiments {
 
 // What came of one fault; times in nanoseconds.
 struct FaultOutcome {
-  bool activated = false;                  // the fault did something
-  bool starts_without = true;              // a start-up: without the fault all nodes became active
-  std::uint16_t seen_by_others = 0;        // bits by Check
+  bool activated = false;            // the fault did something
+  bool starts_without = true;        // a start-up: without the fault all nodes became active
+  std::uint16_t seen_by_others = 0;  // bits by Check
   std::uint16_t seen_by_itself = 0;
-  std::uint8_t harms = 0;                  // bits by Harm
-  NodeId harmed = kNoNode, sender = kNoNode;   // of the first harm, as in Judgement
+  std::uint8_t harms = 0;                     // bits by Harm
+  NodeId harmed = kNoNode, sender = kNoNode;  // of the first harm, as in Judgement
   int slot = 0;
-  std::int16_t still_out = 0;              // nodes that lost normal active and did not come back
-  std::optional<std::int64_t> detected_after, passive_after, halt_after;   // the fault's first act
+  std::int16_t still_out = 0;  // nodes that lost normal active and did not come back
+  std::optional<std::int64_t> detected_after, passive_after, halt_after;  // the fault's first act
   std::optional<std::int64_t> harmed_after;
-  std::optional<std::int64_t> reintegrated_after;                          // Judgement::reintegration
+  std::optional<std::int64_t> reintegrated_after;  // Judgement::reintegration
 
   bool operator==(const FaultOutcome&) const = default;
 };

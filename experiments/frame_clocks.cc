@@ -18,7 +18,7 @@ std::optional<Duration> FrameClocks::sent(const records::SlotFrameSent& frame) {
     return std::nullopt;
   }
   if (!first.known || first.cycle + 1 != frame.cycle) return std::nullopt;
-  first.known = false;   // once per double cycle
+  first.known = false;  // once per double cycle
   const Duration shown = frame.stamp.global - first.shown;
   if (shown.ns <= 0) return std::nullopt;
   const double rate = static_cast<double>((frame.stamp.true_time - first.at).ns) / static_cast<double>(shown.ns);
@@ -30,7 +30,7 @@ std::optional<Duration> FrameClocks::sent(const records::SlotFrameSent& frame) {
   for (const Clock& other : clocks_) {
     if (!other.end) continue;
     const Duration apart{std::max((end - *other.end).ns, (*other.end - end).ns)};
-    if (apart < cycle_) most = std::max(most, apart);   // else of another double cycle
+    if (apart < cycle_) most = std::max(most, apart);  // else of another double cycle
   }
   return most;
 }

@@ -40,11 +40,11 @@ class FrameClocks {
     GlobalTime shown{};
   };
   struct Clock {
-    Reading first;                        // the first frame of the newest even cycle
-    std::optional<TrueTime> end;          // of the newest double cycle that is known
+    Reading first;                // the first frame of the newest even cycle
+    std::optional<TrueTime> end;  // of the newest double cycle that is known
   };
   Duration cycle_;
-  std::vector<Clock> clocks_;             // by NodeId
+  std::vector<Clock> clocks_;  // by NodeId
 };
 
 }  // namespace ttf::experiments

@@ -18,10 +18,10 @@ std::uint64_t* counter_of(NodeTiming& timing, std::uint8_t what) {
     case records::kEarlyFrame: return &timing.early_frames;
     case records::kFramesLost: return &timing.frames_lost;
   }
-  return nullptr;   // of a later version
+  return nullptr;  // of a later version
 }
 
-std::uint64_t sum_over(const std::map<NodeId, NodeTiming>& timing, std::uint64_t NodeTiming::* count) {
+std::uint64_t sum_over(const std::map<NodeId, NodeTiming>& timing, std::uint64_t NodeTiming::*count) {
   std::uint64_t sum = 0;
   for (const auto& [node, one] : timing) sum += one.*count;
   return sum;

@@ -28,8 +28,8 @@ namespace ttf::experiments {
 
 // What the logs say of the run, beside records.
 struct RealTimeRun {
-  std::int64_t time_scale_ppm = 1'000'000;   // recording::LogManifest
-  std::map<NodeId, std::string> hosts;       // where each node ran; who is not in it is not compared
+  std::int64_t time_scale_ppm = 1'000'000;  // recording::LogManifest
+  std::map<NodeId, std::string> hosts;      // where each node ran; who is not in it is not compared
 };
 RealTimeRun real_time_run(const recording::MergedLogs& logs);
 
@@ -41,8 +41,8 @@ struct NodeTiming {
   std::uint64_t slots_missed = 0;
   std::uint64_t late_frames = 0;
   std::uint64_t early_frames = 0;
-  std::uint64_t frames_lost = 0;   // never came
-  MissingFramesCount missing;      // of these: by their senders' logs
+  std::uint64_t frames_lost = 0;  // never came
+  MissingFramesCount missing;     // of these: by their senders' logs
   std::uint64_t lost_on_the_way() const { return frames_lost - missing.withheld - missing.away; }
   // Of the node's clock; none if it was never corrected. By size, in real time.
   std::optional<Duration> largest_offset_correction;
@@ -50,15 +50,15 @@ struct NodeTiming {
 
 struct HostPrecision {
   std::string host;
-  records::BinnedDurations apart;   // largest difference of two nodes' clocks, by instants; in the drive's time
+  records::BinnedDurations apart;  // largest difference of two nodes' clocks, by instants; in the drive's time
 };
 
 struct RealTimeFindings {
   std::int64_t time_scale_ppm = 1'000'000;
-  std::map<NodeId, recording::NodeLateness> lateness;   // of nodes that told of any
-  std::map<NodeId, NodeTiming> timing;                  // of nodes that told of any, were corrected, or had problems
-  std::map<NodeId, records::MediumCounts> medium;       // of nodes that told of any
-  std::vector<HostPrecision> precision;                 // of hosts with two synchronised nodes or more, by name
+  std::map<NodeId, recording::NodeLateness> lateness;  // of nodes that told of any
+  std::map<NodeId, NodeTiming> timing;                 // of nodes that told of any, were corrected, or had problems
+  std::map<NodeId, records::MediumCounts> medium;      // of nodes that told of any
+  std::vector<HostPrecision> precision;                // of hosts with two synchronised nodes or more, by name
 
   std::uint64_t frames_lost() const;
   std::uint64_t late_frames() const;
@@ -83,7 +83,7 @@ class LatenessAccount final : public records::Sink {
 
   const schedules::Cluster& cluster_;
   RealTimeRun run_;
-  bool any_ = false;   // a record of a run in real time
+  bool any_ = false;  // a record of a run in real time
   recording::LatenessSums sums_;
   MediumSums medium_;
   MissingFrames missing_;

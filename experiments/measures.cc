@@ -71,7 +71,8 @@ void DriveMeasures::on(const records::TrackState& track) {
   std::copy(track.covariance.begin(), track.covariance.end(), predicted.covariance.begin());
 }
 
-// An image's predictions are reported before it, one an object. Where a torn log lost some, they are not to be told apart.
+// An image's predictions are reported before it, one an object. Where a torn log lost some, they are not to be told
+// apart.
 void DriveMeasures::on(const records::ImageWritten& image) {
   if (predicted_.size() != image.objects.size()) predicted_.clear();
   Image& made = images_.emplace_back();
@@ -86,8 +87,8 @@ void DriveMeasures::on(const records::ImageWritten& image) {
 
 // The last of this number: a fusion node that restarts counts its images anew.
 const DriveMeasures::Image* DriveMeasures::image_of(std::uint32_t sequence) const {
-  const auto last = std::find_if(images_.rbegin(), images_.rend(),
-                                 [&](const Image& image) { return image.sequence == sequence; });
+  const auto last =
+      std::find_if(images_.rbegin(), images_.rend(), [&](const Image& image) { return image.sequence == sequence; });
   return last == images_.rend() ? nullptr : &*last;
 }
 
@@ -105,8 +106,8 @@ void DriveMeasures::on(const records::FeatureUsed& used) {
   bool warned = false;
   for (const records::FeatureObject& object : used.objects) {
     const records::ImageObject& image = object.image;
-    use.objects.push_back({image.x, image.y, image.speed * std::cos(image.heading),
-                           image.speed * std::sin(image.heading)});
+    use.objects.push_back(
+        {image.x, image.y, image.speed * std::cos(image.heading), image.speed * std::sin(image.heading)});
     warned |= object.warning;
   }
   if (warned) ++summary_.warnings;

@@ -1,8 +1,8 @@
 // What a drive was worth: errors, ages, order of arrival and consistency, from its records alone.
 //
-// A sink: it sees the run as the log does, so measures of a live run and of its log are the same. Position and velocity are
-// judged where they matter, at the instants the feature service used the image, against the truth at that true time and
-// against the DGPS reference interpolated to it.
+// A sink: it sees the run as the log does, so measures of a live run and of its log are the same. Position and velocity
+// are judged where they matter, at the instants the feature service used the image, against the truth at that true time
+// and against the DGPS reference interpolated to it.
 #pragma once
 
 #include <array>
@@ -41,15 +41,16 @@ struct DriveSummary {
   double velocity_rmse_truth = kNotMeasured;      // of the plane velocity difference [m/s]
   double position_rmse_reference = kNotMeasured;  // against the DGPS [m]
   double velocity_rmse_reference = kNotMeasured;  // against the DGPS' Doppler velocity [m/s]
-  std::uint64_t matched = 0;               // object uses compared with the truth
-  std::uint64_t missed = 0;                // true objects without an image within the gate
-  std::uint64_t spurious = 0;              // image objects without a true object within the gate
+  std::uint64_t matched = 0;                      // object uses compared with the truth
+  std::uint64_t missed = 0;                       // true objects without an image within the gate
+  std::uint64_t spurious = 0;                     // image objects without a true object within the gate
   std::uint64_t reference_compared = 0;
   ReferenceWeights reference_weights;
-  std::uint64_t uses = 0;                  // times the feature service used an image, or refused one
-  std::uint64_t stale_uses = 0;            // of them refused: the image was too old
-  // Normalised estimation error squared of (x, y, vx, vy) predicted to the use, averaged over the same pairs at first uses of
-  // an image, and the band in which the average lies with 95 % if the samples are independent and the model is right.
+  std::uint64_t uses = 0;        // times the feature service used an image, or refused one
+  std::uint64_t stale_uses = 0;  // of them refused: the image was too old
+  // Normalised estimation error squared of (x, y, vx, vy) predicted to the use, averaged over the same pairs at first
+  // uses of an image, and the band in which the average lies with 95 % if the samples are independent and the model is
+  // right.
   double nees = kNotMeasured;
   std::uint64_t nees_samples = 0;
   double nees_low = kNotMeasured, nees_high = kNotMeasured;
@@ -62,18 +63,18 @@ struct DriveSummary {
   records::BinnedDurations age_used_oldest;
   records::BinnedDurations age_used_newest;
   // Observation lists over the whole drive.
-  std::uint64_t received = 0;              // lists the fusion node took in
-  std::uint64_t out_of_sequence = 0;       // of them older than one taken in before
+  std::uint64_t received = 0;         // lists the fusion node took in
+  std::uint64_t out_of_sequence = 0;  // of them older than one taken in before
   std::uint64_t fused = 0;
-  std::uint64_t fused_late = 0;            // retrodicted
-  std::uint64_t held = 0;                  // fusion instants at which a list was kept back
-  AgeStatistics held_for;                  // of each such list: from the first of them until it was fused
-  std::uint64_t dropped = 0;               // too old for the history
+  std::uint64_t fused_late = 0;  // retrodicted
+  std::uint64_t held = 0;        // fusion instants at which a list was kept back
+  AgeStatistics held_for;        // of each such list: from the first of them until it was fused
+  std::uint64_t dropped = 0;     // too old for the history
   std::uint64_t duplicates = 0;
-  std::uint64_t warnings = 0;              // uses in which an object warned
+  std::uint64_t warnings = 0;  // uses in which an object warned
   // What only who knows the scenario can say: filled in by others.
-  double position_mse_reference_corrected = kNotMeasured;   // less the DGPS' own error (experiments/reference_judge.h)
-  double position_mse_expected = kNotMeasured;              // without sampling (experiments/expected_drive.h)
+  double position_mse_reference_corrected = kNotMeasured;  // less the DGPS' own error (experiments/reference_judge.h)
+  double position_mse_expected = kNotMeasured;             // without sampling (experiments/expected_drive.h)
 };
 
 class DriveMeasures final : public records::Sink {
@@ -128,19 +129,19 @@ class DriveMeasures final : public records::Sink {
   std::array<double, 4> squares_{};
   double nees_sum_ = 0.0;
   std::uint32_t receiving_step_ = 0;
-  GlobalTime receiving_{};                                        // instant of that step
-  std::optional<GlobalTime> newest_received_, newest_before_;     // before: in earlier steps
+  GlobalTime receiving_{};                                     // instant of that step
+  std::optional<GlobalTime> newest_received_, newest_before_;  // before: in earlier steps
   struct Held {
     MeasurementId id;
     GlobalTime measured{}, since{};
   };
-  static constexpr std::size_t kMostHeld = 64;                    // more than any strategy keeps
-  std::deque<Held> held_;                                         // the first was first
+  static constexpr std::size_t kMostHeld = 64;  // more than any strategy keeps
+  std::deque<Held> held_;                       // the first was first
   std::map<SensorId, Fused> newest_fused_;
-  std::vector<Predicted> predicted_;                              // for the image that is being written
-  std::deque<Image> images_;                                      // as they were written, the last few
+  std::vector<Predicted> predicted_;  // for the image that is being written
+  std::deque<Image> images_;          // as they were written, the last few
   std::optional<Use> pending_;
-  std::vector<records::TruthState> truth_;                        // of one instant
+  std::vector<records::TruthState> truth_;  // of one instant
   ReferenceJudge reference_;
 };
 

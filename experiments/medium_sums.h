@@ -21,8 +21,8 @@ class MediumSums final : public records::Sink {
 
  private:
   struct Told {
-    records::MediumCounts before;   // by the node's former processes
-    records::MediumCounts newest;   // by its present one
+    records::MediumCounts before;  // by the node's former processes
+    records::MediumCounts newest;  // by its present one
   };
   std::map<NodeId, Told> told_;
 };

@@ -84,7 +84,7 @@ void MissingFrames::add(const records::SlotFrameSent& frame) {
 
 // So many cycles before the one of the frame that came was the first that did not.
 std::int64_t MissingFrames::reach_of(const Lost& lost) const {
-  std::vector<std::int64_t> turns;   // of one round, backwards
+  std::vector<std::int64_t> turns;  // of one round, backwards
   for (std::int64_t back = 1; back <= kCycles; ++back) {
     const auto counter = static_cast<std::int64_t>(cycle_counter(Int128{lost.came.cycle} - back));
     if (std::any_of(cluster_.frames.begin(), cluster_.frames.end(), [&](const FrameSlot& frame) {
@@ -106,7 +106,7 @@ MissingFramesCount MissingFrames::count(const Lost& lost, std::int64_t reach, co
   const auto is_before = [](const Turn& turn, std::int64_t ns) { return turn.due_ns < ns; };
   const auto ends_before = [](const Silence& silence, std::int64_t ns) { return silence.behind.due_ns < ns; };
 
-  std::vector<std::int64_t> missed;   // so many cycles before
+  std::vector<std::int64_t> missed;  // so many cycles before
   for (auto turn = std::lower_bound(sender.missed.begin(), sender.missed.end(), from_ns, is_before);
        turn != sender.missed.end() && turn->due_ns <= to_ns; ++turn)
     if (const auto back = cycles_from(*turn, lost.came); back && *back >= 1 && *back <= reach) missed.push_back(*back);
@@ -119,8 +119,8 @@ MissingFramesCount MissingFrames::count(const Lost& lost, std::int64_t reach, co
     if (!before || !behind || *before <= 1 || *behind >= reach) continue;
     const std::int64_t first = std::max<std::int64_t>(1, *behind + 1), last = std::min(reach, *before - 1);
     if (first > last) continue;
-    const auto withheld = std::upper_bound(missed.begin(), missed.end(), last) -
-                          std::lower_bound(missed.begin(), missed.end(), first);
+    const auto withheld =
+        std::upper_bound(missed.begin(), missed.end(), last) - std::lower_bound(missed.begin(), missed.end(), first);
     const std::int64_t silent = sender.turns_before(lost.came.cycle, first, last);
     found.away += static_cast<std::uint64_t>(std::max<std::int64_t>(0, silent - withheld));
   }
@@ -129,13 +129,13 @@ MissingFramesCount MissingFrames::count(const Lost& lost, std::int64_t reach, co
 
 std::map<NodeId, MissingFramesCount> MissingFrames::by_receiver() const {
   std::map<Place, Sender> senders = senders_;
-  for (auto& [place, sender] : senders)   // what was told late is of before
+  for (auto& [place, sender] : senders)  // what was told late is of before
     std::sort(sender.missed.begin(), sender.missed.end(),
               [](const Turn& a, const Turn& b) { return a.due_ns < b.due_ns; });
   std::map<NodeId, MissingFramesCount> all;
   for (const Lost& lost : lost_) {
     const std::int64_t reach = reach_of(lost);
-    std::uint64_t left = lost.count;   // of a damaged log, records may say more
+    std::uint64_t left = lost.count;  // of a damaged log, records may say more
     MissingFramesCount& of_node = all[lost.receiver];
     for (auto at = senders.lower_bound({lost.slot, lost.channel, NodeId{0}});
          at != senders.end() && std::get<0>(at->first) == lost.slot && std::get<1>(at->first) == lost.channel; ++at) {

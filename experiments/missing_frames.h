@@ -53,19 +53,19 @@ class MissingFrames {
     std::int64_t cycle = 0;
   };
   struct Silence {
-    Turn before, behind;   // the last frame before it, and the first behind it
+    Turn before, behind;  // the last frame before it, and the first behind it
   };
   // What is known of a sender in a slot of a channel.
   struct Sender {
-    std::bitset<schedules::kCycles> turns;   // by cycle counter
+    std::bitset<schedules::kCycles> turns;  // by cycle counter
     std::vector<Turn> missed;
-    std::vector<Silence> silences;           // in the order of their instants
-    std::optional<Turn> last;                // that it sent
+    std::vector<Silence> silences;  // in the order of their instants
+    std::optional<Turn> last;       // that it sent
     std::int64_t turns_before(std::int64_t cycle, std::int64_t first_back, std::int64_t last_back) const;
   };
-  using Place = std::tuple<std::uint16_t, std::uint8_t, NodeId>;   // slot, channel, sender
+  using Place = std::tuple<std::uint16_t, std::uint8_t, NodeId>;  // slot, channel, sender
   struct Lost {
-    Turn came;             // the frame that showed it
+    Turn came;  // the frame that showed it
     NodeId receiver{};
     std::uint16_t slot = 0;
     std::uint8_t channel = 0;

@@ -8,7 +8,7 @@
 namespace ttf::experiments {
 
 struct PlanePosition {
-  double x = 0.0, y = 0.0;   // [m]
+  double x = 0.0, y = 0.0;  // [m]
 };
 
 struct TruthPair {

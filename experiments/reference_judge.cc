@@ -25,7 +25,7 @@ void ReferenceJudge::fix(const records::ReferenceFix& fix) {
 }
 
 void ReferenceJudge::use(TrueTime at, std::span<const PlaneEstimate> estimates) {
-  if (!after_) return;   // no fix is before it
+  if (!after_) return;  // no fix is before it
   Use use{at, {estimates.begin(), estimates.end()}};
   if (at <= after_->measured_true) return judge(use);
   waiting_.push_back(std::move(use));

@@ -51,9 +51,9 @@ class ReferenceJudge {
 
   std::uint64_t compared() const { return compared_; }
   // Root mean squares over the uses compared, NaN where there are none. The velocity counts where both fixes have one.
-  double position_rmse() const;   // [m]
-  double velocity_rmse() const;   // [m/s]
-  ReferenceWeights weights() const;   // zeros where nothing was compared
+  double position_rmse() const;      // [m]
+  double velocity_rmse() const;      // [m/s]
+  ReferenceWeights weights() const;  // zeros where nothing was compared
   std::size_t waiting() const { return waiting_.size(); }
 
  private:
@@ -64,7 +64,7 @@ class ReferenceJudge {
   void judge(const Use& use);
 
   double gate_;
-  std::optional<records::ReferenceFix> before_, after_;   // the newest is after_
+  std::optional<records::ReferenceFix> before_, after_;  // the newest is after_
   std::deque<Use> waiting_;
   std::uint64_t compared_ = 0, velocities_ = 0;
   double position_squares_ = 0.0, velocity_squares_ = 0.0;

@@ -13,7 +13,7 @@ namespace {
 
 struct SigmaName {
   const char* name;
-  double SensorNoise::* member;
+  double SensorNoise::*member;
   Range<double> allowed;
   const char* unit;
 };

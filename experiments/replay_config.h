@@ -27,28 +27,28 @@ namespace ttf::experiments {
 
 // Standard deviations of what a row gives without a covariance or a sigma of its own.
 struct SensorNoise {
-  double position = 0.5;     // [m], per axis
-  double range = 0.5;        // [m]
-  double bearing = 0.03;     // [rad]
-  double range_rate = 0.5;   // [m/s]
-  double heading = 0.2;      // [rad]
-  double length = 0.5, width = 0.5;   // [m]
+  double position = 0.5;             // [m], per axis
+  double range = 0.5;                // [m]
+  double bearing = 0.03;             // [rad]
+  double range_rate = 0.5;           // [m/s]
+  double heading = 0.2;              // [rad]
+  double length = 0.5, width = 0.5;  // [m]
 };
 
 struct SensorSetup {
   SensorNoise noise;
   // Without them: what the recording shows (experiments/sensor_timing.h).
   std::optional<Duration> worst_delay, period;
-  std::optional<GlobalTime> first;   // an instant of the schedule; only with a period
-  fusion::KnownSensor known;         // its place on the vehicle, and its biases
+  std::optional<GlobalTime> first;  // an instant of the schedule; only with a period
+  fusion::KnownSensor known;        // its place on the vehicle, and its biases
 };
 
 struct ReplayConfig {
-  std::string file;   // empty: there is none
+  std::string file;  // empty: there is none
   fusion::StrategyKind strategy = fusion::StrategyKind::kAdva;
-  fusion::TrackerConfig tracker;   // with what is known of the sensors
-  int late_line = 0;   // of tracker.late; 0: it is not there
-  std::vector<std::pair<std::string, SensorSetup>> sensors;   // by SensorId; none: whichever a recording has
+  fusion::TrackerConfig tracker;                             // with what is known of the sensors
+  int late_line = 0;                                         // of tracker.late; 0: it is not there
+  std::vector<std::pair<std::string, SensorSetup>> sensors;  // by SensorId; none: whichever a recording has
 };
 
 inline constexpr std::size_t kMostSensors = 100;

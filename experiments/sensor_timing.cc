@@ -70,8 +70,8 @@ std::vector<fusion::SensorTiming> sensor_timings(const Arrivals& arrivals, const
   bool any_scheduled = false;
   for (std::size_t s = 0; s < arrivals.sensors.size(); ++s) {
     const SensorSetup& setup = config.sensors[s].second;
-    fusion::SensorTiming timing{static_cast<SensorId>(s),
-                                fusion::Settling::after(setup.worst_delay.value_or(longest[s])), false, {}, {}};
+    fusion::SensorTiming timing{
+        static_cast<SensorId>(s), fusion::Settling::after(setup.worst_delay.value_or(longest[s])), false, {}, {}};
     const std::optional<Duration> period = setup.period ? setup.period : regular_period(times[s]);
     if (on_schedule && period && (setup.first || !times[s].empty())) {
       timing.scheduled = any_scheduled = true;

@@ -16,10 +16,8 @@ constexpr TrueTime kEverything{std::numeric_limits<std::int64_t>::max()};
 
 SlotLedger::SlotLedger(const schedules::Cluster& cluster, std::function<bool(NodeId)> counts,
                        std::function<void(const SlotLoss&)> told)
-    : cluster_(cluster),
-      counts_(std::move(counts)),
-      told_(std::move(told)),
-      slot_{cluster.flexray.gdStaticSlot * cluster.flexray.gdMacrotick_ps / 1000} {
+    : cluster_(cluster), counts_(std::move(counts)),
+      told_(std::move(told)), slot_{cluster.flexray.gdStaticSlot * cluster.flexray.gdMacrotick_ps / 1000} {
   for (Cycle& cycle : cycles_) {
     cycle.counted.resize(cluster.nodes.size());
     cycle.slots.resize(cluster.frames.size());
@@ -62,7 +60,7 @@ void SlotLedger::finish(TrueTime at) {
 }
 
 void SlotLedger::on(const records::SlotFrameSent& frame) {
-  if (!counts_(frame.stamp.node)) return;   // it may be in a cycle of its own
+  if (!counts_(frame.stamp.node)) return;  // it may be in a cycle of its own
   Cycle& page = open(frame.cycle);
   for (std::size_t f = 0; f < cluster_.frames.size(); ++f) {
     const schedules::FrameSlot& expected = cluster_.frames[f];

@@ -25,8 +25,8 @@ struct SlotLoss {
   TrueTime at{};
   NodeId receiver{}, sender{};
   int slot = 0;
-  std::int64_t cycle = 0;   // counter
-  bool forged = false;   // a valid frame where the sender sent none; else the sender's frame came on no channel
+  std::int64_t cycle = 0;  // counter
+  bool forged = false;     // a valid frame where the sender sent none; else the sender's frame came on no channel
 };
 
 class SlotLedger {
@@ -44,17 +44,17 @@ class SlotLedger {
 
  private:
   static constexpr std::size_t kCycles =
-      4;   // open at a time: the present one, and those whose reports may be missing still
+      4;  // open at a time: the present one, and those whose reports may be missing still
   struct Slot {
-    bool counted = false;                     // its sender did when it sent
+    bool counted = false;  // its sender did when it sent
     TrueTime at{};
-    std::array<bool, 2> sent{};               // by channel
-    std::array<std::vector<bool>, 2> reported;   // by channel and receiver
+    std::array<bool, 2> sent{};                 // by channel
+    std::array<std::vector<bool>, 2> reported;  // by channel and receiver
   };
   struct Cycle {
     std::int64_t counter = -1;
-    std::vector<bool> counted;                // by NodeId, when the cycle began
-    std::vector<Slot> slots;                  // by Cluster::frames
+    std::vector<bool> counted;  // by NodeId, when the cycle began
+    std::vector<Slot> slots;    // by Cluster::frames
   };
   Cycle& open(std::int64_t cycle);
   void settle(const Cycle& cycle, TrueTime over);
@@ -63,8 +63,8 @@ class SlotLedger {
   std::function<bool(NodeId)> counts_;
   std::function<void(const SlotLoss&)> told_;
   std::array<Cycle, kCycles> cycles_;
-  std::int64_t newest_ = -1;                  // counter of the cycle that was opened last
-  Duration slot_;                             // how long a static one lasts
+  std::int64_t newest_ = -1;  // counter of the cycle that was opened last
+  Duration slot_;             // how long a static one lasts
 };
 
 }  // namespace ttf::experiments

@@ -16,13 +16,13 @@ namespace ttf::experiments {
 
 struct NodeStartup {
   NodeId node{};
-  std::optional<TrueTime> powered;        // for the first time
+  std::optional<TrueTime> powered;  // for the first time
   struct Active {
     TrueTime at{};
-    std::int64_t cycle = 0;               // that begins then, on the node's own count
-    std::string from, why;                // the state before, and why it was left
+    std::int64_t cycle = 0;  // that begins then, on the node's own count
+    std::string from, why;   // the state before, and why it was left
   };
-  std::optional<Active> active;           // for the first time
+  std::optional<Active> active;  // for the first time
   // The last change of its state, which it is in now.
   std::string state, why;
 };

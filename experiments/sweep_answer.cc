@@ -125,7 +125,7 @@ bool agree(const SweepFile& sweep, const Expectation& expectation, const std::ve
     if (run.key.paradigm == paradigm && run.status == results::kDone)
       difference.add(run.values[first + one] - run.values[first + other]);
   const Interval interval = interval_of(difference, sweep.confidence);
-  return interval.low() <= 0.0 && interval.high() >= 0.0;   // not where it is no number
+  return interval.low() <= 0.0 && interval.high() >= 0.0;  // not where it is no number
 }
 
 bool less(const SweepFile& sweep, const Expectation& expectation, const std::vector<Run>& runs) {

@@ -24,18 +24,18 @@ struct PointAnswer {
 // Between two neighbours on a numeric axis of the grid, all else equal, the first measure's difference changes its
 // sign; or between two points with others between them at which there is no difference at all.
 struct Crossing {
-  std::size_t paradigm = 0;          // it and the baseline
+  std::size_t paradigm = 0;  // it and the baseline
   std::string axis;
-  std::string others;                // the other axes' values, "" if there are none
-  std::uint32_t before = 0, after = 0;   // points
-  double at = 0.0;   // interpolated: linear in the value, or in its logarithm where the axis is logarithmic
-  bool certain = false;              // the intervals of both exclude 0
+  std::string others;                   // the other axes' values, "" if there are none
+  std::uint32_t before = 0, after = 0;  // points
+  double at = 0.0;       // interpolated: linear in the value, or in its logarithm where the axis is logarithmic
+  bool certain = false;  // the intervals of both exclude 0
 };
 
 struct ExpectationAnswer {
   std::string text;
   bool holds = false;
-  std::vector<std::string> where_not;   // points at which it is otherwise or not certain
+  std::vector<std::string> where_not;  // points at which it is otherwise or not certain
 };
 
 struct SweepAnswer {

@@ -28,7 +28,7 @@ namespace ttf::experiments {
 namespace {
 
 constexpr std::string_view kOfCluster = "cluster.";
-constexpr std::size_t kAllPrepared = 1000;   // drives of a grid that are prepared, every one, before it begins
+constexpr std::size_t kAllPrepared = 1000;  // drives of a grid that are prepared, every one, before it begins
 
 // The last one's, if there is one.
 const std::string* file_of(const std::vector<Edit>& edits, std::string_view key) {
@@ -213,9 +213,9 @@ results::Run SweepDrives::run(const results::RunKey& key, const PreparedDrive& d
       sinks.push_back(&expected.emplace(drive.scenario));
     if (listener != nullptr) sinks.push_back(listener);
     records::Tee tee(sinks);
-    const sim::DriveConfig config{&drive.scenario, &drive.cluster,  drive.strategy,
-                                  sweep_.seed,     key.replication, nullptr,
-                                  nullptr,         listener != nullptr || asked_for("precision")};
+    const sim::DriveConfig config{
+        &drive.scenario, &drive.cluster, drive.strategy, sweep_.seed,
+        key.replication, nullptr,        nullptr,        listener != nullptr || asked_for("precision")};
     const sim::DriveOutcome outcome = sim::run_drive(config, tee);
     DriveSummary summary = measures.finish();
     summary.position_mse_reference_corrected = summary.position_rmse_reference * summary.position_rmse_reference -

@@ -53,7 +53,7 @@ class SweepDrives {
   void plan_faults(const std::string& file, nodes::Scenario& scenario) const;
 
   const SweepFile& sweep_;
-  std::map<std::string, std::string> texts_;   // of scenarios, clusters and plans of faults, by path
+  std::map<std::string, std::string> texts_;  // of scenarios, clusters and plans of faults, by path
   std::string identity_;
 };
 

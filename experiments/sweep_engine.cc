@@ -19,10 +19,10 @@ namespace {
 using results::Run;
 using results::RunKey;
 
-constexpr std::uint32_t kRunsAtATime = 8;                // for a worker
-constexpr std::chrono::milliseconds kWritten{500};       // how long a run waits at most to be written down
-constexpr std::chrono::milliseconds kTurn{2};            // between two looks at what is driven elsewhere
-constexpr std::size_t kMostWaiting = 100'000;            // runs
+constexpr std::uint32_t kRunsAtATime = 8;           // for a worker
+constexpr std::chrono::milliseconds kWritten{500};  // how long a run waits at most to be written down
+constexpr std::chrono::milliseconds kTurn{2};       // between two looks at what is driven elsewhere
+constexpr std::size_t kMostWaiting = 100'000;       // runs
 
 // Which runs there are, a bit each.
 class Ledger {
@@ -68,7 +68,7 @@ class Workers {
         const std::lock_guard lock(mutex_);
         ++running_;
       }
-    } catch (const std::system_error&) {   // with fewer, then
+    } catch (const std::system_error&) {  // with fewer, then
       if (threads.empty()) throw;
     }
     for (bool last = false; !last;) {
@@ -156,8 +156,8 @@ class Workers {
   std::atomic<std::size_t> next_{0};
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::vector<Run> waiting_;      // guarded, as the next two
-  int running_ = 0;               // may be below 0 for a moment: who is done before it is counted
+  std::vector<Run> waiting_;  // guarded, as the next two
+  int running_ = 0;           // may be below 0 for a moment: who is done before it is counted
   std::exception_ptr failure_;
 };
 

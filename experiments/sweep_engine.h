@@ -19,8 +19,8 @@
 namespace ttf::experiments {
 
 struct SweepProgress {
-  std::uint64_t done = 0, all = 0;    // runs of this shard; with a stop rule `all` may not be needed
-  std::uint64_t driven = 0;           // of them now, not found in the store
+  std::uint64_t done = 0, all = 0;  // runs of this shard; with a stop rule `all` may not be needed
+  std::uint64_t driven = 0;         // of them now, not found in the store
 };
 
 // Who drives runs beside the workers here, in other processes: asked now and then, on the engine's thread.
@@ -35,8 +35,8 @@ class Elsewhere {
   virtual std::size_t turn(const Grab& grab, const Deposit& deposit) = 0;
 };
 
-// Drives runs one after the other; neighbours of one point and paradigm are prepared once, as that takes half as long as
-// a drive.
+// Drives runs one after the other; neighbours of one point and paradigm are prepared once, as that takes half as long
+// as a drive.
 class Driver {
  public:
   explicit Driver(const SweepDrives& drives) : drives_(drives) {}
@@ -44,8 +44,8 @@ class Driver {
 
  private:
   const SweepDrives& drives_;
-  std::optional<results::RunKey> newest_;     // that was driven
-  std::optional<PreparedDrive> prepared_;     // what for; nothing where it could not be, or something is drawn for each
+  std::optional<results::RunKey> newest_;  // that was driven
+  std::optional<PreparedDrive> prepared_;  // what for; nothing where it could not be, or something is drawn for each
 };
 
 // Throws std::runtime_error where the store cannot take what was driven; what it has stays. `progress` is called now

@@ -57,7 +57,7 @@ class Reader {
     file_.file = yaml_.name();
     file_.text = yaml_.text();
     if (root_.text("kind") != "sweep") root_.fail("kind", "must be sweep");
-    findings_.throw_if_any();   // another kind's keys are not to be judged
+    findings_.throw_if_any();  // another kind's keys are not to be judged
     file_.name = root_.text("name");
     if (!is_name(file_.name)) root_.fail("name", std::string(kNames));
     file_.question = root_.text("question");

@@ -46,8 +46,8 @@ namespace ttf::experiments {
 
 struct Edit {
   std::string key, value;
-  std::string paradigm;                         // whose only; empty: of all
-  int line = 0;                                 // in the experiment's file
+  std::string paradigm;  // whose only; empty: of all
+  int line = 0;          // in the experiment's file
 };
 // Keys whose values are files, as paths that can be opened.
 inline constexpr std::string_view kScenarioFile = "scenario", kClusterFile = "cluster", kFaultsFile = "faults";
@@ -56,39 +56,39 @@ inline bool is_file(const Edit& edit) {
 }
 
 struct Setting {
-  std::string label;                                            // how tables and expectations call it
-  std::optional<double> number;                                 // where the label is one
+  std::string label;             // how tables and expectations call it
+  std::optional<double> number;  // where the label is one
   std::vector<Edit> edits;
 };
 
 struct Axis {
   std::string name;
-  std::vector<Setting> settings;                // of a random axis: none
+  std::vector<Setting> settings;  // of a random axis: none
   bool logarithmic = false;
   // Random: uniformly from `low` to `high`, to all keys.
-  std::vector<Edit> keys;                       // without values
+  std::vector<Edit> keys;  // without values
   double low = 0.0, high = 0.0;
-  std::string unit;                             // behind numbers; may be empty
+  std::string unit;  // behind numbers; may be empty
   bool random() const { return settings.empty(); }
 };
 
 struct Paradigm {
   std::string name;
   fusion::StrategyKind strategy{};
-  std::optional<std::string> cluster_file;      // none: the scenario's for the strategy
+  std::optional<std::string> cluster_file;  // none: the scenario's for the strategy
   std::vector<Edit> edits;
 };
 
 struct StopRule {
-  double half_width = 0.0;   // of the intervals of differences from the baseline, in the measure's unit
-  std::uint32_t batch = 0;                      // replications after which it is looked at
+  double half_width = 0.0;  // of the intervals of differences from the baseline, in the measure's unit
+  std::uint32_t batch = 0;  // replications after which it is looked at
 };
 
 struct Expectation {
   // Of paradigm `less` the measure is less than of paradigm `than`; or, where there is none, of paradigm `less` it
   // agrees with the measure `agrees`: nothing is known against their being the same on the average.
   std::string measure, less, than, agrees;
-  std::map<std::string, std::string> where;     // axis, label; of axes that are not named: everywhere
+  std::map<std::string, std::string> where;  // axis, label; of axes that are not named: everywhere
   std::string text;
 };
 
@@ -96,8 +96,8 @@ struct SweepFile {
   std::string name, question, file, text;
   std::string scenario_file;
   std::uint64_t seed = 0;
-  std::uint32_t replications = 0;               // of every point; more or fewer may be asked for than the file says
-  std::vector<Paradigm> paradigms;              // the baseline is one of them
+  std::uint32_t replications = 0;   // of every point; more or fewer may be asked for than the file says
+  std::vector<Paradigm> paradigms;  // the baseline is one of them
   std::vector<Axis> axes;
   std::vector<std::string> measures;
   std::size_t baseline = 0;
@@ -105,10 +105,10 @@ struct SweepFile {
   std::optional<StopRule> stop;
   std::vector<Expectation> expectations;
 
-  std::vector<const Axis*> grid() const;        // axes that are not random, in the file's order
-  std::vector<const Axis*> drawn() const;       // random ones
-  std::size_t points() const;                   // of the grid
-  std::uint64_t runs() const;                   // all there are, without a stop rule
+  std::vector<const Axis*> grid() const;   // axes that are not random, in the file's order
+  std::vector<const Axis*> drawn() const;  // random ones
+  std::size_t points() const;              // of the grid
+  std::uint64_t runs() const;              // all there are, without a stop rule
   // The setting of every grid axis at a point; the last axis counts on first.
   std::vector<const Setting*> settings_of(std::uint32_t point) const;
   // "noise 2, road icy".

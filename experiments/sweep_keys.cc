@@ -29,8 +29,9 @@ class KeyCheck {
         const bool owned =
             std::any_of(first, last, [&](const auto& entry) { return meet(entry.second.paradigm, paradigm.name); });
         if (owned || is_fixed(edit))
-          fail(edit, "paradigms", fmt::format("must not set {} in {}: {}", edit.key, paradigm.name,
-                                              owned ? "an axis varies it" : kNotTheirs));
+          fail(edit, "paradigms",
+               fmt::format("must not set {} in {}: {}", edit.key, paradigm.name,
+                           owned ? "an axis varies it" : kNotTheirs));
       }
   }
 
@@ -78,7 +79,7 @@ class KeyCheck {
 
   const SweepFile& sweep_;
   Findings& findings_;
-  std::multimap<std::string, Owner> owners_;   // of a key
+  std::multimap<std::string, Owner> owners_;  // of a key
 };
 
 }  // namespace

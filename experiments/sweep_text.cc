@@ -110,8 +110,8 @@ std::string answer_text(const SweepFile& sweep, const SweepAnswer& answer) {
     for (const auto& means : point.means) row.push_back(text_of(means.front(), false));
     for (std::size_t p = 0; p < point.differences.size(); ++p)
       if (p != sweep.baseline)
-        row.push_back(fmt::format("{} {}", text_of(point.differences[p].front(), true),
-                                  verdict(point.differences[p].front())));
+        row.push_back(
+            fmt::format("{} {}", text_of(point.differences[p].front(), true), verdict(point.differences[p].front())));
     rows.push_back(std::move(row));
   }
   text += padded(rows) + '\n' + answer_sentences(sweep, answer);
@@ -126,8 +126,8 @@ std::string answer_text(const SweepFile& sweep, const SweepAnswer& answer) {
 }
 
 std::string summary_csv(const SweepFile& sweep, const SweepAnswer& answer) {
-  std::string csv = "point," + axis_columns(sweep) +
-                    "paradigm,measure,count,mean,half_width,difference,difference_half_width\n";
+  std::string csv =
+      "point," + axis_columns(sweep) + "paradigm,measure,count,mean,half_width,difference,difference_half_width\n";
   for (const PointAnswer& point : answer.points)
     for (std::size_t p = 0; p < sweep.paradigms.size(); ++p)
       for (std::size_t m = 0; m < sweep.measures.size(); ++m) {

@@ -14,9 +14,7 @@ namespace {
 class Replay {
  public:
   Replay(const Arrivals& arrivals, const ReplaySetup& setup, const TrackSink& sink)
-      : arrivals_(arrivals),
-        setup_(setup),
-        sink_(sink),
+      : arrivals_(arrivals), setup_(setup), sink_(sink),
         strategy_(fusion::make_strategy(setup.strategy, setup.tracker, setup.timings)) {
     account_.sensors.resize(arrivals.sensors.size());
   }
@@ -115,7 +113,7 @@ class Replay {
   const TrackSink& sink_;
   std::unique_ptr<fusion::Strategy> strategy_;
   GlobalTime now_{};
-  std::vector<Waiting> waiting_;                  // accepted, and of no fate yet
+  std::vector<Waiting> waiting_;  // accepted, and of no fate yet
   std::vector<fusion::TrackView> image_;
   std::set<TrackId> tracks_;
   ReplayAccount account_;

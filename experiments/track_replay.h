@@ -21,15 +21,15 @@ namespace ttf::experiments {
 // What became of the lists of one sensor.
 struct SensorAccount {
   std::uint64_t lists = 0, observations = 0;
-  std::uint64_t in_order = 0, late = 0, too_old = 0, duplicates = 0;   // one of these for every list
-  std::uint64_t held = 0;          // lists that were not let go as they arrived
+  std::uint64_t in_order = 0, late = 0, too_old = 0, duplicates = 0;  // one of these for every list
+  std::uint64_t held = 0;                                             // lists that were not let go as they arrived
   Duration longest_hold, longest_delay;
 };
 
 struct ReplayAccount {
-  std::vector<SensorAccount> sensors;   // by SensorId
-  std::uint64_t tracks = 0;             // confirmed ones, each counted once
-  std::uint64_t rows = 0;               // handed to the sink
+  std::vector<SensorAccount> sensors;  // by SensorId
+  std::uint64_t tracks = 0;            // confirmed ones, each counted once
+  std::uint64_t rows = 0;              // handed to the sink
 };
 
 // The tracks after a fusion that took something in: confirmed ones, not given up.
@@ -38,8 +38,8 @@ using TrackSink = std::function<void(GlobalTime known, std::span<const fusion::T
 struct ReplaySetup {
   fusion::StrategyKind strategy = fusion::StrategyKind::kAdva;
   fusion::TrackerConfig tracker;
-  std::vector<fusion::SensorTiming> timings;   // by SensorId
-  bool predict = false;   // tracks predicted to the instant of the fusion, not as of the newest measurement
+  std::vector<fusion::SensorTiming> timings;  // by SensorId
+  bool predict = false;  // tracks predicted to the instant of the fusion, not as of the newest measurement
 };
 
 ReplayAccount replay(const Arrivals& arrivals, const ReplaySetup& setup, const TrackSink& sink);

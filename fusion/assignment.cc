@@ -17,12 +17,12 @@ Assignment::Assignment(std::size_t max_rows, std::size_t max_columns)
     : max_rows_(max_rows), components_(max_rows + max_columns) {
   column_of_.resize(max_rows);
   component_rows_.reserve(max_rows);
-  component_columns_.reserve(max_rows * max_columns);   // of every candidate, before they are made unique
+  component_columns_.reserve(max_rows * max_columns);  // of every candidate, before they are made unique
   local_column_.resize(max_columns);
   sorted_.reserve(max_rows * max_columns);
   // Each row also has a column of its own that stands for "unassigned".
   const std::size_t width = max_columns + max_rows;
-  cost_ = std::make_unique_for_overwrite<double[]>(max_rows * width);   // touched only as far as it is needed
+  cost_ = std::make_unique_for_overwrite<double[]>(max_rows * width);  // touched only as far as it is needed
   u_.resize(max_rows + 1);
   v_.resize(width + 1);
   shortest_.resize(width + 1);
@@ -61,13 +61,11 @@ void Assignment::solve_component() {
   component_rows_.clear();
   component_columns_.clear();
   for (std::size_t c = first_; c < last_; ++c) {
-    if (component_rows_.empty() || component_rows_.back() != sorted_[c].row)
-      component_rows_.push_back(sorted_[c].row);
+    if (component_rows_.empty() || component_rows_.back() != sorted_[c].row) component_rows_.push_back(sorted_[c].row);
     component_columns_.push_back(sorted_[c].column);
   }
   std::sort(component_columns_.begin(), component_columns_.end());
-  component_columns_.erase(std::unique(component_columns_.begin(), component_columns_.end()),
-                           component_columns_.end());
+  component_columns_.erase(std::unique(component_columns_.begin(), component_columns_.end()), component_columns_.end());
   const std::size_t n = component_rows_.size(), tracks = component_columns_.size(), m = tracks + n;
   for (std::size_t j = 0; j < tracks; ++j)
     local_column_[static_cast<std::size_t>(component_columns_[j])] = static_cast<int>(j);

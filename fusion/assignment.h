@@ -35,7 +35,7 @@ class Assignment {
 
   std::size_t rows_ = 0, columns_ = 0, max_rows_;
   std::vector<int> column_of_;
-  Components components_;   // of rows, then columns
+  Components components_;  // of rows, then columns
   std::vector<int> component_rows_, component_columns_, local_column_;
   std::vector<Candidate> sorted_;
   std::size_t first_ = 0, last_ = 0;  // candidates of the component being solved

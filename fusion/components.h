@@ -14,9 +14,7 @@ class Components {
   explicit Components(std::size_t most) : parent_(most) {}
 
   std::size_t capacity() const { return parent_.size(); }
-  void reset(std::size_t nodes) {
-    std::iota(parent_.begin(), parent_.begin() + static_cast<std::ptrdiff_t>(nodes), 0);
-  }
+  void reset(std::size_t nodes) { std::iota(parent_.begin(), parent_.begin() + static_cast<std::ptrdiff_t>(nodes), 0); }
   void join(int first, int second) {
     const int a = root(first), b = root(second);
     parent_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);

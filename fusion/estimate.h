@@ -22,9 +22,7 @@ using Covariance = Matrix<6>;
 using Cartesian = Gaussian<6>;
 
 using StraightOrTurning = filters::Modes<motion::ConstantVelocity, motion::Ctrv>;
-template <int N>
-using WithBiases = filters::Considered<N, kMostBiases>;
-using Estimate =
-    std::variant<Gaussian<4>, Gaussian<5>, Gaussian<6>, StraightOrTurning, WithBiases<4>, WithBiases<6>>;
+template <int N> using WithBiases = filters::Considered<N, kMostBiases>;
+using Estimate = std::variant<Gaussian<4>, Gaussian<5>, Gaussian<6>, StraightOrTurning, WithBiases<4>, WithBiases<6>>;
 
 }  // namespace ttf::fusion

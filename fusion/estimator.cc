@@ -57,13 +57,10 @@ std::shared_ptr<const Estimator> make_estimator(const TrackerConfig& config) {
   if (config.systematic == SystematicErrorsAre::kConsidered) return estimators::make_considering(config);
   switch (config.motion) {
     case MotionModel::kConstantVelocity:
-    case MotionModel::kConstantAcceleration:
-      return estimators::make_straight(config);
+    case MotionModel::kConstantAcceleration: return estimators::make_straight(config);
     case MotionModel::kCtrv:
-    case MotionModel::kCtra:
-      return estimators::make_turning(config);
-    case MotionModel::kInteracting:
-      return estimators::make_interacting(config);
+    case MotionModel::kCtra: return estimators::make_turning(config);
+    case MotionModel::kInteracting: return estimators::make_interacting(config);
   }
   TTF_CHECK(false, "motion model {}", static_cast<int>(config.motion));
 }

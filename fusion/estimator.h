@@ -31,7 +31,7 @@ struct Fit {
 // One of several things that may have happened: `observation` is of the object, or, where it is null, none is.
 struct Explanation {
   const Observation* observation = nullptr;
-  double weight = 0.0;   // its probability
+  double weight = 0.0;  // its probability
 };
 
 class Estimator {
@@ -55,7 +55,7 @@ class Estimator {
   // (Bar-Shalom, Fortmann 1988, 6.4), and holds as well where every observation has a gain of its own. Of several
   // motion models at a time: mode by mode, each weighed with its probability after the explanation.
   virtual void update(Estimate& estimate, std::span<const Explanation> explanations) const = 0;
-  virtual Gaussian<2> position(const Estimate& estimate) const = 0;   // (x, y) [m]
+  virtual Gaussian<2> position(const Estimate& estimate) const = 0;  // (x, y) [m]
   virtual Cartesian cartesian(const Estimate& estimate) const = 0;
   // Where a sensor that is all right but for its systematic errors is expected to see it: position(), unless errors are
   // considered. With the noise of an observation of a position, the distribution its distance is of.

@@ -33,7 +33,7 @@ namespace ttf::fusion {
 
 inline double clutter_at(const Observation& observation, const TrackerConfig& config) {
   if (observation.kind == ObservationKind::kPosition) return config.clutter_density;
-  constexpr double kNearest = 0.1;   // [m], nearer than any sensor sees
+  constexpr double kNearest = 0.1;  // [m], nearer than any sensor sees
   const double width = 2.0 * std::sqrt(3.0) * config.initial_velocity_sigma;
   return config.clutter_density * std::max(kNearest, observation.z(0)) / width;
 }

@@ -30,12 +30,8 @@ void correct_directly(Extent& extent, const Eigen::Vector2d& h, double measured,
 
 }  // namespace
 
-bool Extent::knows_length() const {
-  return covariance(0, 0) <= 0.25 * kTypicalLengthSigma * kTypicalLengthSigma;
-}
-bool Extent::knows_width() const {
-  return covariance(1, 1) <= 0.25 * kTypicalWidthSigma * kTypicalWidthSigma;
-}
+bool Extent::knows_length() const { return covariance(0, 0) <= 0.25 * kTypicalLengthSigma * kTypicalLengthSigma; }
+bool Extent::knows_width() const { return covariance(1, 1) <= 0.25 * kTypicalWidthSigma * kTypicalWidthSigma; }
 
 void predict(Extent& extent, double noise, double dt) {
   extent.covariance(0, 0) += noise * dt;
@@ -58,12 +54,10 @@ Subtended subtended(double range, double aspect, const Eigen::Vector2d& size) {
   Eigen::Vector2d low_by = Eigen::Vector2d::Zero(), high_by = Eigen::Vector2d::Zero();
   for (const double u : {0.5, -0.5})
     for (const double v : {0.5, -0.5}) {
-      const double along = range + c * u * size(0) - s * v * size(1),
-                   across = s * u * size(0) + c * v * size(1);
+      const double along = range + c * u * size(0) - s * v * size(1), across = s * u * size(0) + c * v * size(1);
       if (along <= 0.0) return {};
       const double azimuth = std::atan2(across, along), squared = along * along + across * across;
-      const Eigen::Vector2d by((along * s * u - across * c * u) / squared,
-                               (along * c * v + across * s * v) / squared);
+      const Eigen::Vector2d by((along * s * u - across * c * u) / squared, (along * c * v + across * s * v) / squared);
       if (azimuth < low) {
         low = azimuth;
         low_by = by;

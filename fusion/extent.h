@@ -25,8 +25,7 @@ struct Extent {
 
   Eigen::Vector2d size{kTypicalLength, kTypicalWidth};  // length, width [m]
   Eigen::Matrix2d covariance =
-      Eigen::Vector2d(kTypicalLengthSigma * kTypicalLengthSigma, kTypicalWidthSigma* kTypicalWidthSigma)
-          .asDiagonal();
+      Eigen::Vector2d(kTypicalLengthSigma * kTypicalLengthSigma, kTypicalWidthSigma* kTypicalWidthSigma).asDiagonal();
 
   // Measured: known at least twice as well as what is typical.
   bool knows_length() const;

@@ -10,39 +10,30 @@
 
 namespace ttf::fusion {
 
-template <int Rows>
-using Vector = Eigen::Matrix<double, Rows, 1>;
-template <int Rows, int Columns = Rows>
-using Matrix = Eigen::Matrix<double, Rows, Columns>;
+template <int Rows> using Vector = Eigen::Matrix<double, Rows, 1>;
+template <int Rows, int Columns = Rows> using Matrix = Eigen::Matrix<double, Rows, Columns>;
 
 // Mean and covariance, symmetric positive semi-definite.
-template <int N>
-struct Gaussian {
+template <int N> struct Gaussian {
   Vector<N> x = Vector<N>::Zero();
   Matrix<N> p = Matrix<N>::Zero();
 };
 
-template <int N>
-struct LinearStep {
+template <int N> struct LinearStep {
   Matrix<N> f = Matrix<N>::Identity();
-  Matrix<N> q = Matrix<N>::Zero();   // symmetric positive semi-definite
+  Matrix<N> q = Matrix<N>::Zero();  // symmetric positive semi-definite
 };
 
 // r is symmetric positive definite.
-template <int N, int M>
-struct LinearMeasurement {
+template <int N, int M> struct LinearMeasurement {
   Vector<M> z = Vector<M>::Zero();
   Matrix<M, N> h = Matrix<M, N>::Zero();
   Matrix<M> r = Matrix<M>::Identity();
 };
 
-template <int N>
-void symmetrise(Matrix<N>& p) {
-  p = (0.5 * (p + p.transpose())).eval();
-}
+template <int N> void symmetrise(Matrix<N>& p) { p = (0.5 * (p + p.transpose())).eval(); }
 
-template <int N>
-void predict(Gaussian<N>& state, const LinearStep<N>& step) {
+template <int N> void predict(Gaussian<N>& state, const LinearStep<N>& step) {
   state.x = (step.f * state.x).eval();
   state.p = (step.f * state.p * step.f.transpose() + step.q).eval();
   symmetrise<N>(state.p);

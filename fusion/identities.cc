@@ -41,9 +41,9 @@ void Identities::name(TrackSet& set, GlobalTime oldest) {
 
 Identities::Identity& Identities::room() {
   if (known_.size() == known_.capacity()) {
-    const auto longest_dead = std::min_element(
-        known_.begin(), known_.end(),
-        [](const Identity& a, const Identity& b) { return a.alive != b.alive ? b.alive : a.seen < b.seen; });
+    const auto longest_dead = std::min_element(known_.begin(), known_.end(), [](const Identity& a, const Identity& b) {
+      return a.alive != b.alive ? b.alive : a.seen < b.seen;
+    });
     TTF_CHECK(!longest_dead->alive, "{} tracks alive", known_.size());
     known_.erase(longest_dead);
   }
@@ -52,8 +52,8 @@ Identities::Identity& Identities::room() {
 
 TrackId Identities::next() {
   const auto taken = [&](TrackId id) {
-    return id == kNoTrack || std::any_of(known_.begin(), known_.end(),
-                                         [&](const Identity& i) { return i.alive && i.id == id; });
+    return id == kNoTrack ||
+           std::any_of(known_.begin(), known_.end(), [&](const Identity& i) { return i.alive && i.id == id; });
   };
   while (taken(static_cast<TrackId>(next_))) ++next_;
   return static_cast<TrackId>(next_++);

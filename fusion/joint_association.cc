@@ -29,19 +29,13 @@ std::size_t table_of(std::size_t max_rows, std::size_t max_columns) {
 }  // namespace
 
 JointAssociation::JointAssociation(std::size_t max_rows, std::size_t max_columns)
-    : components_(max_rows + max_columns),
-      local_(max_rows + max_columns),
-      weights_(table_of(max_rows, max_columns)),
-      forward_(weights_.size()),
-      backward_(std::min(weights_.size(), std::size_t{1} << most_bits())),
-      row_sums_(max_rows),
-      column_sums_(max_columns),
-      none_(max_columns),
-      begin_(max_columns + 1) {
+    : components_(max_rows + max_columns), local_(max_rows + max_columns), weights_(table_of(max_rows, max_columns)),
+      forward_(weights_.size()), backward_(std::min(weights_.size(), std::size_t{1} << most_bits())),
+      row_sums_(max_rows), column_sums_(max_columns), none_(max_columns), begin_(max_columns + 1) {
   const std::size_t most = max_rows * max_columns;
   sorted_.reserve(most);
   shared_.reserve(most);
-  cluster_rows_.reserve(most);      // of every pair, before they are made unique
+  cluster_rows_.reserve(most);  // of every pair, before they are made unique
   cluster_columns_.reserve(most);
 }
 
@@ -164,7 +158,7 @@ void JointAssociation::solve_exactly(std::span<Sorted> cluster, bool columns_are
         shares[k] += before[taken] * onward;
         sum += onward;
       }
-      backward_[taken] = sum;   // of sets that are larger only was there need
+      backward_[taken] = sum;  // of sets that are larger only was there need
     }
     for (std::size_t k = 0; k < bits; ++k) w[k] = shares[k] / all;
   }

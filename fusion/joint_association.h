@@ -73,7 +73,7 @@ class JointAssociation {
   std::size_t rows_ = 0;
   Components components_;
   std::vector<Sorted> sorted_;
-  std::vector<int> cluster_rows_, cluster_columns_, local_;   // local_: of rows, then of columns
+  std::vector<int> cluster_rows_, cluster_columns_, local_;  // local_: of rows, then of columns
   std::vector<double> weights_, forward_, backward_;
   std::vector<double> row_sums_, column_sums_, none_;
   std::vector<Shared> shared_;

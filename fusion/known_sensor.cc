@@ -33,11 +33,11 @@ template <class Values>
 void read_components(YamlMap& yaml, double least, Values& values, std::optional<ErrorAxes>& axes) {
   for (const Component& component : kComponents) {
     if (!yaml.has(component.name)) continue;
-    values(component.index) =
-        yaml.number(component.name, {least * component.most, component.most}, component.unit);
+    values(component.index) = yaml.number(component.name, {least * component.most, component.most}, component.unit);
     if (axes.value_or(component.axes) != component.axes)
-      yaml.fail(component.name, "must not be given with errors in other axes: either x and y, or range, bearing and "
-                                "range_rate");
+      yaml.fail(component.name,
+                "must not be given with errors in other axes: either x and y, or range, bearing and "
+                "range_rate");
     axes = component.axes;
   }
 }

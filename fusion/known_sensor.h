@@ -28,13 +28,13 @@ enum class ErrorAxes : unsigned char { kPolar, kCartesian };
 
 struct SystematicErrors {
   ErrorAxes axes = ErrorAxes::kPolar;
-  Vector<3> known = Vector<3>::Zero();    // of range [m], bearing [rad], range rate [m/s]; or of x, y [m], and nothing
-  Vector<4> sigma = Vector<4>::Zero();    // of what is left of these, and of the stamp [s]
+  Vector<3> known = Vector<3>::Zero();  // of range [m], bearing [rad], range rate [m/s]; or of x, y [m], and nothing
+  Vector<4> sigma = Vector<4>::Zero();  // of what is left of these, and of the stamp [s]
 };
 
 struct KnownSensor {
   std::string name;
-  int line = 0;                           // of the file that names it; 0 where none does
+  int line = 0;  // of the file that names it; 0 where none does
   sensors::Mounting mounting{};
   SystematicErrors errors;
 

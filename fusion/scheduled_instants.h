@@ -10,7 +10,7 @@ namespace ttf::fusion {
 
 struct ScheduledInstants {
   GlobalTime first{};
-  Duration period{};   // longer than nothing
+  Duration period{};  // longer than nothing
 
   // Time stamps are clock readings: an instant of the schedule is recognised within a quarter of the period.
   Duration tolerance() const { return {period.ns / 4}; }

@@ -24,9 +24,7 @@ class HistoryStrategy : public Strategy {
  public:
   HistoryStrategy(const TrackerConfig& config, std::span<const SensorTiming> sensors,
                   std::unique_ptr<TrackHistory> history)
-      : config_(config),
-        sensors_(sensors.begin(), sensors.end()),
-        history_(std::move(history)),
+      : config_(config), sensors_(sensors.begin(), sensors.end()), history_(std::move(history)),
         estimator_(&history_->estimator()) {
     pending_.reserve(kMaxPending);
     for (std::size_t i = 0; i < kMaxPending; ++i) {
@@ -44,13 +42,11 @@ class HistoryStrategy : public Strategy {
     any_received_.resize(sensors_.size());
     longest_delay_.resize(sensors_.size());
     for (const SensorTiming& s : sensors_)
-      TTF_CHECK(!s.scheduled || s.period.ns > 0, "sensor {}: period of {} ns", index_of(s.sensor),
-                s.period.ns);
+      TTF_CHECK(!s.scheduled || s.period.ns > 0, "sensor {}: period of {} ns", index_of(s.sensor), s.period.ns);
   }
 
   void accept(const Scan& scan) final {
-    const bool waiting = std::any_of(waiting_.begin(), waiting_.end(),
-                                     [&](std::size_t w) {
+    const bool waiting = std::any_of(waiting_.begin(), waiting_.end(), [&](std::size_t w) {
       return pending_[w].id == scan.id && pending_[w].measured == scan.measured;
     });
     if (waiting || history_->contains(scan.id, scan.measured)) {
@@ -159,14 +155,9 @@ class HistoryStrategy : public Strategy {
   FusedScan take(const StoredScan& scan) {
     Disposition disposition = Disposition::kFused;
     switch (history_->insert(scan.view())) {
-      case TrackHistory::Insertion::kInOrder:
-        break;
-      case TrackHistory::Insertion::kLate:
-        disposition = Disposition::kFusedLate;
-        break;
-      case TrackHistory::Insertion::kTooOld:
-        disposition = Disposition::kDroppedTooOld;
-        break;
+      case TrackHistory::Insertion::kInOrder: break;
+      case TrackHistory::Insertion::kLate: disposition = Disposition::kFusedLate; break;
+      case TrackHistory::Insertion::kTooOld: disposition = Disposition::kDroppedTooOld; break;
     }
     const FusedScan result{scan.id, scan.measured, disposition};
     if (disposition == Disposition::kDroppedTooOld) return result;
@@ -300,12 +291,9 @@ std::unique_ptr<Strategy> make_strategy(StrategyKind kind, const TrackerConfig& 
   else
     history = std::make_unique<LateUpdates>(config, config.max_observations, sensors);
   switch (kind) {
-    case StrategyKind::kBuff:
-      return std::make_unique<Buff>(config, sensors, std::move(history));
-    case StrategyKind::kAdva:
-      return std::make_unique<Adva>(config, sensors, std::move(history));
-    case StrategyKind::kTt:
-      return std::make_unique<TimeTriggered>(config, sensors, std::move(history));
+    case StrategyKind::kBuff: return std::make_unique<Buff>(config, sensors, std::move(history));
+    case StrategyKind::kAdva: return std::make_unique<Adva>(config, sensors, std::move(history));
+    case StrategyKind::kTt: return std::make_unique<TimeTriggered>(config, sensors, std::move(history));
   }
   TTF_CHECK(false, "strategy {}", static_cast<int>(kind));
 }

@@ -54,13 +54,7 @@ struct SensorTiming {
   Duration period{};
 };
 
-enum class Disposition : std::uint8_t {
-  kFused = 1,
-  kFusedLate = 2,
-  kHeld = 3,
-  kDroppedTooOld = 4,
-  kDuplicate = 5
-};
+enum class Disposition : std::uint8_t { kFused = 1, kFusedLate = 2, kHeld = 3, kDroppedTooOld = 4, kDuplicate = 5 };
 struct FusedScan {
   MeasurementId id;
   GlobalTime measured{};

@@ -18,10 +18,9 @@ Timeline::Timeline(const TrackerConfig& config, std::size_t max_observations)
 const TrackSet& Timeline::current() const { return order_.empty() ? base_ : entries_[order_.back()].after; }
 
 bool Timeline::contains(const MeasurementId& id, GlobalTime measured) const {
-  return std::any_of(order_.begin(), order_.end(),
-                     [&](std::size_t e) {
-                       return entries_[e].scan.id == id && entries_[e].scan.measured == measured;
-                     }) ||
+  return std::any_of(
+             order_.begin(), order_.end(),
+             [&](std::size_t e) { return entries_[e].scan.id == id && entries_[e].scan.measured == measured; }) ||
          (base_is_scan_ && base_id_ == id && base_time_ == measured);
 }
 

@@ -40,9 +40,9 @@ struct Track {
   int scans = 0;           // since birth, the first included
   int misses = 0;          // scans in a row without an observation
   bool confirmed = false;
-  std::uint8_t twin_scans = 0;   // lists in a row that had it for its twin (fusion/twins.h)
-  ObservationId twin;            // the other's birth, where there are any
-  double existence = 1.0;        // probability that the object exists (fusion/existence.h); 1 for births m_of_n
+  std::uint8_t twin_scans = 0;  // lists in a row that had it for its twin (fusion/twins.h)
+  ObservationId twin;           // the other's birth, where there are any
+  double existence = 1.0;       // probability that the object exists (fusion/existence.h); 1 for births m_of_n
 };
 
 // The direction an object faces [rad]: the direction of motion weighed with the measured axis, and with its
@@ -59,7 +59,7 @@ double nearest_half_turn(double axis, double expected);
 struct TrackView {
   TrackId id{};
   GlobalTime valid_at{};
-  State state = State::Zero();   // (fusion/estimate.h)
+  State state = State::Zero();  // (fusion/estimate.h)
   Covariance covariance = Covariance::Zero();
   // Speed: magnitude of the velocity; acceleration: along the heading.
   double heading = 0.0, sigma_heading = 0.0;

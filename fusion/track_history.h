@@ -27,7 +27,7 @@ class TrackHistory {
   virtual Insertion insert(const Scan& scan) = 0;
   // The newest tracks, confirmed ones with their ids.
   virtual const TrackSet& current() const = 0;
-  virtual const Estimator& estimator() const = 0;   // of the tracks' estimates
+  virtual const Estimator& estimator() const = 0;  // of the tracks' estimates
   // Whether this measurement is in it: a sensor that restarts gives its numbers again, to other instants.
   virtual bool contains(const MeasurementId& id, GlobalTime measured) const = 0;
 };

@@ -33,24 +33,19 @@ constexpr double kRoundedUp = 1.0 + 1e-12;
 }  // namespace
 
 void TrackSet::assign(const TrackSet& other) {
-  TTF_CHECK(other.tracks.size() <= tracks.capacity(), "{} tracks into {}", other.tracks.size(),
-            tracks.capacity());
+  TTF_CHECK(other.tracks.size() <= tracks.capacity(), "{} tracks into {}", other.tracks.size(), tracks.capacity());
   tracks.assign(other.tracks.begin(), other.tracks.end());
   time = other.time;
   started = other.started;
 }
 
 Tracker::Tracker(const TrackerConfig& config, std::size_t max_observations)
-    : config_(config),
-      estimator_(make_estimator(config)),
-      max_observations_(max_observations),
+    : config_(config), estimator_(make_estimator(config)), max_observations_(max_observations),
       max_tracks_(static_cast<std::size_t>(config.max_objects) + 3 * max_observations),
       assignment_(max_observations, max_tracks_),
       joint_(config.association == Association::kJpda ? max_observations : 0,
              config.association == Association::kJpda ? max_tracks_ : 0),
-      twins_(config, max_tracks_),
-      near_track_(max_observations),
-      observation_of_(max_tracks_) {
+      twins_(config, max_tracks_), near_track_(max_observations), observation_of_(max_tracks_) {
   candidates_.reserve(max_observations * max_tracks_);
   by_x_.reserve(max_tracks_);
   if (config.association == Association::kJpda) {
@@ -68,9 +63,8 @@ void Tracker::step(TrackSet& set, const Scan& scan) {
     set.time = scan.measured;
   }
   predict_all(set, scan.measured);
-  std::erase_if(set.tracks, [&](const Track& track) {
-    return given_up(track, set.time, set.time, config_, *estimator_);
-  });
+  std::erase_if(set.tracks,
+                [&](const Track& track) { return given_up(track, set.time, set.time, config_, *estimator_); });
   associate(set, scan);
   for (std::size_t t = 0; t < set.tracks.size(); ++t) {
     Track& track = set.tracks[t];
@@ -121,9 +115,8 @@ void Tracker::sort_by_x(const TrackSet& set, SensorId seen_by) {
     by_x_.push_back({at.x(0), at.x(1), at.p(0, 0), at.p(1, 1), t});
     largest_variance_x_ = std::max(largest_variance_x_, at.p(0, 0));
   }
-  std::sort(by_x_.begin(), by_x_.end(), [](const Placed& a, const Placed& b) {
-    return a.x != b.x ? a.x < b.x : a.track < b.track;
-  });
+  std::sort(by_x_.begin(), by_x_.end(),
+            [](const Placed& a, const Placed& b) { return a.x != b.x ? a.x < b.x : a.track < b.track; });
 }
 
 // In the order of the tracks along x; what is assigned does not depend on the order of candidates.
@@ -165,8 +158,7 @@ void Tracker::associate(const TrackSet& set, const Scan& scan) {
     }
   }
   assignment_.solve(candidates_, scan.observations.size(), set.tracks.size());
-  if (config_.association == Association::kJpda)
-    joint_.solve(pairs_, scan.observations.size(), set.tracks.size());
+  if (config_.association == Association::kJpda) joint_.solve(pairs_, scan.observations.size(), set.tracks.size());
   std::fill(observation_of_.begin(), observation_of_.end(), -1);
   const auto columns = assignment_.column_of();
   for (std::size_t o = 0; o < columns.size(); ++o)
@@ -195,12 +187,11 @@ void Tracker::take_in_all(Track& track, std::size_t column, const Scan& scan) {
   const double unseen = joint_.none_of_column(column) * exists_unseen(track.existence, config_);
   double exists = unseen;
   for (const JointAssociation::Shared& shared : joint_.of_column(column)) exists += shared.probability;
-  if (!(exists > 0.0)) return;   // it is long gone, and nothing has been seen of it
+  if (!(exists > 0.0)) return;  // it is long gone, and nothing has been seen of it
   explanations_.clear();
   explanations_.push_back({nullptr, unseen / exists});
   for (const JointAssociation::Shared& shared : joint_.of_column(column))
-    explanations_.push_back(
-        {&scan.observations[static_cast<std::size_t>(shared.row)], shared.probability / exists});
+    explanations_.push_back({&scan.observations[static_cast<std::size_t>(shared.row)], shared.probability / exists});
   if (explanations_.size() > 1) estimator_->update(track.estimate, explanations_);
   if (config_.birth == Birth::kExistence) track.existence = std::min(1.0, exists);
 }
@@ -232,10 +223,9 @@ void Tracker::correct_extent(Track& track, const Observation& z) const {
   const Facing facing = facing_of(now, track.heading);
   const Eigen::Vector2d sight(x / range, y / range);
   const double range_variance = sight.dot(now.p.topLeftCorner<2, 2>() * sight);
-  correct_span(
-      track.extent,
-      {range, std::sqrt(range_variance), to_half_turn(facing.heading - std::atan2(y, x)), facing.sigma}, z.span,
-      z.sigma_span);
+  correct_span(track.extent,
+               {range, std::sqrt(range_variance), to_half_turn(facing.heading - std::atan2(y, x)), facing.sigma},
+               z.span, z.sigma_span);
 }
 
 // An observation no track took becomes a tentative track, unless it lies in the gate of a confirmed one: that
@@ -261,8 +251,7 @@ void Tracker::give_birth(TrackSet& set, const Scan& scan) {
 void Tracker::prune(TrackSet& set) const {
   const std::uint32_t window = config_.confirm_window >= 32 ? ~0u : (1u << config_.confirm_window) - 1u;
   const bool by_existence = config_.birth == Birth::kExistence;
-  auto confirmed =
-      std::count_if(set.tracks.begin(), set.tracks.end(), [](const Track& t) { return t.confirmed; });
+  auto confirmed = std::count_if(set.tracks.begin(), set.tracks.end(), [](const Track& t) { return t.confirmed; });
   for (Track& track : set.tracks)
     if (!track.confirmed && confirmed < config_.max_objects &&
         (by_existence ? track.existence >= config_.confirm_existence

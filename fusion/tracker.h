@@ -77,7 +77,7 @@ class Tracker {
   void give_birth(TrackSet& set, const Scan& scan);
 
   TrackerConfig config_;
-  std::shared_ptr<const Estimator> estimator_;   // without state: copies of the tracker share it
+  std::shared_ptr<const Estimator> estimator_;  // without state: copies of the tracker share it
   std::size_t max_observations_, max_tracks_;
   double gate_[4] = {};  // by dimension of the observation
   Assignment assignment_;
@@ -86,9 +86,9 @@ class Tracker {
     double x = 0.0, y = 0.0, variance_x = 0.0, variance_y = 0.0;
     std::size_t track = 0;
   };
-  std::vector<Placed> by_x_;   // the tracks, sorted: who is far away is not looked at
+  std::vector<Placed> by_x_;  // the tracks, sorted: who is far away is not looked at
   double largest_variance_x_ = 0.0;
-  JointAssociation joint_;             // without storage unless jpda
+  JointAssociation joint_;  // without storage unless jpda
   std::vector<Pair> pairs_;
   std::vector<Explanation> explanations_;
   Twins twins_;

@@ -5,8 +5,8 @@
 namespace ttf::fusion {
 namespace {
 
-// There all is linear but a radar's measurement: what carries more than the estimate, errors of sensors or a past, is for
-// these alone.
+// There all is linear but a radar's measurement: what carries more than the estimate, errors of sensors or a past, is
+// for these alone.
 bool is_straight_and_extended(const TrackerConfig& c) {
   return (c.motion == MotionModel::kConstantVelocity || c.motion == MotionModel::kConstantAcceleration) &&
          c.filter == FilterKind::kExtended;
@@ -17,8 +17,9 @@ void load_systematic(YamlMap& yaml, TrackerConfig& c) {
       "systematic", c.systematic,
       {{"ignore", SystematicErrorsAre::kIgnored}, {"consider", SystematicErrorsAre::kConsidered}});
   if (c.systematic == SystematicErrorsAre::kConsidered && !is_straight_and_extended(c))
-    yaml.fail("systematic", "must be ignore but where motion is constant_velocity or constant_acceleration and filter "
-                            "is extended");
+    yaml.fail("systematic",
+              "must be ignore but where motion is constant_velocity or constant_acceleration and filter "
+              "is extended");
   if (!yaml.has("sensors")) return;
   for (auto& [name, map] : yaml.named_maps("sensors")) {
     KnownSensor sensor = load_known_sensor(map);
@@ -54,13 +55,15 @@ void load_late(YamlMap& yaml, TrackerConfig& c) {
   c.late = yaml.choice_or<oosm::Kind>("late", c.late, methods);
   if (c.late == oosm::Kind::kRewind) return;
   if (!is_straight_and_extended(c))
-    yaml.fail("late", "must be rewind, but with motion constant_velocity or constant_acceleration and filter extended: "
-                      "of the others' estimates the methods know nothing");
+    yaml.fail("late",
+              "must be rewind, but with motion constant_velocity or constant_acceleration and filter extended: "
+              "of the others' estimates the methods know nothing");
   if (c.systematic == SystematicErrorsAre::kConsidered)
     yaml.fail("late", "must be rewind where systematic is consider: the other methods carry no errors of sensors");
   if (c.association != Association::kNearest || c.birth != Birth::kMOfN || c.merge_probability != 0.0)
-    yaml.fail("late", "must be rewind, but with association nearest, birth m_of_n and merge_probability 0: the other "
-                      "methods do not go back to what was decided since");
+    yaml.fail("late",
+              "must be rewind, but with association nearest, birth m_of_n and merge_probability 0: the other "
+              "methods do not go back to what was decided since");
 }
 
 }  // namespace
@@ -73,25 +76,22 @@ TrackerConfig load_tracker(YamlMap& yaml) {
                                           {"ctrv", MotionModel::kCtrv},
                                           {"ctra", MotionModel::kCtra},
                                           {"interacting", MotionModel::kInteracting}});
-  c.filter = yaml.choice_or<FilterKind>(
-      "filter", c.filter, {{"extended", FilterKind::kExtended}, {"unscented", FilterKind::kUnscented}});
+  c.filter = yaml.choice_or<FilterKind>("filter", c.filter,
+                                        {{"extended", FilterKind::kExtended}, {"unscented", FilterKind::kUnscented}});
   c.process_noise = yaml.number_or("process_noise", c.process_noise, {1e-6, 1e4});
   c.turn_noise = yaml.number_or("turn_noise", c.turn_noise, {1e-6, 100.0}, "rad^2/s^3");
   c.mode_seconds = yaml.number_or("mode_seconds", c.mode_seconds, {0.01, 1e4}, "s");
-  c.initial_velocity_sigma =
-      yaml.number_or("initial_velocity_sigma", c.initial_velocity_sigma, {0.01, 100.0}, "m/s");
+  c.initial_velocity_sigma = yaml.number_or("initial_velocity_sigma", c.initial_velocity_sigma, {0.01, 100.0}, "m/s");
   c.initial_acceleration_sigma =
       yaml.number_or("initial_acceleration_sigma", c.initial_acceleration_sigma, {0.01, 100.0}, "m/s^2");
   c.initial_turn_rate_sigma =
       yaml.number_or("initial_turn_rate_sigma", c.initial_turn_rate_sigma, {0.001, 10.0}, "rad/s");
   c.gate_probability = yaml.number_or("gate_probability", c.gate_probability, {0.5, 0.999999});
   c.confirm_window = static_cast<int>(yaml.integer_or("confirm_window", c.confirm_window, {1, 32}, "scans"));
-  c.confirm_hits =
-      static_cast<int>(yaml.integer_or("confirm_hits", c.confirm_hits, {1, c.confirm_window}, "scans"));
+  c.confirm_hits = static_cast<int>(yaml.integer_or("confirm_hits", c.confirm_hits, {1, c.confirm_window}, "scans"));
   c.coast_misses = static_cast<int>(yaml.integer_or("coast_misses", c.coast_misses, {1, 1000}, "scans"));
   c.delete_misses = static_cast<int>(yaml.integer_or("delete_misses", c.delete_misses, {1, 1000}, "scans"));
-  c.delete_position_sigma =
-      yaml.number_or("delete_position_sigma", c.delete_position_sigma, {0.1, 100.0}, "m");
+  c.delete_position_sigma = yaml.number_or("delete_position_sigma", c.delete_position_sigma, {0.1, 100.0}, "m");
   constexpr Range<Duration> kSilence{Duration::milliseconds(1), Duration::milliseconds(100'000)};
   c.coast_after = yaml.duration_or("coast_after", c.coast_after, kSilence);
   c.delete_after = yaml.duration_or("delete_after", c.delete_after, kSilence);
@@ -110,8 +110,9 @@ TrackerConfig load_tracker(YamlMap& yaml) {
   constexpr std::size_t kMostRemembered = 1'000'000;
   const std::size_t tracks = static_cast<std::size_t>(c.max_objects) + 3 * c.max_observations;
   if ((c.history_scans + 1) * tracks > kMostRemembered)
-    yaml.fail("history_scans", "is too much to remember: (history_scans + 1) x (max_objects + 3 max_observations) "
-                               "must be at most 1000000");
+    yaml.fail("history_scans",
+              "is too much to remember: (history_scans + 1) x (max_objects + 3 max_observations) "
+              "must be at most 1000000");
   c.heading_noise = yaml.number_or("heading_noise", c.heading_noise, {0.0, 100.0}, "rad^2/s");
   c.extent_noise = yaml.number_or("extent_noise", c.extent_noise, {0.0, 100.0}, "m^2/s");
   load_systematic(yaml, c);

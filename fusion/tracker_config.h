@@ -21,9 +21,9 @@ enum class FilterKind : unsigned char { kExtended, kUnscented };
 
 // What BUFF waits for (fusion/strategy.h).
 enum class BuffWaiting : unsigned char {
-  kSchedule,   // until the schedule says that nothing older can come
-  kMeasured,   // until the longest delay that a sensor's lists have had so far is over; before the first, as kSchedule
-  kFixedLag,   // fixed_lag behind the measurement, whatever has arrived
+  kSchedule,  // until the schedule says that nothing older can come
+  kMeasured,  // until the longest delay that a sensor's lists have had so far is over; before the first, as kSchedule
+  kFixedLag,  // fixed_lag behind the measurement, whatever has arrived
 };
 
 // What is done about errors of the sensors that are always the same and whose sigmas alone are known
@@ -64,16 +64,16 @@ struct TrackerConfig {
   // slowest sensor sees, every other time; and as far ahead as a constant velocity is worth anything in traffic.
   Duration coast_after = Duration::milliseconds(300);
   Duration delete_after = Duration::milliseconds(1000);
-  int max_objects = 25;                // confirmed tracks: what the image's list carries
-  std::size_t max_observations = 64;   // in one list
+  int max_objects = 25;               // confirmed tracks: what the image's list carries
+  std::size_t max_observations = 64;  // in one list
   BuffWaiting buff_waits = BuffWaiting::kSchedule;
   Duration fixed_lag = Duration::milliseconds(100);
-  std::size_t history_scans = 64;      // how far back a late scan can be taken in
+  std::size_t history_scans = 64;  // how far back a late scan can be taken in
   // How ADVA and TT take it in (fusion/late/late_updates.h). Other than rewind: for straight motion under the extended
   // filter only.
   oosm::Kind late = oosm::Kind::kRewind;
-  double heading_noise = 0.05;         // spectral density of the heading's random walk [rad^2/s]
-  double extent_noise = 0.01;          // of length and width [m^2/s]
+  double heading_noise = 0.05;  // spectral density of the heading's random walk [rad^2/s]
+  double extent_noise = 0.01;   // of length and width [m^2/s]
 
   // With constant velocity or acceleration and the extended filter they may be considered.
   SystematicErrorsAre systematic = SystematicErrorsAre::kIgnored;
@@ -86,7 +86,7 @@ struct TrackerConfig {
   // For jpda and existence: how probable it is that a list has an object that is tracked, of all the sensors whose
   // lists come; and how many observations of nothing there are to the square metre of one list (fusion/existence.h).
   double detection_probability = 0.9;
-  double clutter_density = 1e-3;       // [1/m^2]
+  double clutter_density = 1e-3;  // [1/m^2]
   // For existence: of a new track; for how long an object is there, on the average; a track is confirmed from, and ends
   // below.
   double initial_existence = 0.1;

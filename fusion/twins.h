@@ -41,12 +41,12 @@ class Twins {
   };
   struct Nearest {
     int elder = -1;
-    double distance = 0.0;   // of the quantile, squared
+    double distance = 0.0;  // of the quantile, squared
   };
   void find_nearest(const std::vector<Track>& tracks, const Estimator& estimator);
 
   int scans_;
-  double quantile_[7] = {};   // by degrees of freedom
+  double quantile_[7] = {};  // by degrees of freedom
   std::vector<Seen> by_x_;
   std::vector<Nearest> nearest_;
 };

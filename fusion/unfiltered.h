@@ -36,7 +36,7 @@ struct Classification {
 
 struct Unfiltered {
   Classification classes;
-  ThirdAxis third;   // each from the newest observation that had it
+  ThirdAxis third;  // each from the newest observation that had it
 };
 
 inline void carry(Unfiltered& unfiltered, const Observation& observation) {

@@ -16,7 +16,7 @@ using schedules::GlobalParameters;
 using schedules::NodeParameters;
 
 constexpr int kMaxPayloadWords = 127;
-constexpr int kMinNit = 2;   // [MT]
+constexpr int kMinNit = 2;  // [MT]
 
 // Slots are looked through in their order.
 void sort(std::vector<FrameSlot>& frames) {

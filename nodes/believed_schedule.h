@@ -27,7 +27,7 @@ class BelievedSchedules {
   const schedules::Cluster* of(NodeId node) const { return believed_[index_of(node)].get(); }
 
  private:
-  std::vector<std::unique_ptr<schedules::Cluster>> believed_;   // by NodeId
+  std::vector<std::unique_ptr<schedules::Cluster>> believed_;  // by NodeId
 };
 
 }  // namespace ttf::nodes

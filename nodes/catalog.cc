@@ -41,14 +41,14 @@ std::vector<std::shared_ptr<Step>> make_steps(const NodeSetConfig& config, NodeI
   std::shared_ptr<FusionHost> host;
   const auto fusion_host = [&] {
     if (!host)
-      host = std::make_shared<FusionHost>(cluster, config.strategy,
-                                          tracker_in(cluster, scenario.tracker, scenario.file));
+      host =
+          std::make_shared<FusionHost>(cluster, config.strategy, tracker_in(cluster, scenario.tracker, scenario.file));
     return host;
   };
   std::vector<std::shared_ptr<Step>> steps;
   for (const schedules::Task& task : node.tasks) {
-    const EmulatorConfig emulator{&cluster, &task, task.activation.sensor, config.scene, config.seed,
-                                  config.replication};
+    const EmulatorConfig emulator{&cluster,     &task,       task.activation.sensor,
+                                  config.scene, config.seed, config.replication};
     if (task.step == "laser_emulator") {
       steps.push_back(std::make_shared<LaserEmulator>(emulator, scenario.laser));
     } else if (task.step == "camera_emulator") {

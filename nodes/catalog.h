@@ -24,7 +24,7 @@ struct NodeSetConfig {
   std::uint64_t seed = 0;
   std::uint32_t replication = 0;
   std::shared_ptr<const Scene> scene;
-  std::shared_ptr<const recording::RecordedInput> recorded;   // for clusters with recorded sources
+  std::shared_ptr<const recording::RecordedInput> recorded;  // for clusters with recorded sources
 };
 
 // The code of a node's tasks, in file order. Throws InputError where the schedule's names and the code's do not agree.

@@ -30,8 +30,7 @@ void record_measurement(const StepContext& context, SensorId sensor, std::span<c
 }  // namespace
 
 LaserEmulator::LaserEmulator(const EmulatorConfig& config, const world::LaserConfig& laser)
-    : config_(config),
-      laser_(world::in_drive(laser, drive_key(config))),
+    : config_(config), laser_(world::in_drive(laser, drive_key(config))),
       signals_(bind_element<3>(*config.cluster, raw_layout(config), {"layer", "azimuth", "range"})) {
   laser_.max_hits = raw_layout(config).max_elements;
   states_.reserve(config.scene->objects());
@@ -42,8 +41,8 @@ LaserEmulator::LaserEmulator(const EmulatorConfig& config, const world::LaserCon
 void LaserEmulator::run(StepContext& context) {
   config_.scene->states_at(world::measured_at(context.stamp.true_time, laser_.device), states_);
   world::see_from(laser_.device.placement, states_);
-  world::measure_laser(laser_, states_, config_.seed, config_.replication,
-                       static_cast<std::uint16_t>(config_.sensor), context.measurement, hits_, truth_);
+  world::measure_laser(laser_, states_, config_.seed, config_.replication, static_cast<std::uint16_t>(config_.sensor),
+                       context.measurement, hits_, truth_);
   Output& raw = context.outputs[0];
   const auto count = static_cast<int>(hits_.size());
   raw.begin(context.measurement, count, GlobalTime{});
@@ -57,8 +56,7 @@ void LaserEmulator::run(StepContext& context) {
 }
 
 CameraEmulator::CameraEmulator(const EmulatorConfig& config, const world::CameraConfig& camera)
-    : config_(config),
-      camera_(world::in_drive(camera, drive_key(config))),
+    : config_(config), camera_(world::in_drive(camera, drive_key(config))),
       signals_(bind_element<3>(*config.cluster, raw_layout(config), {"bearing", "disparity", "width"})) {
   camera_.max_detections = raw_layout(config).max_elements;
   states_.reserve(config.scene->objects());
@@ -69,8 +67,8 @@ CameraEmulator::CameraEmulator(const EmulatorConfig& config, const world::Camera
 void CameraEmulator::run(StepContext& context) {
   config_.scene->states_at(world::measured_at(context.stamp.true_time, camera_.device), states_);
   world::see_from(camera_.device.placement, states_);
-  world::measure_camera(camera_, states_, config_.seed, config_.replication,
-                        static_cast<std::uint16_t>(config_.sensor), context.measurement, detections_, truth_);
+  world::measure_camera(camera_, states_, config_.seed, config_.replication, static_cast<std::uint16_t>(config_.sensor),
+                        context.measurement, detections_, truth_);
   Output& raw = context.outputs[0];
   const auto count = static_cast<int>(detections_.size());
   raw.begin(context.measurement, count, GlobalTime{});

@@ -1,4 +1,5 @@
-// The sensor devices: they look at the scene when they measure and send raw data over their private CAN, as the real ones do.
+// The sensor devices: they look at the scene when they measure and send raw data over their private CAN, as the real
+// ones do.
 #pragma once
 
 #include <array>

@@ -20,41 +20,35 @@ struct Executive::TaskState {
   std::shared_ptr<Step> step;
   std::vector<Input> inputs;
   std::vector<Output> outputs;
-  std::vector<std::optional<std::uint32_t>> unread;   // per input: complete, not read yet
+  std::vector<std::optional<std::uint32_t>> unread;  // per input: complete, not read yet
   std::uint32_t activations = 0;
   std::uint32_t measurement = 0;
-  bool armed = false;            // activation by time, still due in this cycle
+  bool armed = false;  // activation by time, still due in this cycle
   bool waiting = false;
-  Microticks activated{};        // of the waiting activation, which may come while the one before still runs
+  Microticks activated{};  // of the waiting activation, which may come while the one before still runs
   records::Stamp activated_at;
-  records::TaskRun run;          // that is going on
+  records::TaskRun run;  // that is going on
 };
 
 struct Executive::SensorState {
   SensorId id{};
   const schedules::Sensor* sensor = nullptr;
   bool is_device = false, is_host = false;
-  bool runs_freely = false, follows = false;   // device
-  std::size_t task = 0;          // the device's measuring task
-  std::uint32_t measured = 0;    // device: measurements so far
-  bool armed = false;            // host: trigger still due in this cycle
-  Duration phase{};              // device, free-running: from power-on to the first measurement
-  LocalTime first{};             // likewise: the instant of that
-  std::optional<Microticks> due; // device, scheduled or following: measures then, at the first advance() from it on
-  Microticks ready{};            // device that follows: not before this
-  std::optional<std::size_t> after;      // host, of one that follows: the task whose end triggers
+  bool runs_freely = false, follows = false;  // device
+  std::size_t task = 0;                       // the device's measuring task
+  std::uint32_t measured = 0;                 // device: measurements so far
+  bool armed = false;                         // host: trigger still due in this cycle
+  Duration phase{};                           // device, free-running: from power-on to the first measurement
+  LocalTime first{};                          // likewise: the instant of that
+  std::optional<Microticks> due;     // device, scheduled or following: measures then, at the first advance() from it on
+  Microticks ready{};                // device that follows: not before this
+  std::optional<std::size_t> after;  // host, of one that follows: the task whose end triggers
 };
 
-Executive::Executive(const ExecutiveConfig& config, std::vector<std::shared_ptr<Step>> steps,
-                     bus::FlexRayPort* flexray, std::vector<bus::CanPort*> cans, SensorLines& lines,
-                     records::Sink& sink)
-    : config_(config),
-      cluster_(*config.cluster),
-      node_(cluster_.node(config.node)),
-      lines_(lines),
-      sink_(sink),
-      wants_frames_(sink.wants_frames()),
-      strobes_(cluster_.sensors.size()) {
+Executive::Executive(const ExecutiveConfig& config, std::vector<std::shared_ptr<Step>> steps, bus::FlexRayPort* flexray,
+                     std::vector<bus::CanPort*> cans, SensorLines& lines, records::Sink& sink)
+    : config_(config), cluster_(*config.cluster), node_(cluster_.node(config.node)), lines_(lines), sink_(sink),
+      wants_frames_(sink.wants_frames()), strobes_(cluster_.sensors.size()) {
   TTF_CHECK(steps.size() == node_.tasks.size(), "{} steps for {} tasks", steps.size(), node_.tasks.size());
   if (node_.flexray) {
     TTF_CHECK(flexray != nullptr, "{} needs a FlexRay port", node_.name);
@@ -213,7 +207,8 @@ void Executive::arm_cycle() {
     state.armed = global != nullptr && state.task->activation.kind == schedules::ActivationKind::kTime &&
                   in_cycle(state.task->activation.at, armed_cycle_);
   for (SensorState& state : sensors_)
-    state.armed = global != nullptr && state.is_host && state.sensor->scheduled && in_cycle(state.sensor->at, armed_cycle_);
+    state.armed =
+        global != nullptr && state.is_host && state.sensor->scheduled && in_cycle(state.sensor->at, armed_cycle_);
 }
 
 void Executive::advance(Microticks now) {
@@ -244,8 +239,8 @@ void Executive::activate_due(Microticks now) {
       state.armed = false;
       lines_.trigger(state.id);
     }
-    const bool by_itself = state.runs_freely &&
-                           ticks((state.first - LocalTime{}) + state.sensor->period * state.measured) <= now;
+    const bool by_itself =
+        state.runs_freely && ticks((state.first - LocalTime{}) + state.sensor->period * state.measured) <= now;
     const bool due = state.due && *state.due <= now;
     if (due) state.due.reset();
     if (by_itself || due) measure(state, now);
@@ -282,8 +277,8 @@ void Executive::strobe(SensorId sensor, std::uint32_t sequence, Microticks now) 
   // In real time a strobe may be heard of when the cycle that it came in is over.
   const Microticks since = std::max(now, global->cycle_start());
   strobes_[index_of(sensor)].strobe(
-      sequence, global->global_time(since) -
-                    Duration{(since - now).value * config_.oscillator.nominal_period_ps() / 1000});
+      sequence,
+      global->global_time(since) - Duration{(since - now).value * config_.oscillator.nominal_period_ps() / 1000});
 }
 
 void Executive::activate(std::size_t task, Microticks now) {
@@ -352,8 +347,7 @@ void Executive::start_next(Microticks now) {
     if (state.task->draw == schedules::ExecutionDraw::kUniform) {
       static_assert(schedules::kMostNamed * schedules::kMostTasks <= 1U << 16, "every task has a stream of its own");
       const auto entity = static_cast<std::uint16_t>(index_of(config_.node) * schedules::kMostTasks + index);
-      RandomStream stream(
-          {config_.seed, config_.replication, Purpose::kExecutionTime, entity, state.activations});
+      RandomStream stream({config_.seed, config_.replication, Purpose::kExecutionTime, entity, state.activations});
       execution = Duration{stream.integer(state.task->best_case.ns, state.task->worst_case.ns)};
     }
     ++state.activations;
@@ -439,7 +433,7 @@ void Executive::arrived(PduId pdu, int can_bus, bus::ArrivalEffect effect, std::
   // One fragment may end two lists: the one it tears, and its own if that is complete with it.
   if (!torn && effect != kCompleted && effect != kStale) return;
   const records::Stamp stamp_at = stamp(at);
-  bool reported = false;   // once per arrival, however many tasks read it; never where nobody does
+  bool reported = false;  // once per arrival, however many tasks read it; never where nobody does
   for (std::size_t t = 0; t < tasks_.size(); ++t) {
     TaskState& state = tasks_[t];
     for (std::size_t i = 0; i < state.inputs.size(); ++i) {

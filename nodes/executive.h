@@ -1,18 +1,19 @@
 // One node at work: its controllers, its CNI buffers and its tasks, driven from outside in its own microticks.
 //
-// The executive obeys one law under every crank: a task reads its inputs when it starts, and its outputs become visible at
-// its end. One processor, no preemption; tasks activated while it is busy wait, and an activation that meets a still
+// The executive obeys one law under every crank: a task reads its inputs when it starts, and its outputs become visible
+// at its end. One processor, no preemption; tasks activated while it is busy wait, and an activation that meets a still
 // waiting one of the same task is an overrun, counted.
 //
-// A sensor that follows its host is triggered when the host's task ends, unless that has been activated again already: one
-// list is on its way at a time, also after one was lost and the device has measured by itself.
+// A sensor that follows its host is triggered when the host's task ends, unless that has been activated again already:
+// one list is on its way at a time, also after one was lost and the device has measured by itself.
 //
-// Waiting tasks start in order of their activation. Of those activated at one microtick the one that stands earlier in the
-// file is first, whatever activated them: a message, the end of another task, an instant of the schedule or a sensor.
+// Waiting tasks start in order of their activation. Of those activated at one microtick the one that stands earlier in
+// the file is first, whatever activated them: a message, the end of another task, an instant of the schedule or a
+// sensor.
 //
-// At one microtick things happen in this order: arrivals (by the crank), ends of tasks, the bus controller, activations,
-// starts. So what becomes visible at a tick is still sent or read at that tick.
-// A sleeping node does nothing and hears nothing but a wake-up pattern.
+// At one microtick things happen in this order: arrivals (by the crank), ends of tasks, the bus controller,
+// activations, starts. So what becomes visible at a tick is still sent or read at that tick. A sleeping node does
+// nothing and hears nothing but a wake-up pattern.
 //   L1  after advance(t) and without further arrivals, next_event() is after t
 //   L2  nothing allocates or throws after construction
 #pragma once
@@ -59,29 +60,29 @@ struct ExecutiveConfig {
   std::optional<bus::InitialClock> clock;  // of a node that begins integrated; else it starts up at power_on
   std::uint64_t seed = 0;                  // of the execution times
   std::uint32_t replication = 0;
-  Microticks power_on{};                   // free-running sensors count their phase from here, too
-  ColdStart cold{};                        // of a node that does not begin integrated
-  Duration boots{};                        // of a sleeping node: from the end of the wake-up pattern to its start-up
-  const TrueClock* true_clock = nullptr;   // null: what is due happens
+  Microticks power_on{};                  // free-running sensors count their phase from here, too
+  ColdStart cold{};                       // of a node that does not begin integrated
+  Duration boots{};                       // of a sleeping node: from the end of the wake-up pattern to its start-up
+  const TrueClock* true_clock = nullptr;  // null: what is due happens
 };
 
 struct ExecutiveCounts {
-  std::uint64_t overruns = 0;              // activations that met a waiting one
+  std::uint64_t overruns = 0;  // activations that met a waiting one
   std::uint64_t deadlines_missed = 0;
-  std::uint64_t torn_lists = 0;            // displaced before they were complete
+  std::uint64_t torn_lists = 0;  // displaced before they were complete
   std::uint64_t overwritten_lists = 0;
-  std::uint64_t discarded_lists = 0;       // read, but their time of measuring is not known
+  std::uint64_t discarded_lists = 0;  // read, but their time of measuring is not known
   std::uint64_t slot_problems = 0;
   std::uint64_t saturated_signals = 0;
-  std::uint64_t refused_fragments = 0;     // stale or malformed (bus/list_buffer.h), on any bus
-  std::uint64_t refused_can_frames = 0;    // not of the schedule (bus/can_controller.h)
-  std::uint64_t unlisted_fates = 0;        // of lists that no record tells of (fusion/strategy.h)
+  std::uint64_t refused_fragments = 0;   // stale or malformed (bus/list_buffer.h), on any bus
+  std::uint64_t refused_can_frames = 0;  // not of the schedule (bus/can_controller.h)
+  std::uint64_t unlisted_fates = 0;      // of lists that no record tells of (fusion/strategy.h)
 };
 
 class Executive final : private bus::ControllerEvents {
  public:
-  // `steps`: one per task of the node, in file order. `flexray` may be null for a node off FlexRay; `cans` has one entry per
-  // CAN of the cluster, null where this node is not on it.
+  // `steps`: one per task of the node, in file order. `flexray` may be null for a node off FlexRay; `cans` has one
+  // entry per CAN of the cluster, null where this node is not on it.
   Executive(const ExecutiveConfig& config, std::vector<std::shared_ptr<Step>> steps, bus::FlexRayPort* flexray,
             std::vector<bus::CanPort*> cans, SensorLines& lines, records::Sink& sink);
   ~Executive() override;
@@ -104,8 +105,8 @@ class Executive final : private bus::ControllerEvents {
   // A frame of this node has left, `now`. `frame` is what the medium knows of it: bus, start, when it has left in true
   // time, identifier and data; the node reports it with its own clock's times and the list and measurement it is of.
   void can_frame_sent(records::CanFrameSent frame, Microticks now);
-  void trigger(SensorId sensor, Microticks now);                          // at a device
-  void strobe(SensorId sensor, std::uint32_t sequence, Microticks now);   // at a host
+  void trigger(SensorId sensor, Microticks now);                         // at a device
+  void strobe(SensorId sensor, std::uint32_t sequence, Microticks now);  // at a host
 
   // The host has its controller begin anew, cold, where that has halted. What was to happen by the global time is lost.
   void start_anew(Microticks now);
@@ -149,7 +150,7 @@ class Executive final : private bus::ControllerEvents {
     (void)cycle, (void)at;
     concerned_ = true;
   }
-  void look_ahead();   // own_next_, whenever something has concerned it
+  void look_ahead();  // own_next_, whenever something has concerned it
   void arrived(PduId pdu, int can_bus, bus::ArrivalEffect effect, std::uint32_t sequence,
                std::optional<std::uint32_t> torn, Microticks at);
   void rise(Microticks now);
@@ -177,17 +178,17 @@ class Executive final : private bus::ControllerEvents {
   std::unique_ptr<bus::FlexRayController> flexray_;
   std::vector<std::unique_ptr<bus::CanController>> cans_;
   std::vector<TaskState> tasks_;
-  std::vector<SensorState> sensors_;        // those this node is device or host of
-  std::vector<StrobeLatch> strobes_;        // by SensorId
-  std::vector<std::size_t> ready_;          // waiting tasks, by (activation, place in the file)
+  std::vector<SensorState> sensors_;  // those this node is device or host of
+  std::vector<StrobeLatch> strobes_;  // by SensorId
+  std::vector<std::size_t> ready_;    // waiting tasks, by (activation, place in the file)
   std::optional<std::size_t> running_;
   Microticks running_end_{};
   std::int64_t armed_cycle_ = -1;
-  bool concerned_ = true;                   // own_next_ is to be looked for anew
-  Microticks own_next_{};                   // next_event() but for the controller's
+  bool concerned_ = true;  // own_next_ is to be looked for anew
+  Microticks own_next_{};  // next_event() but for the controller's
   bool asleep_ = false;
-  std::optional<Microticks> rises_;         // while asleep: when, once a wake-up pattern was heard
-  bool waking_ = false;                     // others: start-up comes after the wake-up
+  std::optional<Microticks> rises_;  // while asleep: when, once a wake-up pattern was heard
+  bool waking_ = false;              // others: start-up comes after the wake-up
   ExecutiveCounts counts_;
 };
 

@@ -36,11 +36,11 @@ void Executive::identify(records::CanFrameSent& frame) const {
     const auto payload = frame.data.first(bytes);
     frame.pdu = message.pdu;
     frame.sensor = layout.sensor;
-    frame.fragment = static_cast<std::uint8_t>(
-        wire::read_header_raw(layout, payload, wire::header_signal(layout, "fragment")));
+    frame.fragment =
+        static_cast<std::uint8_t>(wire::read_header_raw(layout, payload, wire::header_signal(layout, "fragment")));
     frame.sequence = cans_[frame.bus]->sent_sequence(
-        frame.pdu, static_cast<std::uint32_t>(
-                       wire::read_header_raw(layout, payload, wire::header_signal(layout, "sequence"))));
+        frame.pdu,
+        static_cast<std::uint32_t>(wire::read_header_raw(layout, payload, wire::header_signal(layout, "sequence"))));
   }
 }
 
@@ -61,8 +61,8 @@ void Executive::can_frame_sent(records::CanFrameSent frame, Microticks now) {
 void Executive::slot_problem(std::int64_t cycle, int slot, schedules::Channel channel, bus::SlotStatus status,
                              Microticks at) {
   ++counts_.slot_problems;
-  sink_.on(records::SlotProblem{stamp(at), cycle, static_cast<std::uint16_t>(slot),
-                                static_cast<std::uint8_t>(channel), static_cast<std::uint8_t>(status)});
+  sink_.on(records::SlotProblem{stamp(at), cycle, static_cast<std::uint16_t>(slot), static_cast<std::uint8_t>(channel),
+                                static_cast<std::uint8_t>(status)});
 }
 
 void Executive::clock_corrected(std::int64_t cycle, const timebase::Correction& offset,

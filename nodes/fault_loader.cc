@@ -15,8 +15,7 @@ constexpr Range<Duration> kDurations{Duration::nanoseconds(1), Duration::millise
 // Not earlier than the shortest frame is long (frame_bits() of no payload), so that nothing arrives before it leaves.
 constexpr Duration kMostEarly = Duration::microseconds(9);
 
-template <class Value, std::size_t N>
-Choices<Value> choices(const std::array<Named<Value>, N>& names) {
+template <class Value, std::size_t N> Choices<Value> choices(const std::array<Named<Value>, N>& names) {
   Choices<Value> all;
   for (const Named<Value>& one : names) all.emplace_back(one.name, one.value);
   return all;
@@ -111,7 +110,8 @@ void read_parameters(YamlMap& yaml, Fault& fault, Duration latest) {
     case FaultKind::kMasquerading: read_masquerading(yaml, fault); break;
     case FaultKind::kSosTiming:
       fault.shift = yaml.duration("shift", {-kMostEarly, Duration::milliseconds(1)});
-      if (yaml.has("shift") && fault.shift == Duration{}) yaml.fail("shift", "must not be 0, by which nothing is late or early");
+      if (yaml.has("shift") && fault.shift == Duration{})
+        yaml.fail("shift", "must not be 0, by which nothing is late or early");
       read_receivers(yaml, fault);
       break;
     case FaultKind::kSosValue: read_receivers(yaml, fault); break;
@@ -127,9 +127,7 @@ void read_parameters(YamlMap& yaml, Fault& fault, Duration latest) {
       read_flips(yaml, fault, 24);
       read_receivers(yaml, fault);
       break;
-    case FaultKind::kChannelSwap:
-      read_occasions(yaml, fault);
-      return read_window(yaml, fault, latest);
+    case FaultKind::kChannelSwap: read_occasions(yaml, fault); return read_window(yaml, fault, latest);
     case FaultKind::kByzantineClock:
       fault.shift = yaml.duration("shift", {Duration::nanoseconds(1), kMostEarly});
       fault.pattern = yaml.choice_or("pattern", fault.pattern, choices(kPatternNames));

@@ -99,7 +99,7 @@ class Resolver {
   const Cluster& cluster_;
   const std::string& file_;
   Findings& findings_;
-  std::map<NodeId, Cluster> believed_;   // by those who err
+  std::map<NodeId, Cluster> believed_;  // by those who err
   const Fault* fault_ = nullptr;
   std::size_t index_ = 0;
 };

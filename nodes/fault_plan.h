@@ -25,29 +25,29 @@ namespace ttf::nodes {
 
 // Values are part of recordings and campaigns' streams: append only.
 enum class FaultKind : std::uint8_t {
-  kCrash,                // the node loses its supply; with a duration it starts cold afterwards
-  kOmission,             // frames do not leave it, or do not reach it
-  kBabblingIdiot,        // it sends besides its schedule
-  kMasquerading,         // it sends what claims to be another's
-  kSosTiming,            // slightly off the specification: frames early or late, so that receivers disagree
-  kSosValue,             // the same of the signal's shape: some receivers cannot make it out
-  kBitFlipHeader,        // bits of its frames are inverted on the way
+  kCrash,          // the node loses its supply; with a duration it starts cold afterwards
+  kOmission,       // frames do not leave it, or do not reach it
+  kBabblingIdiot,  // it sends besides its schedule
+  kMasquerading,   // it sends what claims to be another's
+  kSosTiming,      // slightly off the specification: frames early or late, so that receivers disagree
+  kSosValue,       // the same of the signal's shape: some receivers cannot make it out
+  kBitFlipHeader,  // bits of its frames are inverted on the way
   kBitFlipPayload,
   kBitFlipTrailer,
-  kChannelSwap,          // what it sends on one channel appears on the other
-  kByzantineClock,       // its frames say another time to every receiver
-  kDrift,                // its oscillator runs at another rate
-  kLoneColdstart,        // the only coldstart node that has a supply
-  kDuplicateColdstart,   // it starts the cluster while others do, or again and again
-  kWrongSchedule,        // it believes in another schedule than the cluster's
-  kNoise,                // activity on a channel that nobody sent
-  kTransient,            // everything on the channels is destroyed
+  kChannelSwap,         // what it sends on one channel appears on the other
+  kByzantineClock,      // its frames say another time to every receiver
+  kDrift,               // its oscillator runs at another rate
+  kLoneColdstart,       // the only coldstart node that has a supply
+  kDuplicateColdstart,  // it starts the cluster while others do, or again and again
+  kWrongSchedule,       // it believes in another schedule than the cluster's
+  kNoise,               // activity on a channel that nobody sent
+  kTransient,           // everything on the channels is destroyed
 };
 inline constexpr std::array kAllFaultKinds = {
-    FaultKind::kCrash,           FaultKind::kOmission,       FaultKind::kBabblingIdiot,     FaultKind::kMasquerading,
-    FaultKind::kSosTiming,       FaultKind::kSosValue,       FaultKind::kBitFlipHeader,     FaultKind::kBitFlipPayload,
-    FaultKind::kBitFlipTrailer,  FaultKind::kChannelSwap,    FaultKind::kByzantineClock,    FaultKind::kDrift,
-    FaultKind::kLoneColdstart,   FaultKind::kDuplicateColdstart, FaultKind::kWrongSchedule, FaultKind::kNoise,
+    FaultKind::kCrash,          FaultKind::kOmission,           FaultKind::kBabblingIdiot,  FaultKind::kMasquerading,
+    FaultKind::kSosTiming,      FaultKind::kSosValue,           FaultKind::kBitFlipHeader,  FaultKind::kBitFlipPayload,
+    FaultKind::kBitFlipTrailer, FaultKind::kChannelSwap,        FaultKind::kByzantineClock, FaultKind::kDrift,
+    FaultKind::kLoneColdstart,  FaultKind::kDuplicateColdstart, FaultKind::kWrongSchedule,  FaultKind::kNoise,
     FaultKind::kTransient,
 };
 // As in YAML: "babbling_idiot".
@@ -58,8 +58,8 @@ bool has_node(FaultKind kind);
 enum class FaultDirection : std::uint8_t { kSend = 1, kReceive = 2, kBoth = 3 };
 enum class FaultSignal : std::uint8_t { kNoise, kFrame };
 enum class MasqueradeMode : std::uint8_t {
-  kInSlot,    // a frame more, in the other's slot; a collision unless that is free or its owner silent
-  kOwnSlot,   // its own frames carry the other's frame id
+  kInSlot,   // a frame more, in the other's slot; a collision unless that is free or its owner silent
+  kOwnSlot,  // its own frames carry the other's frame id
 };
 enum class ByzantinePattern : std::uint8_t {
   kRandom,     // every frame to every receiver by an amount of its own, evenly drawn
@@ -80,14 +80,12 @@ enum class WrongSchedule : std::uint8_t {
 };
 
 // What these are called in YAML, under `direction`, `signal`, `mode`, `pattern` and `others`.
-template <class Value>
-struct Named {
+template <class Value> struct Named {
   std::string_view name;
   Value value;
 };
-inline constexpr std::array<Named<FaultDirection>, 3> kDirectionNames{{{"send", FaultDirection::kSend},
-                                                                       {"receive", FaultDirection::kReceive},
-                                                                       {"both", FaultDirection::kBoth}}};
+inline constexpr std::array<Named<FaultDirection>, 3> kDirectionNames{
+    {{"send", FaultDirection::kSend}, {"receive", FaultDirection::kReceive}, {"both", FaultDirection::kBoth}}};
 inline constexpr std::array<Named<FaultSignal>, 2> kSignalNames{
     {{"noise", FaultSignal::kNoise}, {"frame", FaultSignal::kFrame}}};
 inline constexpr std::array<Named<MasqueradeMode>, 2> kMasqueradeNames{
@@ -95,10 +93,9 @@ inline constexpr std::array<Named<MasqueradeMode>, 2> kMasqueradeNames{
 inline constexpr std::array<Named<ByzantinePattern>, 3> kPatternNames{{{"random", ByzantinePattern::kRandom},
                                                                        {"pull_apart", ByzantinePattern::kPullApart},
                                                                        {"pull_rates", ByzantinePattern::kPullRates}}};
-inline constexpr std::array<Named<DuplicateMode>, 3> kDuplicateNames{
-    {{"cas", DuplicateMode::kCas},
-     {"startup_frames", DuplicateMode::kStartupFrames},
-     {"same_key_slot", DuplicateMode::kSameKeySlot}}};
+inline constexpr std::array<Named<DuplicateMode>, 3> kDuplicateNames{{{"cas", DuplicateMode::kCas},
+                                                                      {"startup_frames", DuplicateMode::kStartupFrames},
+                                                                      {"same_key_slot", DuplicateMode::kSameKeySlot}}};
 inline constexpr std::array<Named<WrongSchedule>, 5> kWrongScheduleNames{
     {{"shifted_slots", WrongSchedule::kShiftedSlots},
      {"cycle_length", WrongSchedule::kCycleLength},
@@ -113,36 +110,36 @@ struct Fault {
   static constexpr Duration kToTheEnd{std::numeric_limits<std::int64_t>::max() / 4};
 
   FaultKind kind{};
-  NodeId node = kNoNode;                 // the faulty one; kNoNode for the medium's, and before resolve()
+  NodeId node = kNoNode;  // the faulty one; kNoNode for the medium's, and before resolve()
   schedules::Channels channels = schedules::Channels::kAB;
   Duration from{};
   Duration duration = kToTheEnd;
 
   // What happens to single frames. A frame on both channels is one occasion: every `every`-th, the first included, is
   // chosen with `probability`.
-  double probability = 1.0;              // 0..1
-  int every = 1;                         // 1..1'000'000
-  std::vector<NodeId> receivers;         // empty: all (sos_value: each one drawn, by half)
-  FaultDirection direction = FaultDirection::kSend;   // omission
-  std::vector<int> bits;                 // bit flips: 0 is the region's first on the bus; empty: drawn
-  int flips = 1;                         // bit flips: how many different ones are drawn, 1..24
-  Duration shift{};                      // sos_timing: late, or early; byzantine_clock: the most it is off
+  double probability = 1.0;                          // 0..1
+  int every = 1;                                     // 1..1'000'000
+  std::vector<NodeId> receivers;                     // empty: all (sos_value: each one drawn, by half)
+  FaultDirection direction = FaultDirection::kSend;  // omission
+  std::vector<int> bits;                             // bit flips: 0 is the region's first on the bus; empty: drawn
+  int flips = 1;                                     // bit flips: how many different ones are drawn, 1..24
+  Duration shift{};                                  // sos_timing: late, or early; byzantine_clock: the most it is off
   ByzantinePattern pattern = ByzantinePattern::kRandom;
 
   // What comes out of nothing: bursts, the first at `from`, from start to start `interval` and an evenly drawn
   // 0..`jitter`.
-  FaultSignal signal = FaultSignal::kNoise;           // babbling_idiot
-  Duration length = Duration::microseconds(30);       // of a burst of noise; frames last as long as they are
-  Duration interval = Duration::milliseconds(1);      // shorter than what is sent: back to back
+  FaultSignal signal = FaultSignal::kNoise;       // babbling_idiot
+  Duration length = Duration::microseconds(30);   // of a burst of noise; frames last as long as they are
+  Duration interval = Duration::milliseconds(1);  // shorter than what is sent: back to back
   Duration jitter{};
 
-  int slot = 0;                          // of another, static; duplicate_coldstart, 0: the next coldstart node's
+  int slot = 0;  // of another, static; duplicate_coldstart, 0: the next coldstart node's
   MasqueradeMode masquerade = MasqueradeMode::kInSlot;
   DuplicateMode duplicate = DuplicateMode::kCas;
   WrongSchedule wrong = WrongSchedule::kShiftedSlots;
-  int by = 0;                            // wrong_schedule: slots, macroticks or words
-  std::int64_t drift_ppb = 0;            // drift: from then on, within +-kMostDriftPpb
-  bool all_others = false;               // lone_coldstart: not only the coldstart nodes among the others are off
+  int by = 0;                  // wrong_schedule: slots, macroticks or words
+  std::int64_t drift_ppb = 0;  // drift: from then on, within +-kMostDriftPpb
+  bool all_others = false;     // lone_coldstart: not only the coldstart nodes among the others are off
 
   // As written, until resolve().
   std::string node_name;
@@ -154,7 +151,7 @@ struct Fault {
 inline constexpr std::int64_t kMostDriftPpb = 50'000'000;
 
 struct FaultPlan {
-  std::string file;                      // for messages
+  std::string file;  // for messages
   std::vector<Fault> faults;
 
   bool empty() const { return faults.empty(); }

@@ -10,8 +10,7 @@
 namespace ttf::nodes {
 namespace {
 
-template <class Value, std::size_t N>
-std::string_view name_in(const std::array<Named<Value>, N>& names, Value value) {
+template <class Value, std::size_t N> std::string_view name_in(const std::array<Named<Value>, N>& names, Value value) {
   for (const Named<Value>& one : names)
     if (one.value == value) return one.name;
   TTF_CHECK(false, "no name of {}", static_cast<int>(value));
@@ -29,8 +28,7 @@ class KeyWriter {
   }
 
  private:
-  template <class Value>
-  void add(std::string_view key, const Value& value) {
+  template <class Value> void add(std::string_view key, const Value& value) {
     keys_.emplace_back(key, fmt::format("{}", value));
   }
   void window() {
@@ -39,7 +37,7 @@ class KeyWriter {
   }
   void channels() { add("channels", schedules::channels_text(fault_.channels)); }
   void occasions() {
-    add("probability", fault_.probability);   // as many digits as make it this very number
+    add("probability", fault_.probability);  // as many digits as make it this very number
     add("every", fault_.every);
   }
   void receivers() {
@@ -60,9 +58,7 @@ class KeyWriter {
   void parameters() {
     switch (fault_.kind) {
       case FaultKind::kCrash: return window();
-      case FaultKind::kOmission:
-        add("direction", name_in(kDirectionNames, fault_.direction));
-        return frames();
+      case FaultKind::kOmission: add("direction", name_in(kDirectionNames, fault_.direction)); return frames();
       case FaultKind::kBabblingIdiot:
         add("signal", name_in(kSignalNames, fault_.signal));
         if (fault_.signal == FaultSignal::kNoise) add("length", duration_text(fault_.length));
@@ -77,9 +73,7 @@ class KeyWriter {
         add("shift", duration_text(fault_.shift));
         receivers();
         return frames();
-      case FaultKind::kSosValue:
-        receivers();
-        return frames();
+      case FaultKind::kSosValue: receivers(); return frames();
       case FaultKind::kBitFlipHeader:
       case FaultKind::kBitFlipPayload:
       case FaultKind::kBitFlipTrailer:
@@ -89,9 +83,7 @@ class KeyWriter {
           add("bits", fmt::format("[{}]", fmt::join(fault_.bits, ", ")));
         receivers();
         return frames();
-      case FaultKind::kChannelSwap:
-        occasions();
-        return window();
+      case FaultKind::kChannelSwap: occasions(); return window();
       case FaultKind::kByzantineClock:
         add("shift", duration_text(fault_.shift));
         add("pattern", name_in(kPatternNames, fault_.pattern));
@@ -101,9 +93,7 @@ class KeyWriter {
         add("drift", fmt::format("{}{}.{:03}", fault_.drift_ppb < 0 ? "-" : "", ppb / 1000, ppb % 1000));
         return add("from", duration_text(fault_.from));
       }
-      case FaultKind::kLoneColdstart:
-        add("others", name_in(kAllOthersNames, fault_.all_others));
-        return window();
+      case FaultKind::kLoneColdstart: add("others", name_in(kAllOthersNames, fault_.all_others)); return window();
       case FaultKind::kDuplicateColdstart: return duplicate();
       case FaultKind::kWrongSchedule:
         add("mode", name_in(kWrongScheduleNames, fault_.wrong));
@@ -113,9 +103,7 @@ class KeyWriter {
         bursts();
         channels();
         return window();
-      case FaultKind::kTransient:
-        channels();
-        return window();
+      case FaultKind::kTransient: channels(); return window();
     }
   }
   void duplicate() {

@@ -57,7 +57,7 @@ FeatureService::FeatureService(const schedules::Cluster& cluster, const schedule
 
 void FeatureService::run(StepContext& context) {
   const Input& image = context.inputs[0];
-  if (!image.list) return;   // no image has arrived yet: nothing is made up
+  if (!image.list) return;  // no image has arrived yet: nothing is made up
   if (image.fresh) valid_at_ = time_stamp(*image.layout, *image.list, context.stamp.global, round_);
   const Duration age = context.stamp.global - valid_at_;
   const bool stale = age > config_.max_image_age || -age > config_.max_image_age;

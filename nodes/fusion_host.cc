@@ -20,14 +20,13 @@ schedules::CycleInstant image_use(const schedules::Cluster& cluster, PduId image
   for (const schedules::Node& node : cluster.nodes)
     for (const schedules::Task& task : node.tasks)
       for (const schedules::PortBinding& binding : task.reads)
-        if (binding.pdu == image && task.activation.kind == schedules::ActivationKind::kTime)
-          return task.activation.at;
+        if (binding.pdu == image && task.activation.kind == schedules::ActivationKind::kTime) return task.activation.at;
   throw InputError({cluster.file, cluster.pdu(image).line, "pdus." + cluster.pdu(image).name, "",
                     "needs a reader that is activated by time: the image is predicted to that instant"});
 }
 
-// The schedule's fusion instants, one by one. A fusing task that time does not activate has none: there the worst delay says
-// when to stop waiting: until its own task, which may wait for others, hands a list to the strategy.
+// The schedule's fusion instants, one by one. A fusing task that time does not activate has none: there the worst delay
+// says when to stop waiting: until its own task, which may wait for others, hands a list to the strategy.
 fusion::Settling settling(const schedules::Cluster& cluster, const schedules::AgePath& path) {
   const auto round = schedules::settled_round(cluster, path.sensor);
   if (!round) return fusion::Settling::after(path.fused_worst);
@@ -50,9 +49,8 @@ std::vector<fusion::SensorTiming> sensor_timings(const schedules::Cluster& clust
   std::vector<fusion::SensorTiming> timings;
   for (const schedules::AgePath& path : schedules::measurement_ages(cluster)) {
     const schedules::Sensor& sensor = cluster.sensor(path.sensor);
-    const GlobalTime first = sensor.scheduled
-                                 ? schedules::next_occurrence(cluster.flexray, sensor.at, GlobalTime{}).time
-                                 : GlobalTime{};
+    const GlobalTime first =
+        sensor.scheduled ? schedules::next_occurrence(cluster.flexray, sensor.at, GlobalTime{}).time : GlobalTime{};
     const Duration period = sensor.scheduled ? cluster.cycle() * sensor.at.repetition : sensor.period;
     timings.push_back({path.sensor, settling(cluster, path), sensor.scheduled, first, period});
   }
@@ -78,10 +76,8 @@ fusion::TrackerConfig tracker_in(const schedules::Cluster& cluster, fusion::Trac
 
 FusionHost::FusionHost(const schedules::Cluster& cluster, fusion::StrategyKind kind,
                        const fusion::TrackerConfig& tracker)
-    : strategy(fusion::make_strategy(kind, tracker, sensor_timings(cluster))),
-      sensors(tracker.sensors),
-      most_objects(static_cast<std::size_t>(tracker.max_objects)),
-      most_observations(tracker.max_observations) {}
+    : strategy(fusion::make_strategy(kind, tracker, sensor_timings(cluster))), sensors(tracker.sensors),
+      most_objects(static_cast<std::size_t>(tracker.max_objects)), most_observations(tracker.max_observations) {}
 
 bool RoundsBelieved::believed(std::int64_t rounds) {
   if (rounds != rounds_ && claimed_ != rounds) {
@@ -93,8 +89,7 @@ bool RoundsBelieved::believed(std::int64_t rounds) {
   return true;
 }
 
-FusionStep::FusionStep(const schedules::Cluster& cluster, const schedules::Task& task,
-                       std::shared_ptr<FusionHost> host)
+FusionStep::FusionStep(const schedules::Cluster& cluster, const schedules::Task& task, std::shared_ptr<FusionHost> host)
     : host_(std::move(host)), round_(cluster.round()) {
   std::size_t most = 0;
   for (const schedules::PortBinding& binding : task.reads) {
@@ -124,7 +119,7 @@ void FusionStep::run(StepContext& context) {
   const GlobalTime about = now - Duration{round_.ns / 8 * 3};
   for (std::size_t i = 0; i < context.inputs.size(); ++i) {
     Input& input = context.inputs[i];
-    if (!input.fresh || !input.list) continue;   // each list is taken exactly once
+    if (!input.fresh || !input.list) continue;  // each list is taken exactly once
     const GlobalTime measured = time_stamp(*input.layout, *input.list, about, round_);
     input.discarded = !rounds_[i].believed(rounds_between(*input.layout, *input.list, about, measured, round_));
     if (input.discarded) continue;
@@ -189,9 +184,13 @@ void FusionStep::record_result(const StepContext& context) const {
                                         static_cast<records::Disposition>(scan.disposition)});
   for (const fusion::TrackView& track : strategy.tracks()) {
     if (!track.confirmed) continue;
-    records::TrackState state{context.stamp, host_->step, track.id, track.valid_at,
+    records::TrackState state{context.stamp,
+                              host_->step,
+                              track.id,
+                              track.valid_at,
                               std::span<const double, 6>(track.state.data(), 6),
-                              std::span<const double, 36>(track.covariance.data(), 36), false};
+                              std::span<const double, 36>(track.covariance.data(), 36),
+                              false};
     context.sink->on(state);
   }
   context.sink->on(records::FusionStep{context.stamp, host_->step,

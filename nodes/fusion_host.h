@@ -1,9 +1,9 @@
 // The fusion node: decodes what its controller received, hands it to a strategy, and writes the real-time image.
 //
-// It knows only bytes from its controller, the schedule and its own clock. Its tasks share one FusionHost: `fusion` at every
-// fusion instant, or one of them for each sensor's list whenever that arrives (BUFF and ADVA), `image_output` before the
-// image's slots. The image is predicted to the instant at which the feature service will use it, which the schedule says
-// beforehand; predicting never touches the filter state.
+// It knows only bytes from its controller, the schedule and its own clock. Its tasks share one FusionHost: `fusion` at
+// every fusion instant, or one of them for each sensor's list whenever that arrives (BUFF and ADVA), `image_output`
+// before the image's slots. The image is predicted to the instant at which the feature service will use it, which the
+// schedule says beforehand; predicting never touches the filter state.
 #pragma once
 
 #include <cstdint>
@@ -33,11 +33,11 @@ fusion::TrackerConfig tracker_in(const schedules::Cluster& cluster, fusion::Trac
 struct FusionHost {
   FusionHost(const schedules::Cluster& cluster, fusion::StrategyKind kind, const fusion::TrackerConfig& tracker);
   std::unique_ptr<fusion::Strategy> strategy;
-  std::vector<fusion::KnownSensor> sensors;   // by SensorId
-  std::size_t most_objects;        // confirmed tracks there can be
-  std::size_t most_observations;   // in one list
-  std::uint32_t step = 0;          // numbered fusion instants, from 1
-  std::uint64_t unlisted = 0;      // of the strategy's, up to the last one
+  std::vector<fusion::KnownSensor> sensors;  // by SensorId
+  std::size_t most_objects;                  // confirmed tracks there can be
+  std::size_t most_observations;             // in one list
+  std::uint32_t step = 0;                    // numbered fusion instants, from 1
+  std::uint64_t unlisted = 0;                // of the strategy's, up to the last one
 };
 
 // Whether a list's age is known. Its stamp counts the rounds of the cycle counter as its sender does; the reader brings
@@ -65,9 +65,9 @@ class FusionStep final : public Step {
   void record_result(const StepContext& context) const;
 
   std::shared_ptr<FusionHost> host_;
-  Duration round_;                               // of the schedule
-  std::vector<ObservationCodec> codecs_;         // per port
-  std::vector<RoundsBelieved> rounds_;           // per port
+  Duration round_;                        // of the schedule
+  std::vector<ObservationCodec> codecs_;  // per port
+  std::vector<RoundsBelieved> rounds_;    // per port
   std::vector<fusion::Observation> observations_;
 };
 
@@ -80,7 +80,7 @@ class ImageOutput final : public Step {
  private:
   const schedules::Cluster& cluster_;
   std::shared_ptr<FusionHost> host_;
-  schedules::CycleInstant use_;                  // when the feature service reads
+  schedules::CycleInstant use_;  // when the feature service reads
   ImageSignals signals_;
   std::uint32_t sequence_ = 0;
   std::vector<fusion::TrackView> views_;

@@ -40,8 +40,8 @@ void encode_image_object(const fusion::TrackView& view, Output& out, int index, 
   for (std::size_t s = 0; s < values.size(); ++s) out.set(index, signals[s], values[s]);
 }
 
-records::ImageObject decode_image_object(const schedules::PduLayout& layout, const bus::ListView& list,
-                                         int index, const ImageSignals& signals) {
+records::ImageObject decode_image_object(const schedules::PduLayout& layout, const bus::ListView& list, int index,
+                                         const ImageSignals& signals) {
   const auto value = [&](std::size_t s) { return element_value(layout, list, index, signals[s]); };
   records::ImageObject object;
   object.track = static_cast<TrackId>(std::lround(value(0)));

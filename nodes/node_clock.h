@@ -1,5 +1,5 @@
-// The clocks a node begins with, alike under every crank: its oscillator, drawn from the run's seed where the cluster leaves
-// it open, and the clock of the cluster where it begins integrated.
+// The clocks a node begins with, alike under every crank: its oscillator, drawn from the run's seed where the cluster
+// leaves it open, and the clock of the cluster where it begins integrated.
 #pragma once
 
 #include <cstdint>

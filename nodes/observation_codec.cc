@@ -15,23 +15,22 @@ double at_least_resolution(double sigma, double resolution) { return std::max(si
 }  // namespace
 
 ObservationCodec::ObservationCodec(const schedules::Cluster& cluster, PduId pdu)
-    : layout_(&cluster.pdu(pdu)),
-      form_(schedules::find_signal(layout_->element, "range") ? Form::kRadar
-            : schedules::find_signal(layout_->element, "heading") ? Form::kLaser
-                                                                  : Form::kPosition) {
+    : layout_(&cluster.pdu(pdu)), form_(schedules::find_signal(layout_->element, "range")     ? Form::kRadar
+                                        : schedules::find_signal(layout_->element, "heading") ? Form::kLaser
+                                                                                              : Form::kPosition) {
   switch (form_) {
     case Form::kLaser:
       signals_ = bind_elements<12>(cluster, *layout_,
-                          {"x", "y", "sigma_x", "sigma_y", "correlation", "width", "sigma_width", "heading",
-                           "sigma_heading", "length", "sigma_length", "valid"});
+                                   {"x", "y", "sigma_x", "sigma_y", "correlation", "width", "sigma_width", "heading",
+                                    "sigma_heading", "length", "sigma_length", "valid"});
       break;
     case Form::kPosition:
-      signals_ = bind_elements<7>(cluster, *layout_,
-                         {"x", "y", "sigma_x", "sigma_y", "correlation", "span", "sigma_span"});
+      signals_ =
+          bind_elements<7>(cluster, *layout_, {"x", "y", "sigma_x", "sigma_y", "correlation", "span", "sigma_span"});
       break;
     case Form::kRadar:
-      signals_ = bind_elements<6>(cluster, *layout_,
-                         {"range", "bearing", "range_rate", "sigma_range", "sigma_bearing", "sigma_range_rate"});
+      signals_ = bind_elements<6>(
+          cluster, *layout_, {"range", "bearing", "range_rate", "sigma_range", "sigma_bearing", "sigma_range_rate"});
       break;
   }
 }

@@ -10,8 +10,8 @@
 
 namespace ttf::nodes {
 
-// Bound once to a PDU: positions (x, y, their covariance, and either heading and extent or the angle the outline spans) or
-// radar detections (range, bearing, range_rate and their sigmas), told apart by the signals the layout has.
+// Bound once to a PDU: positions (x, y, their covariance, and either heading and extent or the angle the outline spans)
+// or radar detections (range, bearing, range_rate and their sigmas), told apart by the signals the layout has.
 class ObservationCodec {
  public:
   ObservationCodec(const schedules::Cluster& cluster, PduId pdu);

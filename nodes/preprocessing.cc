@@ -14,8 +14,7 @@ const schedules::PduLayout& layout_of(const schedules::Cluster& cluster,
 }
 
 // Where there are more objects than the list holds, the nearest ones are kept, in a stable order.
-template <class Object>
-void keep_nearest(std::vector<Object>& objects, int limit) {
+template <class Object> void keep_nearest(std::vector<Object>& objects, int limit) {
   if (static_cast<int>(objects.size()) <= limit) return;
   std::sort(objects.begin(), objects.end(), [](const Object& a, const Object& b) {
     const double ra = a.x * a.x + a.y * a.y, rb = b.x * b.x + b.y * b.y;
@@ -57,9 +56,18 @@ void LaserPreprocessing::run(StepContext& context) {
   for (int i = 0; i < static_cast<int>(objects_.size()); ++i) {
     const LaserObject& object = objects_[static_cast<std::size_t>(i)];
     const double valid = (object.has_heading ? 1 : 0) + (object.has_length ? 2 : 0) + (object.has_width ? 4 : 0);
-    const double values[] = {object.x, object.y, object.heading, object.length, object.width, std::sqrt(object.sxx),
-                             std::sqrt(object.syy), correlation(object.sxx, object.sxy, object.syy),
-                             object.sigma_heading, object.sigma_length, object.sigma_width, valid};
+    const double values[] = {object.x,
+                             object.y,
+                             object.heading,
+                             object.length,
+                             object.width,
+                             std::sqrt(object.sxx),
+                             std::sqrt(object.syy),
+                             correlation(object.sxx, object.sxy, object.syy),
+                             object.sigma_heading,
+                             object.sigma_length,
+                             object.sigma_width,
+                             valid};
     for (std::size_t s = 0; s < signals_.size(); ++s) out.set(i, signals_[s], values[s]);
   }
 }
@@ -89,8 +97,13 @@ void CameraPreprocessing::run(StepContext& context) {
   out.begin(measurement->sequence, static_cast<int>(objects_.size()), measurement->at);
   for (int i = 0; i < static_cast<int>(objects_.size()); ++i) {
     const CameraObject& object = objects_[static_cast<std::size_t>(i)];
-    const double values[] = {object.x, object.y, std::sqrt(object.sxx), std::sqrt(object.syy),
-                             correlation(object.sxx, object.sxy, object.syy), object.span, object.sigma_span};
+    const double values[] = {object.x,
+                             object.y,
+                             std::sqrt(object.sxx),
+                             std::sqrt(object.syy),
+                             correlation(object.sxx, object.sxy, object.syy),
+                             object.span,
+                             object.sigma_span};
     for (std::size_t s = 0; s < signals_.size(); ++s) out.set(i, signals_[s], values[s]);
   }
 }

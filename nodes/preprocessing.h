@@ -1,4 +1,5 @@
-// Preprocessing: raw sensor data in, observation lists out, stamped with the global time the host latched at the strobe.
+// Preprocessing: raw sensor data in, observation lists out, stamped with the global time the host latched at the
+// strobe.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// What a node promises to those who cannot look into it: until when it does nothing that others could notice. An act is what
-// leaves the node: a signal on FlexRay, a frame for a CAN, a trigger or a strobe. All in the node's microticks.
+// What a node promises to those who cannot look into it: until when it does nothing that others could notice. An act is
+// what leaves the node: a signal on FlexRay, a frame for a CAN, a trigger or a strobe. All in the node's microticks.
 #pragma once
 
 #include <limits>
@@ -11,10 +11,10 @@ namespace ttf::nodes {
 struct Promise {
   static constexpr Microticks kNever{std::numeric_limits<std::int64_t>::max()};
 
-  Microticks silent_until{};            // no act before it, if nothing arrives until then
+  Microticks silent_until{};  // no act before it, if nothing arrives until then
   // An arrival moves that forward to no sooner than this long after it; kNever: not at all.
-  Microticks after_flexray = kNever;    // anything on FlexRay
-  Microticks after_can = kNever;        // a frame on any CAN
+  Microticks after_flexray = kNever;  // anything on FlexRay
+  Microticks after_can = kNever;      // a frame on any CAN
   Microticks after_trigger = kNever;
 
   bool operator==(const Promise&) const = default;

@@ -47,7 +47,7 @@ RecordedScene::RecordedScene(const recording::RecordedInput& input, TrueTime sta
 }
 
 void RecordedScene::states_at(TrueTime at, std::vector<world::ObjectState>& out) const {
-  const double t = static_cast<double>((at - start_).ns) * 1e-3;   // microseconds into the recording
+  const double t = static_cast<double>((at - start_).ns) * 1e-3;  // microseconds into the recording
   const auto after = std::upper_bound(rows_.begin(), rows_.end(), t, [](double time, const auto& row) {
     return time < static_cast<double>(row.time_us_from_start);
   });
@@ -83,8 +83,7 @@ void RecordedScene::states_at(TrueTime at, std::vector<world::ObjectState>& out)
 
 RecordedSource::RecordedSource(const schedules::Cluster& cluster, const schedules::Task& task, SensorId sensor,
                                std::shared_ptr<const recording::RecordedInput> input)
-    : sensor_(sensor),
-      track_(*input, cluster.sensor(sensor).name),
+    : sensor_(sensor), track_(*input, cluster.sensor(sensor).name),
       signals_(bind_raw(cluster, cluster.pdu(binding_of(task.writes, "raw").pdu))) {
   if (track_.size() == 0)
     throw InputError({cluster.file, cluster.sensor(sensor).line, "sensors." + cluster.sensor(sensor).name, "",
@@ -99,7 +98,7 @@ RecordedSource::RecordedSource(const schedules::Cluster& cluster, const schedule
 }
 
 void RecordedSource::run(StepContext& context) {
-  if (context.measurement >= track_.size()) return;   // the recording is over: the device falls silent
+  if (context.measurement >= track_.size()) return;  // the recording is over: the device falls silent
   const recording::RecordedObservation& row = track_.row(context.measurement);
   Output& raw = context.outputs[0];
   raw.begin(context.measurement, 1, GlobalTime{});
@@ -122,11 +121,12 @@ RecordedPreprocessing::RecordedPreprocessing(const schedules::Cluster& cluster, 
   const schedules::PduLayout& objects = cluster.pdu(binding_of(task.writes, "objects").pdu);
   radar_ = is_radar(raw);
   raw_ = bind_raw(cluster, raw);
-  signals_ = radar_ ? bind_elements<6>(cluster, objects,
-                              {"range", "bearing", "range_rate", "sigma_range", "sigma_bearing", "sigma_range_rate"})
-                    : bind_elements<12>(cluster, objects,
-                               {"x", "y", "sigma_x", "sigma_y", "heading", "length", "width", "correlation",
-                                "sigma_heading", "sigma_length", "sigma_width", "valid"});
+  signals_ =
+      radar_ ? bind_elements<6>(cluster, objects,
+                                {"range", "bearing", "range_rate", "sigma_range", "sigma_bearing", "sigma_range_rate"})
+             : bind_elements<12>(cluster, objects,
+                                 {"x", "y", "sigma_x", "sigma_y", "heading", "length", "width", "correlation",
+                                  "sigma_heading", "sigma_length", "sigma_width", "valid"});
 }
 
 void RecordedPreprocessing::run(StepContext& context) {

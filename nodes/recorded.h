@@ -37,8 +37,9 @@ class RecordedTrack {
   std::vector<recording::RecordedObservation> rows_;
 };
 
-// The recording's ground truth as the scene: cubic Hermite interpolation between its rows (position and velocity). Before
-// its first row and after its last one there is no truth: the scene is empty then, and nothing is compared with it.
+// The recording's ground truth as the scene: cubic Hermite interpolation between its rows (position and velocity).
+// Before its first row and after its last one there is no truth: the scene is empty then, and nothing is compared with
+// it.
 class RecordedScene final : public Scene {
  public:
   // Recorded time 0 is at true time `start`.

@@ -36,8 +36,7 @@ Scenario read_scenario(const StrictYaml& yaml) {
   scenario.startup = load_startup(root, latest);
 
   YamlMap clusters = root.map("clusters");
-  for (const auto strategy :
-       {fusion::StrategyKind::kBuff, fusion::StrategyKind::kAdva, fusion::StrategyKind::kTt}) {
+  for (const auto strategy : {fusion::StrategyKind::kBuff, fusion::StrategyKind::kAdva, fusion::StrategyKind::kTt}) {
     const std::string file = clusters.text(name_of(strategy));
     scenario.cluster_files[static_cast<std::size_t>(strategy)] =
         (std::filesystem::path(path).parent_path() / file).lexically_normal().string();

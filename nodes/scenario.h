@@ -1,5 +1,5 @@
-// A drive: what the world does, what the sensors are like, which cluster each strategy runs on, and the seed. One YAML file
-// under scenarios/; everything it leaves open has a documented default in the room that uses it.
+// A drive: what the world does, what the sensors are like, which cluster each strategy runs on, and the seed. One YAML
+// file under scenarios/; everything it leaves open has a documented default in the room that uses it.
 #pragma once
 
 #include <cstdint>
@@ -28,12 +28,12 @@ struct Scenario {
   std::string name;
   std::string description;
   std::string file;
-  std::string text;                 // the YAML as read, attached to logs
+  std::string text;  // the YAML as read, attached to logs
   std::uint64_t seed = 1;
-  Duration duration{};              // of the drive, from its start (sim/drive.h)
-  Duration evaluate_from{};         // likewise; measures and pictures start here, before it the tracker warms up
+  Duration duration{};       // of the drive, from its start (sim/drive.h)
+  Duration evaluate_from{};  // likewise; measures and pictures start here, before it the tracker warms up
   Startup startup;
-  std::string cluster_files[3];     // by StrategyKind, as paths that can be opened
+  std::string cluster_files[3];  // by StrategyKind, as paths that can be opened
   world::WorldConfig world;
   world::LaserConfig laser;
   world::CameraConfig camera;
@@ -43,7 +43,7 @@ struct Scenario {
   fusion::TrackerConfig tracker;
   RecordedNoise recorded_noise;
   FeatureConfig feature;
-  FaultPlan faults;                 // names as written: resolve() looks them up in the cluster of the drive
+  FaultPlan faults;  // names as written: resolve() looks them up in the cluster of the drive
 };
 
 // Throws InputError with every finding in the file. The clusters it names are not opened here.

@@ -1,5 +1,5 @@
-// What is really there: the port through which sensor emulators see the world at an instant. Nothing downstream of a sensor
-// has it.
+// What is really there: the port through which sensor emulators see the world at an instant. Nothing downstream of a
+// sensor has it.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// Binding of code to the signals of a PDU by name, once, at start-up: a signal the code needs and the layout lacks, and one the
-// layout has and the code does not know, are both findings (signals called "spare" are padding).
+// Binding of code to the signals of a PDU by name, once, at start-up: a signal the code needs and the layout lacks, and
+// one the layout has and the code does not know, are both findings (signals called "spare" are padding).
 #pragma once
 
 #include <algorithm>

@@ -34,8 +34,8 @@ struct Startup {
     int line = 0;
   };
   std::vector<PowerOn> power_on;
-  std::string wake_up;               // empty: nobody
-  std::string file;                  // for messages
+  std::string wake_up;  // empty: nobody
+  std::string file;     // for messages
   int wake_up_line = 0;
 };
 
@@ -45,14 +45,14 @@ Startup load_startup(YamlMap& scenario, Duration latest);
 
 // What a node that is powered on cold begins with.
 enum class ColdStart : std::uint8_t {
-  kStarts,   // its controller starts up
-  kWakes,    // its controller sends a wake-up pattern, then starts up
-  kSleeps,   // it waits for a wake-up pattern, and starts up some time after that
+  kStarts,  // its controller starts up
+  kWakes,   // its controller sends a wake-up pattern, then starts up
+  kSleeps,  // it waits for a wake-up pattern, and starts up some time after that
 };
 
 struct NodeStart {
   ColdStart how = ColdStart::kStarts;
-  Duration after{};                  // power-on: from the start of the drive, of who sleeps from the wake-up pattern on
+  Duration after{};  // power-on: from the start of the drive, of who sleeps from the wake-up pattern on
 };
 
 // Of every node of the cluster, drawn where the scenario leaves it open. Throws InputError with every finding: names

@@ -77,9 +77,7 @@ bus::ListView Output::view() const {
           std::span<const std::byte>(bytes_.data(), static_cast<std::size_t>(fragments_) * fragment_bytes(*layout_))};
 }
 
-void StrobeLatch::strobe(std::uint32_t sequence, GlobalTime at) {
-  entries_[count_++ % kDepth] = {sequence, at};
-}
+void StrobeLatch::strobe(std::uint32_t sequence, GlobalTime at) { entries_[count_++ % kDepth] = {sequence, at}; }
 
 std::optional<Strobe> StrobeLatch::find(std::uint32_t sequence, int bits) const {
   for (std::size_t back = 1; back <= std::min(count_, kDepth); ++back) {
@@ -125,9 +123,8 @@ int element_count(const schedules::PduLayout& layout, const bus::ListView& list)
 double element_value(const schedules::PduLayout& layout, const bus::ListView& list, int index, std::size_t signal) {
   const auto fragment = static_cast<std::size_t>(index / layout.elements_per_fragment);
   const auto payload = list.bytes.subspan(fragment * fragment_bytes(layout), fragment_bytes(layout));
-  return wire::to_physical(
-      layout.element[signal],
-      wire::read_element_raw(layout, payload, index % layout.elements_per_fragment, signal));
+  return wire::to_physical(layout.element[signal],
+                           wire::read_element_raw(layout, payload, index % layout.elements_per_fragment, signal));
 }
 
 }  // namespace ttf::nodes

@@ -1,4 +1,5 @@
-// The code of a task: a pure step from what its input ports held at its start to what its output ports will show at its end.
+// The code of a task: a pure step from what its input ports held at its start to what its output ports will show at its
+// end.
 //
 // Who turns the crank is not a step's business: it is handed the instants, never asks for them. Its outputs become
 // visible at the task's end, also where computing them took no time at all.
@@ -24,9 +25,9 @@ struct Input {
   std::string_view port;
   PduId pdu{};
   const schedules::PduLayout* layout = nullptr;
-  std::optional<bus::ListView> list;   // the newest complete list, if any ever arrived
-  bool fresh = false;                  // first time this task sees it
-  bool discarded = false;              // set by a step that cannot use the list it was given; counted and recorded
+  std::optional<bus::ListView> list;  // the newest complete list, if any ever arrived
+  bool fresh = false;                 // first time this task sees it
+  bool discarded = false;             // set by a step that cannot use the list it was given; counted and recorded
 };
 
 // An output port: a list under construction. Capacity is the layout's maximum, taken once.
@@ -38,8 +39,8 @@ class Output {
   PduId pdu() const { return pdu_; }
   const schedules::PduLayout& layout() const { return *layout_; }
 
-  // Starts a list of `count` elements (at most layout().max_elements), zeroed, and fills in the headers. `time_stamp` goes
-  // into the header's "timestamp" where the layout has one.
+  // Starts a list of `count` elements (at most layout().max_elements), zeroed, and fills in the headers. `time_stamp`
+  // goes into the header's "timestamp" where the layout has one.
   void begin(std::uint32_t sequence, int count, GlobalTime time_stamp);
   // Sets signal `signal` of element `index` from its physical value, saturating at the signal's range.
   void set(int index, std::size_t signal, double physical);
@@ -49,7 +50,7 @@ class Output {
   bool written() const { return written_; }
   bus::ListView view() const;
   void clear() { written_ = false; }
-  int take_saturated();   // values outside their signal's range since the last call
+  int take_saturated();  // values outside their signal's range since the last call
 
  private:
   std::string_view port_;
@@ -79,18 +80,18 @@ class StrobeLatch {
  private:
   static constexpr std::size_t kDepth = 16;
   Strobe entries_[kDepth];
-  std::size_t count_ = 0;   // strobes seen; the newest is entry (count_ - 1) % kDepth
+  std::size_t count_ = 0;  // strobes seen; the newest is entry (count_ - 1) % kDepth
 };
 
 struct StepContext {
-  records::Stamp stamp;                    // the task's start on all clocks; true time is for emulators and records
-  bool global_time = true;                 // else the node knows none, and the stamp's is its own clock's
-  std::uint32_t activation = 0;            // how many times the task ran before
-  std::uint32_t measurement = 0;           // sensor devices: the sequence number of this measurement
-  std::span<Input> inputs;                 // in the order of the task's `reads`
-  std::span<Output> outputs;               // in the order of the task's `writes`
-  std::span<const StrobeLatch> strobes;    // by SensorId
-  std::uint64_t unlisted = 0;              // set by a step that had more to record than it has room for; counted
+  records::Stamp stamp;                  // the task's start on all clocks; true time is for emulators and records
+  bool global_time = true;               // else the node knows none, and the stamp's is its own clock's
+  std::uint32_t activation = 0;          // how many times the task ran before
+  std::uint32_t measurement = 0;         // sensor devices: the sequence number of this measurement
+  std::span<Input> inputs;               // in the order of the task's `reads`
+  std::span<Output> outputs;             // in the order of the task's `writes`
+  std::span<const StrobeLatch> strobes;  // by SensorId
+  std::uint64_t unlisted = 0;            // set by a step that had more to record than it has room for; counted
   records::Sink* sink = nullptr;
 };
 

@@ -21,7 +21,7 @@ struct Frame {
   std::uint64_t number = 0;
   std::optional<std::int64_t> time_ns;
   FlexRayPacket packet;
-  std::optional<int> elsewhere;   // where it was if not in the slot it claims (frames_in_wrong_slots)
+  std::optional<int> elsewhere;  // where it was if not in the slot it claims (frames_in_wrong_slots)
 
   bool is_sound() const {
     return packet.kind == FlexRayPacket::Kind::kFrame && packet.whole_header && packet.header_crc_holds;
@@ -31,9 +31,7 @@ struct Frame {
 class CaptureChecker {
  public:
   CaptureChecker(const schedules::Cluster& cluster, const CaptureCheckOptions& options)
-      : cluster_(cluster),
-        options_(options),
-        cycles_(cluster.flexray),
+      : cluster_(cluster), options_(options), cycles_(cluster.flexray),
         coverage_(cluster, options.channels, [this](std::uint64_t packet, std::uint64_t count, std::string text) {
           report(Contradiction::kMissing, packet, std::move(text), count);
         }) {}
@@ -121,8 +119,7 @@ class CaptureChecker {
              fmt::format("slot {} on {}, cycle {}: {}", header.frame_id, letter(packet.channel), header.cycle, what));
     };
     if ((packet.errors & kFrameCrcError) != 0) say(Contradiction::kFrameCrc, "the frame CRC is flagged as wrong");
-    if (coding)
-      say(Contradiction::kCoding, fmt::format("coding errors are flagged ({:#04x})", packet.errors));
+    if (coding) say(Contradiction::kCoding, fmt::format("coding errors are flagged ({:#04x})", packet.errors));
     if (!packet.header_crc_holds) {
       // Neither slot nor length can be believed.
       say(Contradiction::kHeaderCrc,
@@ -140,7 +137,7 @@ class CaptureChecker {
     if (!place.counter_fits || header.cycle > cluster_.flexray.gCycleCountMax)
       say(Contradiction::kCycleCounter, fmt::format("the cycle counter should be {}", place.counter));
     check_owner(header, packet.channel, place.counter, say);
-    if (frame.elsewhere)   // and its own slot is without it
+    if (frame.elsewhere)  // and its own slot is without it
       say(Contradiction::kWrongSlot, was_in <= cluster_.flexray.gNumberOfStaticSlots
                                          ? fmt::format("was sent in slot {}", was_in)
                                          : std::string("was sent outside of the static segment"));
@@ -168,8 +165,7 @@ class CaptureChecker {
       say(Contradiction::kWrongCycle, "the slot's owner does not send in this cycle (base cycle and repetition)");
   }
 
-  template <class Say>
-  void check_length(const FlexRayPacket& packet, const Say& say) const {
+  template <class Say> void check_length(const FlexRayPacket& packet, const Say& say) const {
     const int words = packet.header.payload_words;
     if (packet.header.frame_id <= cluster_.flexray.gNumberOfStaticSlots &&
         words != cluster_.flexray.gPayloadLengthStatic)
@@ -189,7 +185,7 @@ class CaptureChecker {
   const CaptureCheckOptions& options_;
   CycleTracker cycles_;
   CaptureCoverage coverage_;
-  std::int64_t advance_ = 0;   // cycles since the last frame that the coverage was told of
+  std::int64_t advance_ = 0;  // cycles since the last frame that the coverage was told of
   CaptureVerdict verdict_;
 };
 

@@ -14,10 +14,8 @@ constexpr int kSlots = 2048;  // frame ids are 11 bits
 }  // namespace
 
 CaptureCoverage::CaptureCoverage(const schedules::Cluster& cluster, schedules::Channels channels, Missing missing)
-    : missing_(std::move(missing)),
-      counters_(cluster.flexray.gCycleCountMax + 1),
-      owned_(static_cast<std::size_t>(counters_)),
-      packets_(kSlots * 2) {
+    : missing_(std::move(missing)), counters_(cluster.flexray.gCycleCountMax + 1),
+      owned_(static_cast<std::size_t>(counters_)), packets_(kSlots * 2) {
   for (int counter = 0; counter < counters_; ++counter)
     for (const schedules::FrameSlot& frame : cluster.frames)
       for (const Channel channel : schedules::kBothChannels)
@@ -73,8 +71,7 @@ void CaptureCoverage::close_cycle(int before_slot) {
         was_damaged(owned))
       continue;
     missing_(after, 1,
-             fmt::format("slot {} on {}, cycle {}: has no frame", owned.slot, letter(owned.channel),
-                         counter_));
+             fmt::format("slot {} on {}, cycle {}: has no frame", owned.slot, letter(owned.channel), counter_));
   }
 }
 

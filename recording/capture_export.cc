@@ -16,7 +16,7 @@ constexpr std::size_t kLongestDevice = 15;  // IFNAMSIZ less the closing zero
 constexpr std::int64_t kMicrosecond = 1'000, kSecond = 1'000'000'000;
 constexpr std::int64_t kCandumpStart_s = 1'000'000'000;
 
-constexpr std::int64_t kUsualBit_ps = 100'000;   // 10 Mbit/s
+constexpr std::int64_t kUsualBit_ps = 100'000;  // 10 Mbit/s
 
 schedules::Channel channel_of(const LoggedFrame& frame) { return static_cast<schedules::Channel>(frame.channel); }
 

@@ -27,11 +27,11 @@ struct LoggedFrame {
   SensorId sensor = kNoSensor;  // with `sequence` the measurement the frame carries something of
   std::uint32_t sequence = 0;
   std::uint8_t fragment = 0;
-  bool as_sent = true;          // FlexRay: by a controller, and so it was on the channel
-  bool of_controller = true;    // FlexRay: else nobody's; then `cycle` is not known, and `id` is what the frame says
-  std::uint8_t state = 0;       // FlexRay: of records::ChannelFrame; never kChannelNothing
-  std::uint8_t symbol = 0;      // FlexRay: records::kSymbolCas, ...: no frame, and has but time, channel and sender
-  std::int64_t duration_ns = 0; // of a symbol
+  bool as_sent = true;           // FlexRay: by a controller, and so it was on the channel
+  bool of_controller = true;     // FlexRay: else nobody's; then `cycle` is not known, and `id` is what the frame says
+  std::uint8_t state = 0;        // FlexRay: of records::ChannelFrame; never kChannelNothing
+  std::uint8_t symbol = 0;       // FlexRay: records::kSymbolCas, ...: no frame, and has but time, channel and sender
+  std::int64_t duration_ns = 0;  // of a symbol
   std::size_t data_begin = 0, data_size = 0;  // FlexRay: header, payload and trailer, as far as they were there
 };
 
@@ -58,7 +58,7 @@ struct SymbolName {
   const char* flag;
   const char* words;
 };
-SymbolName name_of_symbol(std::uint8_t symbol);   // records::kSymbolCas, ...
+SymbolName name_of_symbol(std::uint8_t symbol);  // records::kSymbolCas, ...
 
 // Collects frames while a log is read. FlexRay frames are as they were on the channel: what reached nobody is none, and
 // what nobody sent is one. Symbols are as they were sent: no log knows more of them.
@@ -83,7 +83,7 @@ class FrameCollector final : public records::Sink {
     NodeId sender{};
     std::uint8_t sent_channel = 0;
     bool nothing = false;
-    LoggedFrame frame;        // without what only the sender's record says
+    LoggedFrame frame;  // without what only the sender's record says
   };
   LoggedFrame with_data(LoggedFrame frame, std::span<const std::byte> data);
 

@@ -66,15 +66,12 @@ FlexRayPacket parse_flexray_packet(std::span<const std::byte> data) {
   const auto first = static_cast<std::uint8_t>(data[0]);
   packet.channel = (first & kChannelB) != 0 ? schedules::Channel::kB : schedules::Channel::kA;
   switch (first & kTypeMask) {
-    case static_cast<int>(FlexRayPacket::Kind::kFrame):
-      packet.kind = FlexRayPacket::Kind::kFrame;
-      break;
+    case static_cast<int>(FlexRayPacket::Kind::kFrame): packet.kind = FlexRayPacket::Kind::kFrame; break;
     case static_cast<int>(FlexRayPacket::Kind::kSymbol):
       packet.kind = FlexRayPacket::Kind::kSymbol;
       packet.symbol_bits = static_cast<int>(data[1]) & 0x7f;
       return packet;
-    default:
-      return packet;
+    default: return packet;
   }
   packet.errors = static_cast<std::uint8_t>(data[1]) & 0x1f;
   const std::span<const std::byte> frame = data.subspan(kFlexRayPrefix);

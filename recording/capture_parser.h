@@ -15,8 +15,7 @@ namespace ttf::recording {
 inline constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
 // A number in the byte order of the file.
-template <class Int>
-Int number_at(std::string_view bytes, std::size_t at, bool swapped) {
+template <class Int> Int number_at(std::string_view bytes, std::size_t at, bool swapped) {
   static_assert(sizeof(Int) <= 8);
   std::uint64_t value = 0;
   for (std::size_t i = 0; i < sizeof(Int); ++i) {
@@ -33,10 +32,7 @@ class CaptureParser {
 
  protected:
   std::size_t left() const { return bytes_.size() - at_; }
-  template <class Int>
-  Int number(std::size_t offset) const {
-    return number_at<Int>(bytes_, at_ + offset, swapped_);
-  }
+  template <class Int> Int number(std::size_t offset) const { return number_at<Int>(bytes_, at_ + offset, swapped_); }
   // `expected` is a sentence about the packet that comes next, or about the block before it.
   [[noreturn]] void damaged(const std::string& what, const std::string& value, const std::string& expected) const {
     throw InputError({name_, 0, what, value, expected});

@@ -52,23 +52,12 @@ class PcapngParser : CaptureParser {
       damaged("block before " + next_packet(), fmt::format("{} and {} bytes", size_, again),
               "must state the same length at both ends");
     switch (static_cast<BlockType>(type_)) {
-      case BlockType::kSection:
-        begin_section();
-        break;
-      case BlockType::kInterface:
-        interface();
-        break;
-      case BlockType::kEnhancedPacket:
-        enhanced_packet();
-        break;
-      case BlockType::kObsoletePacket:
-        obsolete_packet();
-        break;
-      case BlockType::kSimplePacket:
-        simple_packet();
-        break;
-      default:
-        break;  // statistics, names, and what others made
+      case BlockType::kSection: begin_section(); break;
+      case BlockType::kInterface: interface(); break;
+      case BlockType::kEnhancedPacket: enhanced_packet(); break;
+      case BlockType::kObsoletePacket: obsolete_packet(); break;
+      case BlockType::kSimplePacket: simple_packet(); break;
+      default: break;  // statistics, names, and what others made
     }
     at_ += size_;
   }
@@ -98,8 +87,7 @@ class PcapngParser : CaptureParser {
   }
 
   // Calls take(code, begin, size) for every option from `offset` in the block on.
-  template <class Take>
-  void options(std::size_t offset, const std::string& what, Take&& take) const {
+  template <class Take> void options(std::size_t offset, const std::string& what, Take&& take) const {
     const std::size_t end = size_ - sizeof(std::uint32_t);
     while (offset + 4 <= end) {
       const auto code = number<std::uint16_t>(offset);

@@ -9,13 +9,12 @@
 namespace ttf::recording {
 namespace {
 
-constexpr std::size_t kFrameIds = 2048;   // 11 bits
+constexpr std::size_t kFrameIds = 2048;  // 11 bits
 constexpr std::int64_t kCyclesAway = 2, kCyclesBetween = 8;
-constexpr std::int64_t kAgreement = 10;   // of a slot
+constexpr std::int64_t kAgreement = 10;  // of a slot
 
 // The median; `values` are not empty, and left in another order.
-template <class Number>
-Number median(std::vector<Number>& values) {
+template <class Number> Number median(std::vector<Number>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
@@ -73,8 +72,7 @@ class SlotJudge {
   std::int64_t wrapped(std::int64_t time) const { return modulo(time + cycle_ / 2) - cycle_ / 2; }
   // When the cycle began that a static frame was sent in, or one many cycles away.
   std::int64_t phase(const StampedFrame& frame) const {
-    return frame.time_ns -
-           std::llround(stretch_ * static_cast<double>(static_slot_offset_ns(flexray_, frame.slot)));
+    return frame.time_ns - std::llround(stretch_ * static_cast<double>(static_slot_offset_ns(flexray_, frame.slot)));
   }
 
   // S2. Frames are in order: those before and after it alone can be so near.
@@ -100,8 +98,8 @@ class SlotJudge {
          i-- > 0 && witnesses_.size() < kWitnesses && frame.time_ns - frames_[i].time_ns <= reach;)
       hear(frames_[i]);
     const std::size_t before = witnesses_.size();
-    for (std::size_t i = index + 1; i < frames_.size() && witnesses_.size() < before + kWitnesses &&
-                                    frames_[i].time_ns - frame.time_ns <= reach;
+    for (std::size_t i = index + 1;
+         i < frames_.size() && witnesses_.size() < before + kWitnesses && frames_[i].time_ns - frame.time_ns <= reach;
          ++i)
       hear(frames_[i]);
     if (witnesses_.size() < kLeastWitnesses) return std::nullopt;
@@ -126,8 +124,8 @@ class SlotJudge {
   const schedules::GlobalParameters& flexray_;
   std::span<const StampedFrame> frames_;
   double stretch_ = 1.0;
-  std::int64_t cycle_ = 0, slot_ = 0;   // by the capture's clock [ns]
-  std::vector<const StampedFrame*> witnesses_;   // kept for their memory
+  std::int64_t cycle_ = 0, slot_ = 0;           // by the capture's clock [ns]
+  std::vector<const StampedFrame*> witnesses_;  // kept for their memory
   std::vector<std::int64_t> phases_;
 };
 

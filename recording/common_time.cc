@@ -14,7 +14,7 @@
 namespace ttf::recording {
 namespace {
 
-constexpr std::int64_t kLongestCycle_ns = 16'000'000;   // cCycleMax
+constexpr std::int64_t kLongestCycle_ns = 16'000'000;  // cCycleMax
 
 TrueTime within_type(Int128 ns) {
   using Limits = std::numeric_limits<std::int64_t>;
@@ -97,8 +97,7 @@ std::vector<CommonTime> common_times(const std::vector<StoredLog>& logs, std::ve
   return times;
 }
 
-template <class Record, class... Members>
-void OnCommonTime::pass(Record record, Members... times) const {
+template <class Record, class... Members> void OnCommonTime::pass(Record record, Members... times) const {
   (put(record.*times), ...);
   out_.on(record);
 }
@@ -135,7 +134,7 @@ void OnCommonTime::on(const records::GuardianIntervention& r) {
 }
 void OnCommonTime::on(const records::ChannelFrame& r) {
   if (r.slot == 0)
-    pass(r, &records::ChannelFrame::start, &records::ChannelFrame::end);   // no controller sent it
+    pass(r, &records::ChannelFrame::start, &records::ChannelFrame::end);  // no controller sent it
   else
     pass(r, &records::ChannelFrame::start, &records::ChannelFrame::end, &records::ChannelFrame::sent);
 }

@@ -39,10 +39,10 @@ class CommonTime {
   struct Point {
     TrueTime host, common;
   };
-  CommonTime() = default;   // what it is given
-  explicit CommonTime(std::vector<Point> points) : points_(std::move(points)) {}   // both growing
+  CommonTime() = default;                                                         // what it is given
+  explicit CommonTime(std::vector<Point> points) : points_(std::move(points)) {}  // both growing
 
-  TrueTime operator()(TrueTime host) const;   // never decreasing
+  TrueTime operator()(TrueTime host) const;  // never decreasing
   bool changes_nothing() const { return points_.empty(); }
 
  private:
@@ -89,7 +89,7 @@ class OnCommonTime final : public records::Sink {
   void put(TrueTime& at) const { at = time_(at); }
   void put(records::Stamp& stamp) const { stamp.true_time = time_(stamp.true_time); }
   template <class Record, class... Members>
-  void pass(Record record, Members... times) const;   // members: stamps and instants
+  void pass(Record record, Members... times) const;  // members: stamps and instants
 
   const CommonTime& time_;
   records::Sink& out_;

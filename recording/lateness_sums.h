@@ -17,11 +17,11 @@ namespace ttf::recording {
 
 // In real time.
 struct NodeLateness {
-  records::BinnedDurations wake_ups;     // of the node's process, at what it had to do
-  records::BinnedDurations floor;        // of a plain periodic thread beside it
-  records::BinnedDurations departures;   // of its frames, behind their action points
-  records::BinnedDurations arrivals;     // of others' frames, behind their action points on its clock
-  records::BinnedDurations transits;     // of what came from its own host: from its sender to the node's process
+  records::BinnedDurations wake_ups;    // of the node's process, at what it had to do
+  records::BinnedDurations floor;       // of a plain periodic thread beside it
+  records::BinnedDurations departures;  // of its frames, behind their action points
+  records::BinnedDurations arrivals;    // of others' frames, behind their action points on its clock
+  records::BinnedDurations transits;    // of what came from its own host: from its sender to the node's process
 };
 
 class LatenessSums final : public records::Sink {
@@ -35,9 +35,9 @@ class LatenessSums final : public records::Sink {
  private:
   static constexpr std::size_t kKinds = records::kLatenessOfTransits;
   struct Told {
-    records::BinnedDurations before;     // by the node's former processes
-    records::BinnedDurations newest;     // by its present one
-    LocalTime at{};                      // when it did
+    records::BinnedDurations before;  // by the node's former processes
+    records::BinnedDurations newest;  // by its present one
+    LocalTime at{};                   // when it did
   };
   std::map<NodeId, std::array<Told, kKinds>> told_;
 };

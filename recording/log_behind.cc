@@ -6,7 +6,7 @@
 namespace ttf::recording {
 namespace {
 
-constexpr std::size_t kRoom = 4 << 20;                  // bytes: some seconds of a busy node
+constexpr std::size_t kRoom = 4 << 20;  // bytes: some seconds of a busy node
 constexpr std::chrono::milliseconds kPause{20};
 
 struct Head {
@@ -35,7 +35,7 @@ void LogBehind::add(const LogMessage& message) {
   filling_.append(bytes, sizeof bytes);
   filling_.append(message.payload);
   if (full_.load(std::memory_order_acquire)) return;
-  filling_.swap(between_);   // which is empty
+  filling_.swap(between_);  // which is empty
   full_.store(true, std::memory_order_release);
 }
 
@@ -54,7 +54,7 @@ void LogBehind::run() {
 void LogBehind::write_handed_over() {
   if (!full_.load(std::memory_order_acquire)) return;
   between_.swap(writing_);
-  full_.store(false, std::memory_order_release);   // before it is written: more may come meanwhile
+  full_.store(false, std::memory_order_release);  // before it is written: more may come meanwhile
   write_all(writing_);
 }
 

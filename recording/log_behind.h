@@ -29,7 +29,7 @@ class LogBehind {
  public:
   // `write` is called from the other thread, and from close() when that has ended. It must not throw.
   explicit LogBehind(std::function<void(const LogMessage&)> write);
-  ~LogBehind();   // close()
+  ~LogBehind();  // close()
   LogBehind(const LogBehind&) = delete;
   LogBehind& operator=(const LogBehind&) = delete;
 
@@ -41,16 +41,16 @@ class LogBehind {
  private:
   void run();
   void write_handed_over();
-  void write_all(std::string& kept);   // and empties it
+  void write_all(std::string& kept);  // and empties it
 
   const std::function<void(const LogMessage&)> write_;
-  std::string filling_;                 // of the thread that adds
-  std::string between_;                 // of that one while it is empty, of the writer while it is full
-  std::string writing_;                 // of the writer
-  std::atomic<bool> full_{false};       // between_
-  std::mutex mutex_;                    // of close() and the writer alone
+  std::string filling_;            // of the thread that adds
+  std::string between_;            // of that one while it is empty, of the writer while it is full
+  std::string writing_;            // of the writer
+  std::atomic<bool> full_{false};  // between_
+  std::mutex mutex_;               // of close() and the writer alone
   std::condition_variable wake_;
-  bool closing_ = false;                // guarded by mutex_
+  bool closing_ = false;  // guarded by mutex_
   std::thread thread_;
 };
 

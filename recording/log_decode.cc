@@ -16,12 +16,10 @@ class Narrow {
     if (value < static_cast<In>(low) || value > static_cast<In>(high)) ok_ = false;
     return static_cast<Out>(value);
   }
-  template <class Enum>
-  Enum id(std::uint32_t value) {
+  template <class Enum> Enum id(std::uint32_t value) {
     return static_cast<Enum>(to<std::underlying_type_t<Enum>>(value));
   }
-  template <class Enum>
-  Enum choice(std::uint32_t value, Enum low, Enum high) {
+  template <class Enum> Enum choice(std::uint32_t value, Enum low, Enum high) {
     using Number = std::underlying_type_t<Enum>;
     return static_cast<Enum>(to<Number>(value, static_cast<Number>(low), static_cast<Number>(high)));
   }
@@ -32,8 +30,7 @@ class Narrow {
 };
 
 records::Stamp stamp_of(const ttfusion::Stamp& in, Narrow& narrow) {
-  return {TrueTime{in.true_time()}, LocalTime{in.local()}, GlobalTime{in.global()},
-          narrow.id<NodeId>(in.node())};
+  return {TrueTime{in.true_time()}, LocalTime{in.local()}, GlobalTime{in.global()}, narrow.id<NodeId>(in.node())};
 }
 
 MeasurementId id_of(const ttfusion::MeasurementId& in, Narrow& narrow) {
@@ -68,58 +65,32 @@ std::span<const std::byte> bytes_of(const std::string& in) {
 
 google::protobuf::Message* Payloads::of(RecordKind kind) {
   switch (kind) {
-    case RecordKind::kMeasured:
-      return &measured;
-    case RecordKind::kCanFrame:
-      return &can_frame;
-    case RecordKind::kSlotFrame:
-      return &slot_frame;
-    case RecordKind::kSlotProblem:
-      return &slot_problem;
-    case RecordKind::kListHop:
-      return &list_hop;
-    case RecordKind::kTaskRun:
-      return &task_run;
-    case RecordKind::kClockCorrected:
-      return &clock_corrected;
-    case RecordKind::kPrecision:
-      return &precision;
-    case RecordKind::kFusionInput:
-      return &fusion_input;
-    case RecordKind::kListFused:
-      return &list_fused;
-    case RecordKind::kFusionStep:
-      return &fusion_step;
-    case RecordKind::kTrack:
-      return &track;
-    case RecordKind::kObservation:
-      return &observation;
-    case RecordKind::kImage:
-      return &image;
-    case RecordKind::kFeature:
-      return &feature;
-    case RecordKind::kReference:
-      return &reference;
-    case RecordKind::kTruth:
-      return &truth;
-    case RecordKind::kStateChange:
-      return &state_change;
-    case RecordKind::kSymbol:
-      return &symbol;
-    case RecordKind::kPower:
-      return &power;
-    case RecordKind::kFault:
-      return &fault;
-    case RecordKind::kGuardian:
-      return &guardian;
-    case RecordKind::kChannelFrame:
-      return &channel_frame;
-    case RecordKind::kTimingProblem:
-      return &timing_problem;
-    case RecordKind::kLateness:
-      return &lateness;
-    case RecordKind::kMedium:
-      return &medium;
+    case RecordKind::kMeasured: return &measured;
+    case RecordKind::kCanFrame: return &can_frame;
+    case RecordKind::kSlotFrame: return &slot_frame;
+    case RecordKind::kSlotProblem: return &slot_problem;
+    case RecordKind::kListHop: return &list_hop;
+    case RecordKind::kTaskRun: return &task_run;
+    case RecordKind::kClockCorrected: return &clock_corrected;
+    case RecordKind::kPrecision: return &precision;
+    case RecordKind::kFusionInput: return &fusion_input;
+    case RecordKind::kListFused: return &list_fused;
+    case RecordKind::kFusionStep: return &fusion_step;
+    case RecordKind::kTrack: return &track;
+    case RecordKind::kObservation: return &observation;
+    case RecordKind::kImage: return &image;
+    case RecordKind::kFeature: return &feature;
+    case RecordKind::kReference: return &reference;
+    case RecordKind::kTruth: return &truth;
+    case RecordKind::kStateChange: return &state_change;
+    case RecordKind::kSymbol: return &symbol;
+    case RecordKind::kPower: return &power;
+    case RecordKind::kFault: return &fault;
+    case RecordKind::kGuardian: return &guardian;
+    case RecordKind::kChannelFrame: return &channel_frame;
+    case RecordKind::kTimingProblem: return &timing_problem;
+    case RecordKind::kLateness: return &lateness;
+    case RecordKind::kMedium: return &medium;
   }
   return nullptr;
 }
@@ -143,38 +114,35 @@ bool Decoder::decode(RecordKind kind, std::string_view bytes, records::Sink& sin
     }
     case RecordKind::kCanFrame: {
       const auto& in = payloads_.can_frame;
-      return hand_on(records::CanFrameSent{
-          narrow.to<std::uint8_t>(in.bus()), stamp_of(in.start(), narrow), stamp_of(in.end(), narrow), in.identifier(),
-          in.flexible_data_rate(), narrow.id<PduId>(in.pdu()), narrow.id<SensorId>(in.sensor()), in.sequence(),
-          narrow.to<std::uint8_t>(in.fragment()), bytes_of(in.data())});
+      return hand_on(records::CanFrameSent{narrow.to<std::uint8_t>(in.bus()), stamp_of(in.start(), narrow),
+                                           stamp_of(in.end(), narrow), in.identifier(), in.flexible_data_rate(),
+                                           narrow.id<PduId>(in.pdu()), narrow.id<SensorId>(in.sensor()), in.sequence(),
+                                           narrow.to<std::uint8_t>(in.fragment()), bytes_of(in.data())});
     }
     case RecordKind::kSlotFrame: {
       const auto& in = payloads_.slot_frame;
-      return hand_on(records::SlotFrameSent{
-          stamp_of(in.stamp(), narrow), stamp_of(in.end(), narrow), in.cycle(), narrow.to<std::uint16_t>(in.slot()),
-          narrow.to<std::uint8_t>(in.channel()), in.null_frame(), narrow.id<PduId>(in.pdu()),
-          narrow.id<SensorId>(in.sensor()), in.sequence(), narrow.to<std::uint8_t>(in.fragment()),
-          bytes_of(in.bytes())});
+      return hand_on(records::SlotFrameSent{stamp_of(in.stamp(), narrow), stamp_of(in.end(), narrow), in.cycle(),
+                                            narrow.to<std::uint16_t>(in.slot()), narrow.to<std::uint8_t>(in.channel()),
+                                            in.null_frame(), narrow.id<PduId>(in.pdu()),
+                                            narrow.id<SensorId>(in.sensor()), in.sequence(),
+                                            narrow.to<std::uint8_t>(in.fragment()), bytes_of(in.bytes())});
     }
     case RecordKind::kSlotProblem: {
       const auto& in = payloads_.slot_problem;
-      return hand_on(
-          records::SlotProblem{stamp_of(in.stamp(), narrow), in.cycle(), narrow.to<std::uint16_t>(in.slot()),
-                               narrow.to<std::uint8_t>(in.channel()), narrow.to<std::uint8_t>(in.status())});
+      return hand_on(records::SlotProblem{stamp_of(in.stamp(), narrow), in.cycle(), narrow.to<std::uint16_t>(in.slot()),
+                                          narrow.to<std::uint8_t>(in.channel()), narrow.to<std::uint8_t>(in.status())});
     }
     case RecordKind::kListHop: {
       const auto& in = payloads_.list_hop;
-      return hand_on(
-          records::ListHop{stamp_of(in.stamp(), narrow),
-                           narrow.choice(in.hop(), records::Hop::kWritten, records::Hop::kDiscarded),
-                           narrow.id<PduId>(in.pdu()), narrow.id<SensorId>(in.sensor()), in.sequence(),
-                           narrow.to<std::int8_t>(in.can_bus())});
+      return hand_on(records::ListHop{stamp_of(in.stamp(), narrow),
+                                      narrow.choice(in.hop(), records::Hop::kWritten, records::Hop::kDiscarded),
+                                      narrow.id<PduId>(in.pdu()), narrow.id<SensorId>(in.sensor()), in.sequence(),
+                                      narrow.to<std::int8_t>(in.can_bus())});
     }
     case RecordKind::kTaskRun: {
       const auto& in = payloads_.task_run;
       return hand_on(records::TaskRun{stamp_of(in.start(), narrow), narrow.to<std::uint8_t>(in.task()),
-                                      stamp_of(in.activated(), narrow), stamp_of(in.end(), narrow),
-                                      in.deadline_met()});
+                                      stamp_of(in.activated(), narrow), stamp_of(in.end(), narrow), in.deadline_met()});
     }
     case RecordKind::kClockCorrected: {
       const auto& in = payloads_.clock_corrected;
@@ -189,9 +157,8 @@ bool Decoder::decode(RecordKind kind, std::string_view bytes, records::Sink& sin
     case RecordKind::kFusionInput: {
       const auto& in = payloads_.fusion_input;
       return hand_on(records::FusionInput{stamp_of(in.stamp(), narrow), in.step(), narrow.id<PduId>(in.pdu()),
-                                          narrow.id<SensorId>(in.sensor()), in.sequence(),
-                                          GlobalTime{in.measured()}, narrow.to<std::uint16_t>(in.count()),
-                                          bytes_of(in.fragments())});
+                                          narrow.id<SensorId>(in.sensor()), in.sequence(), GlobalTime{in.measured()},
+                                          narrow.to<std::uint16_t>(in.count()), bytes_of(in.fragments())});
     }
     case RecordKind::kListFused: {
       const auto& in = payloads_.list_fused;
@@ -208,16 +175,16 @@ bool Decoder::decode(RecordKind kind, std::string_view bytes, records::Sink& sin
     case RecordKind::kTrack: {
       const auto& in = payloads_.track;
       if (in.state_size() != 6 || in.covariance_size() != 36) return false;
-      return hand_on(records::TrackState{
-          stamp_of(in.stamp(), narrow), in.step(), narrow.id<TrackId>(in.track()), GlobalTime{in.valid_at()},
-          std::span<const double, 6>(in.state().data(), 6),
-          std::span<const double, 36>(in.covariance().data(), 36), in.predicted_for_image()});
+      return hand_on(records::TrackState{stamp_of(in.stamp(), narrow), in.step(), narrow.id<TrackId>(in.track()),
+                                         GlobalTime{in.valid_at()}, std::span<const double, 6>(in.state().data(), 6),
+                                         std::span<const double, 36>(in.covariance().data(), 36),
+                                         in.predicted_for_image()});
     }
     case RecordKind::kObservation: {
       const auto& in = payloads_.observation;
       return hand_on(records::ObservationSeen{stamp_of(in.stamp(), narrow), id_of(in.id(), narrow),
-                                              GlobalTime{in.measured()}, narrow.to<std::uint16_t>(in.index()),
-                                              in.x(), in.y(), in.sxx(), in.sxy(), in.syy()});
+                                              GlobalTime{in.measured()}, narrow.to<std::uint16_t>(in.index()), in.x(),
+                                              in.y(), in.sxx(), in.sxy(), in.syy()});
     }
     case RecordKind::kImage: {
       const auto& in = payloads_.image;
@@ -225,9 +192,8 @@ bool Decoder::decode(RecordKind kind, std::string_view bytes, records::Sink& sin
       newest_.clear();
       for (const auto& object : in.objects()) image_objects_.push_back(object_of(object, narrow));
       for (const auto& id : in.newest()) newest_.push_back(id_of(id, narrow));
-      return hand_on(records::ImageWritten{stamp_of(in.stamp(), narrow), in.sequence(),
-                                           GlobalTime{in.valid_at()}, GlobalTime{in.newest_measurement()},
-                                           image_objects_, newest_});
+      return hand_on(records::ImageWritten{stamp_of(in.stamp(), narrow), in.sequence(), GlobalTime{in.valid_at()},
+                                           GlobalTime{in.newest_measurement()}, image_objects_, newest_});
     }
     case RecordKind::kFeature: {
       const auto& in = payloads_.feature;
@@ -239,25 +205,23 @@ bool Decoder::decode(RecordKind kind, std::string_view bytes, records::Sink& sin
         feature_objects_.push_back(
             {object_of(in.objects(i), narrow), in.time_gap_s(i), in.time_to_collision_s(i), in.warning(i)});
       return hand_on(records::FeatureUsed{stamp_of(in.stamp(), narrow), in.image_sequence(),
-                                          GlobalTime{in.image_valid_at()}, in.fresh(), feature_objects_,
-                                          in.stale()});
+                                          GlobalTime{in.image_valid_at()}, in.fresh(), feature_objects_, in.stale()});
     }
     case RecordKind::kReference: {
       const auto& in = payloads_.reference;
       constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
       return hand_on(records::ReferenceFix{TrueTime{in.measured_true()}, GlobalTime{in.measured()},
-                                           GlobalTime{in.available()}, narrow.id<ObjectId>(in.object()),
-                                           in.x(), in.y(), in.sigma(),
-                                           in.has_vx() ? in.vx() : kNone, in.has_vy() ? in.vy() : kNone,
+                                           GlobalTime{in.available()}, narrow.id<ObjectId>(in.object()), in.x(), in.y(),
+                                           in.sigma(), in.has_vx() ? in.vx() : kNone, in.has_vy() ? in.vy() : kNone,
                                            in.has_sigma_velocity() ? in.sigma_velocity() : kNone,
                                            LocalTime{in.measured_local()}});
     }
     case RecordKind::kTruth: {
       const auto& in = payloads_.truth;
       return hand_on(records::TruthState{TrueTime{in.at()}, narrow.id<ObjectId>(in.object()), in.x(), in.y(),
-                                         in.heading(), in.speed(), in.acceleration(), in.yaw_rate(),
-                                         in.length(), in.width(), LocalTime{in.local()},
-                                         GlobalTime{in.global()}, narrow.id<NodeId>(in.node())});
+                                         in.heading(), in.speed(), in.acceleration(), in.yaw_rate(), in.length(),
+                                         in.width(), LocalTime{in.local()}, GlobalTime{in.global()},
+                                         narrow.id<NodeId>(in.node())});
     }
     case RecordKind::kStateChange: {
       const auto& in = payloads_.state_change;
@@ -278,8 +242,7 @@ bool Decoder::decode(RecordKind kind, std::string_view bytes, records::Sink& sin
     case RecordKind::kFault: {
       const auto& in = payloads_.fault;
       return hand_on(records::FaultActivity{
-          TrueTime{in.at()}, in.fault(),
-          narrow.to<std::uint8_t>(in.what(), records::kFaultBegins, records::kFaultEnds),
+          TrueTime{in.at()}, in.fault(), narrow.to<std::uint8_t>(in.what(), records::kFaultBegins, records::kFaultEnds),
           narrow.id<NodeId>(in.node()), in.kind(), in.text()});
     }
     case RecordKind::kGuardian: {
@@ -302,9 +265,8 @@ bool Decoder::decode(RecordKind kind, std::string_view bytes, records::Sink& sin
     case RecordKind::kTimingProblem: {
       const auto& in = payloads_.timing_problem;
       return hand_on(records::TimingProblem{
-          stamp_of(in.stamp(), narrow),
-          narrow.to<std::uint8_t>(in.what(), records::kLateWakeUp, records::kFramesLost), Duration{in.late()},
-          in.cycle(), narrow.to<std::uint16_t>(in.slot()),
+          stamp_of(in.stamp(), narrow), narrow.to<std::uint8_t>(in.what(), records::kLateWakeUp, records::kFramesLost),
+          Duration{in.late()}, in.cycle(), narrow.to<std::uint16_t>(in.slot()),
           narrow.to<std::uint8_t>(in.channel(), std::uint8_t{0}, std::uint8_t{1}), in.count()});
     }
     case RecordKind::kLateness: {

@@ -3,10 +3,7 @@
 namespace ttf::recording {
 namespace {
 
-template <class Enum>
-constexpr std::uint32_t number(Enum value) {
-  return static_cast<std::uint32_t>(value);
-}
+template <class Enum> constexpr std::uint32_t number(Enum value) { return static_cast<std::uint32_t>(value); }
 
 void fill(ttfusion::Stamp& out, const records::Stamp& in) {
   out.set_true_time(in.true_time.ns);

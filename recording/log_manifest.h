@@ -23,8 +23,8 @@ struct LogManifest {
   std::string cluster_name;
   std::string strategy;
   std::string recording_name;  // file of the recorded observations the run was fed with; empty: none
-  std::int64_t cycle_ns = 0;  // nominal communication cycle, for the grid of diagrams; 0 if unknown
-  std::int64_t bit_ps = 0;    // nominal bit on FlexRay, for symbols' lengths; 0 if unknown
+  std::int64_t cycle_ns = 0;   // nominal communication cycle, for the grid of diagrams; 0 if unknown
+  std::int64_t bit_ps = 0;     // nominal bit on FlexRay, for symbols' lengths; 0 if unknown
   std::vector<std::pair<std::string, std::string>> hashes;
   std::vector<std::string> node_names;
   std::vector<std::vector<std::string>> task_names;  // per node, in the order of Node::tasks
@@ -32,10 +32,10 @@ struct LogManifest {
   std::vector<SensorId> pdu_sensors;  // whose measurements the PDU's lists descend from; kNoSensor: of none
   std::vector<std::string> sensor_names;
   std::vector<std::string> can_bus_names;
-  std::string clock;   // empty: true times are the simulator's; else as below
-  std::string host;    // on which the log was written, where its clock is the wall's
-  std::int64_t time_scale_ppm = 1'000'000;   // real time was so much longer than the drive's (--time-scale); in virtual
-                                             // time always 1
+  std::string clock;                        // empty: true times are the simulator's; else as below
+  std::string host;                         // on which the log was written, where its clock is the wall's
+  std::int64_t time_scale_ppm = 1'000'000;  // real time was so much longer than the drive's (--time-scale); in virtual
+                                            // time always 1
 
   bool operator==(const LogManifest&) const = default;
 };
@@ -85,11 +85,10 @@ constexpr bool counts_in_hash(RecordKind kind) {
 
 // Topic of each kind, by value - 1.
 inline constexpr std::array<std::string_view, kRecordKinds> kTopics{
-    "/measured",        "/can_frame", "/slot_frame",   "/slot_problem", "/list_hop",    "/task_run",
-    "/clock_corrected", "/precision", "/fusion_input", "/list_fused",   "/fusion_step", "/track",
-    "/observation",     "/image",     "/feature",      "/reference",    "/truth",
-    "/state_change",    "/symbol",    "/power",        "/fault",        "/guardian",    "/channel_frame",
-    "/timing_problem",  "/lateness",  "/medium"};
+    "/measured",  "/can_frame",     "/slot_frame",     "/slot_problem", "/list_hop", "/task_run",    "/clock_corrected",
+    "/precision", "/fusion_input",  "/list_fused",     "/fusion_step",  "/track",    "/observation", "/image",
+    "/feature",   "/reference",     "/truth",          "/state_change", "/symbol",   "/power",       "/fault",
+    "/guardian",  "/channel_frame", "/timing_problem", "/lateness",     "/medium"};
 
 constexpr std::string_view topic_of(RecordKind kind) { return kTopics[static_cast<std::size_t>(kind) - 1]; }
 

@@ -64,8 +64,7 @@ void check_is_log(std::string_view bytes, const std::string& name) {
   // is.
   const std::string_view profile = mcap_profile(bytes);
   if (!profile.empty() && profile != kLogProfile && bytes.find(kManifestName) == std::string_view::npos)
-    throw InputError(
-        {name, 0, "profile", std::string(profile), "is an MCAP file, but its profile must be ttfusion"});
+    throw InputError({name, 0, "profile", std::string(profile), "is an MCAP file, but its profile must be ttfusion"});
 }
 
 }  // namespace
@@ -97,8 +96,6 @@ LogInfo read_log_bytes(std::string_view bytes, const std::string& name, records:
   return info;
 }
 
-LogInfo read_log(const std::string& path, records::Sink& sink) {
-  return read_log_bytes(read_file(path), path, sink);
-}
+LogInfo read_log(const std::string& path, records::Sink& sink) { return read_log_bytes(read_file(path), path, sink); }
 
 }  // namespace ttf::recording

@@ -27,17 +27,16 @@ struct Attachment {
 
 struct LogInfo {
   LogManifest manifest;
-  bool manifest_sound = false;                                   // else it is missing, or may be wrong
-  std::vector<Attachment> attachments;                           // in file order
-  bool truncated = false;                                        // the file ends before its closing record
-  std::string warning;                                           // sentences, empty for a sound file
-  std::array<std::uint64_t, kRecordKinds> counts{};              // records read, by RecordKind - 1
+  bool manifest_sound = false;                       // else it is missing, or may be wrong
+  std::vector<Attachment> attachments;               // in file order
+  bool truncated = false;                            // the file ends before its closing record
+  std::string warning;                               // sentences, empty for a sound file
+  std::array<std::uint64_t, kRecordKinds> counts{};  // records read, by RecordKind - 1
   std::uint64_t chunks_read = 0;
-  std::uint64_t chunks_lost = 0;   // damaged ones that were recognised as chunks
-  std::uint64_t content_hash = 0;  // over the records read
-  ContentHash records;             // the same, for adding up over several logs
-  std::optional<std::uint64_t>
-      stated_content_hash;  // as the writer wrote it at the end; absent in a torn file
+  std::uint64_t chunks_lost = 0;                     // damaged ones that were recognised as chunks
+  std::uint64_t content_hash = 0;                    // over the records read
+  ContentHash records;                               // the same, for adding up over several logs
+  std::optional<std::uint64_t> stated_content_hash;  // as the writer wrote it at the end; absent in a torn file
 
   std::uint64_t count(RecordKind kind) const { return counts[static_cast<std::size_t>(kind) - 1]; }
 };

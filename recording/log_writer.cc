@@ -40,9 +40,7 @@ std::string schema_of(const google::protobuf::Descriptor& message) {
   return bytes;
 }
 
-std::uint64_t unsigned_time(std::int64_t ns) {
-  return static_cast<std::uint64_t>(std::max<std::int64_t>(ns, 0));
-}
+std::uint64_t unsigned_time(std::int64_t ns) { return static_cast<std::uint64_t>(std::max<std::int64_t>(ns, 0)); }
 
 }  // namespace
 
@@ -63,7 +61,7 @@ struct LogWriter::Impl {
   ContentHash hash;
   std::uint64_t records = 0;
   bool closed = false;
-  std::optional<LogBehind> behind;   // last: its thread ends before what it writes to
+  std::optional<LogBehind> behind;  // last: its thread ends before what it writes to
 };
 
 LogWriter::LogWriter(const std::string& path, const LogManifest& manifest, Writing writing)
@@ -98,16 +96,15 @@ void LogWriter::close() {
   impl_->closed = true;
   if (impl_->behind) impl_->behind->close();
   impl_->mcap.flush();
-  impl_->mcap.add_metadata(
-      kResultName, {{"content_hash", content_hash_text()}, {"records", std::to_string(impl_->records)}});
+  impl_->mcap.add_metadata(kResultName,
+                           {{"content_hash", content_hash_text()}, {"records", std::to_string(impl_->records)}});
   impl_->mcap.close();
 }
 
 std::uint64_t LogWriter::content_hash() const { return impl_->hash.value(); }
 std::string LogWriter::content_hash_text() const { return ContentHash::text(content_hash()); }
 
-template <class Record>
-void LogWriter::write(const Record& record) {
+template <class Record> void LogWriter::write(const Record& record) {
   const Encoded encoded = encode(record, impl_->payloads);
   // No maps and no unknown fields in our payloads: fields are written in the order of their numbers, always.
   impl_->bytes.clear();

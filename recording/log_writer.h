@@ -19,8 +19,8 @@ namespace ttf::recording {
 class LogWriter final : public records::Sink {
  public:
   enum class Writing : std::uint8_t {
-    kAtOnce,   // by the thread that records
-    kBehind,   // by a thread of its own, so that who records in real time never waits for a disk or for compression
+    kAtOnce,  // by the thread that records
+    kBehind,  // by a thread of its own, so that who records in real time never waits for a disk or for compression
   };
   // Opens `path` and writes manifest, schemas and channels. Throws std::runtime_error when the file
   // cannot be created.
@@ -71,8 +71,7 @@ class LogWriter final : public records::Sink {
 
  private:
   struct Impl;
-  template <class Record>
-  void write(const Record& record);
+  template <class Record> void write(const Record& record);
 
   std::unique_ptr<Impl> impl_;
 };

@@ -11,10 +11,9 @@ namespace {
 
 std::string checksum(const ManifestEntries& entries) {
   uLong crc = 0;
-  const auto add =
-      [&crc](const std::string& text) {  // with its terminating zero, which keeps neighbours apart
-        crc = crc32_z(crc, reinterpret_cast<const Bytef*>(text.c_str()), text.size() + 1);
-      };
+  const auto add = [&crc](const std::string& text) {  // with its terminating zero, which keeps neighbours apart
+    crc = crc32_z(crc, reinterpret_cast<const Bytef*>(text.c_str()), text.size() + 1);
+  };
   for (const auto& [key, value] : entries) {
     if (key == "crc32") continue;
     add(key);
@@ -23,8 +22,7 @@ std::string checksum(const ManifestEntries& entries) {
   return fmt::format("{:08x}", crc);
 }
 
-template <class Int>
-std::optional<Int> whole(std::string_view text) {
+template <class Int> std::optional<Int> whole(std::string_view text) {
   Int value{};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
@@ -57,7 +55,7 @@ bool read_entry(std::string_view key, const std::string& value, LogManifest& man
   }
   if (key == "time_scale_ppm") {
     const auto scale = whole<std::int64_t>(value);
-    if (!scale || *scale <= 0) return false;   // it is divided by
+    if (!scale || *scale <= 0) return false;  // it is divided by
     return manifest.time_scale_ppm = *scale, true;
   }
   if (key == "cycle_ns") {
@@ -114,8 +112,7 @@ ManifestEntries manifest_entries(const LogManifest& manifest) {
     entries.emplace_back("time_scale_ppm", std::to_string(manifest.time_scale_ppm));
   for (const auto& [what, hash] : manifest.hashes) entries.emplace_back("hash." + what, hash);
   const auto list = [&entries](std::string_view prefix, const std::vector<std::string>& names) {
-    for (std::size_t i = 0; i < names.size(); ++i)
-      entries.emplace_back(fmt::format("{}.{}", prefix, i), names[i]);
+    for (std::size_t i = 0; i < names.size(); ++i) entries.emplace_back(fmt::format("{}.{}", prefix, i), names[i]);
   };
   list("node", manifest.node_names);
   for (std::size_t i = 0; i < manifest.task_names.size(); ++i)

@@ -12,8 +12,7 @@ namespace ttf::recording {
 
 inline constexpr std::string_view kLogProfile = "ttfusion";
 inline constexpr std::string_view kManifestName = "ttfusion.manifest";
-inline constexpr std::string_view kResultName =
-    "ttfusion.result";  // written at the end: content hash, records
+inline constexpr std::string_view kResultName = "ttfusion.result";  // written at the end: content hash, records
 
 using ManifestEntries = std::vector<std::pair<std::string, std::string>>;
 

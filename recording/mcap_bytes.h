@@ -39,8 +39,7 @@ inline std::uint32_t crc_of(std::string_view bytes, std::uint32_t crc = 0) {
   return static_cast<std::uint32_t>(crc32_z(crc, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }
 
-template <class Int>
-void put(std::string& out, Int value) {
+template <class Int> void put(std::string& out, Int value) {
   char bytes[sizeof(Int)];
   std::memcpy(bytes, &value, sizeof(Int));
   out.append(bytes, sizeof(Int));
@@ -69,8 +68,7 @@ class FieldReader {
  public:
   explicit FieldReader(std::string_view bytes) : rest_(bytes) {}
 
-  template <class Int>
-  Int take() {
+  template <class Int> Int take() {
     Int value{};
     const std::string_view field = bytes(sizeof(Int));
     if (!field.empty()) std::memcpy(&value, field.data(), sizeof(Int));

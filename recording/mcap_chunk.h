@@ -48,8 +48,7 @@ class ChunkOpener {
 
 // Calls `message(channel, log time, payload)` for every message among a chunk's records, in their order; it returns
 // false where the payload is unreadable. Returns how many were, what is no record included.
-template <class Message>
-std::uint64_t for_each_message(std::string_view records, Message&& message) {
+template <class Message> std::uint64_t for_each_message(std::string_view records, Message&& message) {
   std::uint64_t unreadable = 0;
   for (std::size_t offset = 0; offset < records.size();) {
     const auto record = record_at(records, offset);

@@ -52,12 +52,9 @@ bool consistent(const McapRecord& record) {
       fields.text();
       fields.text();
       return fields.done();
-    case Opcode::kFooter:
-      return record.content.size() == 20;
-    case Opcode::kDataEnd:
-      return record.content.size() == 4;
-    case Opcode::kSummaryOffset:
-      return record.content.size() == 17;
+    case Opcode::kFooter: return record.content.size() == 20;
+    case Opcode::kDataEnd: return record.content.size() == 4;
+    case Opcode::kSummaryOffset: return record.content.size() == 17;
     case Opcode::kSchema:
       fields.take<std::uint16_t>();
       for (int i = 0; i < 3; ++i) fields.text();
@@ -105,21 +102,18 @@ bool consistent(const McapRecord& record) {
       fields.bytes(16);
       fields.text();
       return fields.done();
-    case Opcode::kMessage:
-      return false;  // ours stand in chunks, where a checksum covers them
+    case Opcode::kMessage: return false;  // ours stand in chunks, where a checksum covers them
   }
   return false;
 }
 
 bool known(std::uint8_t opcode) {
-  return opcode >= static_cast<std::uint8_t>(Opcode::kHeader) &&
-         opcode <= static_cast<std::uint8_t>(Opcode::kDataEnd);
+  return opcode >= static_cast<std::uint8_t>(Opcode::kHeader) && opcode <= static_cast<std::uint8_t>(Opcode::kDataEnd);
 }
 
 // Whether the file has its last record, whatever happened before it.
 bool has_end(std::string_view bytes) {
-  if (bytes.size() < kFooterBytes + kMcapMagic.size() || bytes.substr(bytes.size() - 8) != kMcapMagic)
-    return false;
+  if (bytes.size() < kFooterBytes + kMcapMagic.size() || bytes.substr(bytes.size() - 8) != kMcapMagic) return false;
   const auto footer = record_at(bytes, bytes.size() - 8 - kFooterBytes);
   return footer && footer->opcode == static_cast<std::uint8_t>(Opcode::kFooter) && consistent(*footer);
 }
@@ -160,8 +154,7 @@ class Walk {
   }
 
  private:
-  template <class... Args>
-  void warn(fmt::format_string<Args...> text, Args&&... args) {
+  template <class... Args> void warn(fmt::format_string<Args...> text, Args&&... args) {
     if (report_.warnings.size() < kMaxWarnings)
       report_.warnings.push_back(fmt::format(text, std::forward<Args>(args)...));
     else
@@ -170,8 +163,7 @@ class Walk {
 
   std::size_t next_record(std::size_t from) const {
     for (std::size_t at = from; at + kRecordHead < bytes_.size(); ++at) {
-      if (!known(static_cast<std::uint8_t>(bytes_[at])) || bytes_[at] == static_cast<char>(Opcode::kHeader))
-        continue;
+      if (!known(static_cast<std::uint8_t>(bytes_[at])) || bytes_[at] == static_cast<char>(Opcode::kHeader)) continue;
       if (bytes_.substr(at + 5, 4) != std::string_view("\0\0\0\0", 4)) continue;  // no record of 4 GiB
       const auto record = record_at(bytes_, at);
       if (record && consistent(*record)) return at;
@@ -182,9 +174,7 @@ class Walk {
   // True after the footer.
   bool take(const McapRecord& record, std::size_t at) {
     switch (static_cast<Opcode>(record.opcode)) {
-      case Opcode::kChunk:
-        take_chunk(record.content, at);
-        return false;
+      case Opcode::kChunk: take_chunk(record.content, at); return false;
       case Opcode::kAttachment: {
         AttachmentFields attachment;
         read_attachment(record.content, attachment);
@@ -214,9 +204,9 @@ class Walk {
         fields.take<std::uint64_t>();
         const auto stated = fields.take<std::uint32_t>();
         const std::size_t crc_at = at + kFooterBytes - 4;
-        const bool sound = summary_start <= at &&
-                           (stated == 0 || crc_of(bytes_.substr(static_cast<std::size_t>(summary_start),
-                                                                crc_at - summary_start)) == stated);
+        const bool sound =
+            summary_start <= at && (stated == 0 || crc_of(bytes_.substr(static_cast<std::size_t>(summary_start),
+                                                                        crc_at - summary_start)) == stated);
         if (!sound) warn("the index at the end is damaged (checksum); all records are read");
         return true;
       }
@@ -229,8 +219,7 @@ class Walk {
       case Opcode::kAttachmentIndex:
       case Opcode::kStatistics:
       case Opcode::kMetadataIndex:
-      case Opcode::kSummaryOffset:
-        return false;  // for readers that seek
+      case Opcode::kSummaryOffset: return false;  // for readers that seek
     }
     return false;
   }
@@ -248,8 +237,7 @@ class Walk {
         for_each_message(*records, [this](std::uint16_t channel, std::uint64_t log_time, std::string_view payload) {
           return handler_.on_message(channel, log_time, payload);
         });
-    if (unreadable > 0)
-      warn("the chunk at byte {} holds {} unreadable messages, which are left out", at, unreadable);
+    if (unreadable > 0) warn("the chunk at byte {} holds {} unreadable messages, which are left out", at, unreadable);
   }
 
   std::string_view bytes_;
@@ -265,8 +253,7 @@ class Walk {
 std::string_view mcap_profile(std::string_view bytes) {
   if (bytes.size() < kMcapMagic.size()) return {};
   const auto header = record_at(bytes, kMcapMagic.size());
-  if (!header || header->opcode != static_cast<std::uint8_t>(Opcode::kHeader) || !consistent(*header))
-    return {};
+  if (!header || header->opcode != static_cast<std::uint8_t>(Opcode::kHeader) || !consistent(*header)) return {};
   return FieldReader(header->content).text();
 }
 

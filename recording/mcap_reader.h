@@ -18,8 +18,7 @@ namespace ttf::recording {
 class McapHandler {
  public:
   virtual ~McapHandler() = default;
-  virtual void on_metadata(std::string_view name,
-                           const std::vector<std::pair<std::string, std::string>>& entries) = 0;
+  virtual void on_metadata(std::string_view name, const std::vector<std::pair<std::string, std::string>>& entries) = 0;
   virtual void on_attachment(std::string_view name, std::string_view media_type, std::string_view bytes) = 0;
   // A sound chunk, whose messages follow; its record's content lies in the walked bytes (recording/mcap_chunk.h opens
   // it).

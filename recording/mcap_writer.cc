@@ -45,8 +45,7 @@ struct McapWriter::Impl {
   std::uint16_t schema_count = 0;
 
   void put_bytes(std::string_view bytes) {
-    if (error.empty() && std::fwrite(bytes.data(), 1, bytes.size(), file) != bytes.size())
-      error = std::strerror(errno);
+    if (error.empty() && std::fwrite(bytes.data(), 1, bytes.size(), file) != bytes.size()) error = std::strerror(errno);
     data_crc = crc_of(bytes, data_crc);
     offset += bytes.size();
   }
@@ -59,8 +58,7 @@ McapWriter::McapWriter(const std::string& path, std::string_view profile, std::s
     : impl_(std::make_unique<Impl>()) {
   impl_->path = path;
   impl_->file = std::fopen(path.c_str(), "wb");
-  if (impl_->file == nullptr)
-    throw std::runtime_error(path + ": cannot be created: " + std::strerror(errno));
+  if (impl_->file == nullptr) throw std::runtime_error(path + ": cannot be created: " + std::strerror(errno));
   impl_->zstd = ZSTD_createCCtx();
   impl_->chunk.reserve(2 * kChunkBytes);
   impl_->compressed.resize(ZSTD_compressBound(2 * kChunkBytes));
@@ -79,8 +77,7 @@ McapWriter::~McapWriter() {
   ZSTD_freeCCtx(impl_->zstd);
 }
 
-void McapWriter::add_schema(std::uint16_t id, std::string_view name, std::string_view encoding,
-                            std::string_view data) {
+void McapWriter::add_schema(std::uint16_t id, std::string_view name, std::string_view encoding, std::string_view data) {
   TTF_CHECK(id == impl_->schema_count + 1, "schema {} after {}", id, impl_->schema_count);
   std::string& out = impl_->record;
   out.clear();
@@ -167,11 +164,10 @@ void McapWriter::add_attachment(std::uint64_t log_time, std::string_view name, s
 
 void McapWriter::add_message(std::uint16_t channel, std::uint64_t log_time, std::uint64_t publish_time,
                              std::string_view payload) {
-  TTF_CHECK(!impl_->closed && channel >= 1 && channel <= impl_->channels.size(),
-            "channel {} of {}, closed {}", channel, impl_->channels.size(), impl_->closed);
+  TTF_CHECK(!impl_->closed && channel >= 1 && channel <= impl_->channels.size(), "channel {} of {}, closed {}", channel,
+            impl_->channels.size(), impl_->closed);
   Impl& s = *impl_;
-  if (!s.chunk.empty() && std::max(s.chunk_end, log_time) - std::min(s.chunk_start, log_time) > kChunkSpan)
-    flush();
+  if (!s.chunk.empty() && std::max(s.chunk_end, log_time) - std::min(s.chunk_start, log_time) > kChunkSpan) flush();
   const bool first = s.chunk.empty();
   s.chunk_start = first ? log_time : std::min(s.chunk_start, log_time);
   s.chunk_end = first ? log_time : std::max(s.chunk_end, log_time);

@@ -38,8 +38,7 @@ class McapWriter {
   void add_attachment(std::uint64_t log_time, std::string_view name, std::string_view media_type,
                       std::string_view bytes);
   // The message's sequence number counts the channel's messages from 0.
-  void add_message(std::uint16_t channel, std::uint64_t log_time, std::uint64_t publish_time,
-                   std::string_view payload);
+  void add_message(std::uint16_t channel, std::uint64_t log_time, std::uint64_t publish_time, std::string_view payload);
 
   void flush();  // closes the chunk that is open, if any
   void close();  // throws std::runtime_error if anything could not be written

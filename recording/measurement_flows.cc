@@ -115,7 +115,7 @@ void MeasurementFlows::end(Ways::iterator way) {
   if (!way->second.fused && way->second.lost) marks.push_back(*way->second.lost);
   std::sort(marks.begin(), marks.end());
   marks.erase(std::unique(marks.begin(), marks.end()), marks.end());
-  if (marks.size() > 1)   // else there is nothing to join
+  if (marks.size() > 1)  // else there is nothing to join
     for (const TraceMark& mark : marks) flows_[mark.serial].push_back({way->second.flow, mark == marks.back()});
   ways_.erase(way);
 }

@@ -41,7 +41,7 @@ class MeasurementFlows {
     Deed deed{};
     TrueTime at{};
     NodeId node{};
-    std::vector<MeasurementId> ids;   // of an image: the newest of each sensor; of a use: none
+    std::vector<MeasurementId> ids;  // of an image: the newest of each sensor; of a use: none
     std::uint32_t image = 0;
     TraceMark frame{};
     std::uint8_t channel = 0, fragment = 0;
@@ -49,8 +49,7 @@ class MeasurementFlows {
   void act(Act act);
 
   // Time has come to `now`. Calls `told(act, run)` with every act whose task's run is known: the run's mark.
-  template <class Told>
-  void advance(TrueTime now, Told&& told) {
+  template <class Told> void advance(TrueTime now, Told&& told) {
     while (!acts_.empty() && acts_.front().at + kRunIsTold < now) {
       if (const std::optional<TraceMark> run = perform(acts_.front())) told(acts_.front(), *run);
       acts_.pop_front();
@@ -64,12 +63,12 @@ class MeasurementFlows {
   std::vector<TraceFlow> take(const TraceMark& mark);
 
  private:
-  static constexpr Duration kRunIsTold = Duration::milliseconds(1);   // after what a task did at its start
-  static constexpr Duration kTolerance = Duration::microseconds(2);   // between a task's start and what it reports then
+  static constexpr Duration kRunIsTold = Duration::milliseconds(1);  // after what a task did at its start
+  static constexpr Duration kTolerance = Duration::microseconds(2);  // between a task's start and what it reports then
 
   struct Carried {
-    std::optional<std::uint8_t> channel;   // the first that had it
-    std::bitset<256> fragments;            // there
+    std::optional<std::uint8_t> channel;  // the first that had it
+    std::bitset<256> fragments;           // there
     bool takes(std::uint8_t on_channel, std::uint8_t fragment);
   };
   struct Way {
@@ -84,7 +83,7 @@ class MeasurementFlows {
     TrueTime at{};
     NodeId node{};
     std::uint32_t sequence = 0;
-    std::vector<MeasurementId> ids;   // whose ways go on with it
+    std::vector<MeasurementId> ids;  // whose ways go on with it
     Carried on_flexray;
   };
   struct Run {
@@ -99,11 +98,11 @@ class MeasurementFlows {
   void forget(TrueTime now);
 
   Ways ways_;
-  std::deque<std::pair<TrueTime, MeasurementId>> begun_;   // in order; those that have ended, too
+  std::deque<std::pair<TrueTime, MeasurementId>> begun_;  // in order; those that have ended, too
   std::deque<Image> images_;
   std::map<NodeId, std::deque<Run>> runs_;
   std::deque<Act> acts_;
-  std::map<std::uint64_t, std::vector<TraceFlow>> flows_;   // by mark
+  std::map<std::uint64_t, std::vector<TraceFlow>> flows_;  // by mark
   std::uint64_t flow_ids_ = 0;
 };
 

@@ -29,7 +29,7 @@ std::map<std::string, std::string> keys_of(const StoredLog& log) {
 std::optional<Finding> misfit(const StoredLog& log, const StoredLog& first) {
   const auto mine = keys_of(log), others = keys_of(first);
   if (mine == others) return std::nullopt;
-  for (const auto& [key, unused] : manifest_entries(first.info().manifest)) {   // in that order
+  for (const auto& [key, unused] : manifest_entries(first.info().manifest)) {  // in that order
     const auto value = mine.find(key), expected = others.find(key);
     if (expected == others.end() || (value != mine.end() && value->second == expected->second)) continue;
     return Finding{log.name(), 0, key, value == mine.end() ? "" : value->second,
@@ -81,9 +81,8 @@ MergedLogs::MergedLogs(const std::vector<std::string>& paths) : MergedLogs(store
 
 MergedLogs::MergedLogs(std::vector<StoredLog> logs) : logs_(std::move(logs)) {
   if (const auto whole = whole_among(logs_); whole != logs_.end()) {
-    warnings_.push_back(
-        fmt::format("{}: is passed over: it holds what the other {} logs hold together", whole->name(),
-                    logs_.size() - 1));
+    warnings_.push_back(fmt::format("{}: is passed over: it holds what the other {} logs hold together", whole->name(),
+                                    logs_.size() - 1));
     logs_.erase(whole);
   }
   Findings findings;
@@ -196,7 +195,7 @@ std::vector<MergedLogs> merge_by_run(std::vector<StoredLog> logs) {
 }
 
 void write_merged(const MergedLogs& merged, const std::string& path) {
-  std::error_code none;   // what does not exist yet is none of them
+  std::error_code none;  // what does not exist yet is none of them
   for (const StoredLog& log : merged.logs())
     if (std::filesystem::equivalent(log.name(), path, none))
       throw InputError({path, 0, "", "", "must be another file than the logs that are merged"});

@@ -37,11 +37,11 @@ class MergedLogs {
   explicit MergedLogs(std::vector<StoredLog> logs);
   explicit MergedLogs(const std::vector<std::string>& paths);
 
-  const std::vector<StoredLog>& logs() const { return logs_; }   // as given, but for one passed over
+  const std::vector<StoredLog>& logs() const { return logs_; }  // as given, but for one passed over
   const LogManifest& manifest() const { return manifest_; }
-  std::vector<Attachment> attachments() const;   // each once, in the order of the logs, then by name and bytes
-  ContentHash content_hash() const;              // of all records, as they are in the logs
-  std::vector<std::string> warnings() const;     // of all logs, as given, and of what they are together
+  std::vector<Attachment> attachments() const;  // each once, in the order of the logs, then by name and bytes
+  ContentHash content_hash() const;             // of all records, as they are in the logs
+  std::vector<std::string> warnings() const;    // of all logs, as given, and of what they are together
 
   // Drives the sink with every record, as often as it is called. Throws InputError where two logs hold the same record
   // of a node: one is a part of the other.
@@ -50,8 +50,8 @@ class MergedLogs {
  private:
   std::vector<StoredLog> logs_;
   LogManifest manifest_;
-  std::vector<CommonTime> times_;        // by log
-  std::vector<std::string> warnings_;    // of all together
+  std::vector<CommonTime> times_;      // by log
+  std::vector<std::string> warnings_;  // of all together
 };
 
 // Logs of several runs, put together by run, in the order in which each run's first log is given. One whose manifest is

@@ -58,7 +58,7 @@ void MergeWalk::open(const Upcoming& upcoming) {
   std::unique_ptr<Open> chunk = closed_chunk();
   const StoredLog& log = logs_[upcoming.log];
   const auto records = opener_.open(log.content(log.chunks()[upcoming.chunk]), chunk->buffer);
-  if (!records) return;   // it was sound when the log was read through
+  if (!records) return;  // it was sound when the log was read through
   PlaceOfOne placing;
   std::uint64_t in_log = std::uint64_t{upcoming.chunk} << 32;
   for_each_message(*records, [&](std::uint16_t channel, std::uint64_t, std::string_view payload) {

@@ -22,8 +22,8 @@ class MergeWalk {
     RecordPlace place;
     RecordKind kind{};
     std::uint32_t log = 0;
-    std::uint32_t repetition = 0;   // how many of its node, kind and instant its log has before it
-    std::uint64_t in_log = 0;       // place in its log
+    std::uint32_t repetition = 0;  // how many of its node, kind and instant its log has before it
+    std::uint64_t in_log = 0;      // place in its log
     std::string_view payload;
   };
 
@@ -41,7 +41,7 @@ class MergeWalk {
   };
   struct Open {
     std::string buffer;
-    std::vector<Message> messages;   // by time
+    std::vector<Message> messages;  // by time
     std::size_t at = 0;
     TrueTime time() const { return messages[at].place.at; }
   };
@@ -51,9 +51,9 @@ class MergeWalk {
 
   const std::vector<StoredLog>& logs_;
   const std::vector<CommonTime>& times_;
-  std::vector<Upcoming> upcoming_;   // the next one last
-  std::vector<std::unique_ptr<Open>> open_;   // a heap, the earliest first
-  std::vector<std::unique_ptr<Open>> used_;   // what has been read to its end: for the next instant's call, then again
+  std::vector<Upcoming> upcoming_;           // the next one last
+  std::vector<std::unique_ptr<Open>> open_;  // a heap, the earliest first
+  std::vector<std::unique_ptr<Open>> used_;  // what has been read to its end: for the next instant's call, then again
   std::vector<std::unique_ptr<Open>> free_;
   std::vector<Message> instant_;
   ChunkOpener opener_;

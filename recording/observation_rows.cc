@@ -25,8 +25,27 @@ struct NumberColumn {
 constexpr double kAway = 1e7, kCovariance = 1e8, kAngle = 100, kSide = 1e3;
 // In the order of kNumberColumns.
 enum NumberIndex : std::size_t {
-  kX, kY, kRange, kBearing, kRangeRate, kCov11, kCov12, kCov22, kCov13, kCov23, kCov33, kHeading, kSigmaHeading,
-  kLength, kSigmaLength, kWidth, kSigmaWidth, kZ, kHeight, kScore, kNumbers
+  kX,
+  kY,
+  kRange,
+  kBearing,
+  kRangeRate,
+  kCov11,
+  kCov12,
+  kCov22,
+  kCov13,
+  kCov23,
+  kCov33,
+  kHeading,
+  kSigmaHeading,
+  kLength,
+  kSigmaLength,
+  kWidth,
+  kSigmaWidth,
+  kZ,
+  kHeight,
+  kScore,
+  kNumbers
 };
 constexpr std::array<NumberColumn, kNumbers> kNumberColumns{{
     {"x", -kAway, kAway, " m"},
@@ -207,7 +226,7 @@ class RowReader {
       if (!value_[diagonal] && (three || diagonal != kCov33))
         return fail(kNumberColumns[diagonal].name, "", "must be given where another part of the covariance is");
     // Beyond that a bearing says nothing that a position could (fusion/converted_position.h).
-    constexpr double kLargestBearingVariance = 0.25;   // [rad^2]
+    constexpr double kLargestBearingVariance = 0.25;  // [rad^2]
     if (row_.kind == ObservationRow::Kind::kRangeBearing && *value_[kCov22] > kLargestBearingVariance)
       return fail("cov_22", fmt::format("{}", *value_[kCov22]),
                   "must be at most 0.25 rad^2 where range and bearing alone were measured");
@@ -232,8 +251,9 @@ class RowReader {
     row_.time_ns = row_.arrival_ns = *time;
     const auto newest = newest_.find(row_.sensor);
     if (newest != newest_.end() && *time < newest->second)
-      return fail("time", text(kTime), fmt::format("must not be before the row above of {}, {} s", row_.sensor,
-                                                   scaled_text(newest->second, kNsPerSecond)));
+      return fail("time", text(kTime),
+                  fmt::format("must not be before the row above of {}, {} s", row_.sensor,
+                              scaled_text(newest->second, kNsPerSecond)));
     if (text(kArrival).empty()) return true;
     const std::optional<std::int64_t> arrival = nanoseconds_of(text(kArrival));
     if (!arrival || *arrival < *time || *arrival > *time + kLongestWay)

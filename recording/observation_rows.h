@@ -38,11 +38,11 @@ struct ObservationRow {
   std::int64_t time_ns = 0, arrival_ns = 0;
   std::string sensor;
   Kind kind = Kind::kPosition;
-  std::array<double, 3> z{};                          // as many as the kind has
-  std::optional<std::array<double, 6>> covariance;    // 11, 12, 22, 13, 23, 33; finite, not yet known to be one
+  std::array<double, 3> z{};                        // as many as the kind has
+  std::optional<std::array<double, 6>> covariance;  // 11, 12, 22, 13, 23, 33; finite, not yet known to be one
   std::optional<double> heading, sigma_heading, length, sigma_length, width, sigma_width;
   std::optional<double> elevation, height;
-  std::string class_name;                             // empty: not told
+  std::string class_name;  // empty: not told
   double score = 1.0;
 };
 

@@ -23,7 +23,6 @@ TrueTime shown(TrueTime at) { return {std::clamp<std::int64_t>(at.ns, 0, kTraceR
 std::string channel_lane(std::uint8_t channel) { return channel == 0 ? "channel A" : "channel B"; }
 std::string microseconds(Duration time) { return fmt::format("{:.1f} us", static_cast<double>(time.ns) * 1e-3); }
 
-
 // What became of a frame on a channel: bits of records::ChannelFrame.
 std::string channel_state_words(unsigned state) {
   static constexpr std::pair<unsigned, const char*> kWords[] = {{records::kChannelHeaderCrc, "header CRC error"},
@@ -39,37 +38,26 @@ std::string channel_state_words(unsigned state) {
 
 const char* words_of_loss(records::Hop hop) {
   switch (hop) {
-    case records::Hop::kTorn:
-      return "torn";
-    case records::Hop::kOverwritten:
-      return "overwritten";
-    case records::Hop::kStale:
-      return "fragment came too late";
-    case records::Hop::kDiscarded:
-      return "discarded";
+    case records::Hop::kTorn: return "torn";
+    case records::Hop::kOverwritten: return "overwritten";
+    case records::Hop::kStale: return "fragment came too late";
+    case records::Hop::kDiscarded: return "discarded";
     case records::Hop::kWritten:
     case records::Hop::kSent:
     case records::Hop::kReceived:
-    case records::Hop::kRead:
-      break;
+    case records::Hop::kRead: break;
   }
   return nullptr;
 }
 
 const char* words_of_problem(std::uint8_t what) {
   switch (what) {
-    case records::kLateWakeUp:
-      return "woken up late";
-    case records::kSlotMissed:
-      return "slot missed";
-    case records::kLateFrame:
-      return "frame came late";
-    case records::kEarlyFrame:
-      return "frame came early";
-    case records::kFramesLost:
-      return "frames lost";
-    default:
-      return "timing problem";
+    case records::kLateWakeUp: return "woken up late";
+    case records::kSlotMissed: return "slot missed";
+    case records::kLateFrame: return "frame came late";
+    case records::kEarlyFrame: return "frame came early";
+    case records::kFramesLost: return "frames lost";
+    default: return "timing problem";
   }
 }
 
@@ -121,11 +109,8 @@ void PerfettoExport::told(const MeasurementFlows::Act& act, const TraceMark& run
       timeline_.note(run, {"writes image", std::int64_t{act.image}});
       for (const MeasurementId& id : act.ids) note("newest in the image", id);
       break;
-    case Deed::kUsed:
-      timeline_.note(run, {"uses image", std::int64_t{act.image}});
-      break;
-    case Deed::kSent:
-      break;
+    case Deed::kUsed: timeline_.note(run, {"uses image", std::int64_t{act.image}}); break;
+    case Deed::kSent: break;
   }
 }
 
@@ -245,18 +230,10 @@ void PerfettoExport::on(const records::ListFused& r) {
   const char* lost = nullptr;
   switch (r.disposition) {
     case records::Disposition::kFused:
-    case records::Disposition::kFusedLate:
-      flows_.act({Deed::kFused, at, r.stamp.node, {r.id}, 0});
-      break;
-    case records::Disposition::kHeld:
-      flows_.act({Deed::kHeld, at, r.stamp.node, {r.id}, 0});
-      break;
-    case records::Disposition::kDroppedTooOld:
-      lost = "too old";
-      break;
-    case records::Disposition::kDuplicate:
-      lost = "duplicate";
-      break;
+    case records::Disposition::kFusedLate: flows_.act({Deed::kFused, at, r.stamp.node, {r.id}, 0}); break;
+    case records::Disposition::kHeld: flows_.act({Deed::kHeld, at, r.stamp.node, {r.id}, 0}); break;
+    case records::Disposition::kDroppedTooOld: lost = "too old"; break;
+    case records::Disposition::kDuplicate: lost = "duplicate"; break;
   }
   if (lost != nullptr)
     flows_.lost(r.id, node_instant(r.stamp.node, "lost lists", r.stamp.true_time,
@@ -309,15 +286,9 @@ void PerfettoExport::on(const records::FaultActivity& r) {
   come_to(r.at);
   const std::string lane = fmt::format("fault {}: {}", r.fault, r.kind), text(r.text);
   switch (r.what) {
-    case records::kFaultBegins:
-      timeline_.begin(kFaultGroup, lane, shown(r.at), text, {});
-      break;
-    case records::kFaultEnds:
-      timeline_.end(kFaultGroup, lane, shown(r.at));
-      break;
-    default:
-      timeline_.instant(kFaultGroup, lane, shown(r.at), text, {});
-      break;
+    case records::kFaultBegins: timeline_.begin(kFaultGroup, lane, shown(r.at), text, {}); break;
+    case records::kFaultEnds: timeline_.end(kFaultGroup, lane, shown(r.at)); break;
+    default: timeline_.instant(kFaultGroup, lane, shown(r.at), text, {}); break;
   }
 }
 

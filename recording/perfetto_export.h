@@ -57,7 +57,7 @@ class PerfettoExport final : public records::Sink {
  private:
   struct Image {
     std::uint32_t sequence = 0;
-    TrueTime newest{};   // when the newest measurement in it was made
+    TrueTime newest{};  // when the newest measurement in it was made
   };
   TrueTime come_to(TrueTime at);
   void told(const MeasurementFlows::Act& act, const TraceMark& run);
@@ -67,7 +67,7 @@ class PerfettoExport final : public records::Sink {
   LogNames names_;
   MeasurementFlows flows_;
   TraceTimeline timeline_;
-  std::deque<Image> images_;   // the last few
+  std::deque<Image> images_;  // the last few
 };
 
 }  // namespace ttf::recording

@@ -24,7 +24,7 @@ struct RecordPlace {
   TrueTime at{};
   std::uint8_t rank = 0;
   bool of_node = false;
-  std::uint64_t about = 0;   // the node, else what of the run's it is: numbers in the order they are to have
+  std::uint64_t about = 0;  // the node, else what of the run's it is: numbers in the order they are to have
 };
 
 // Tells the place of every record that it sees.

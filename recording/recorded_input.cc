@@ -60,8 +60,7 @@ class Rows {
 
   // The fields as numbers into `out`, of the columns' count; false, with one finding, if one of them is
   // broken.
-  bool numbers(std::span<const std::string_view> fields, std::span<const Column> columns,
-               std::span<double> out) {
+  bool numbers(std::span<const std::string_view> fields, std::span<const Column> columns, std::span<double> out) {
     for (std::size_t i = 0; i < columns.size(); ++i) {
       const std::string_view field = fields[i];
       const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), out[i]);
@@ -91,8 +90,7 @@ class Rows {
   int line_ = 0;
 };
 
-template <class Handle>
-void for_each_line(std::string_view text, Handle&& handle) {
+template <class Handle> void for_each_line(std::string_view text, Handle&& handle) {
   for (int line = 1; !text.empty(); ++line) {
     const std::size_t end = text.find('\n');
     handle(line, text.substr(0, end));
@@ -129,9 +127,8 @@ RecordedInput parse_laser_radar(const std::string& text, const std::string& name
     if (!laser && fields[0] != "R") return rows.fail("sensor", fields[0], "must be L (laser) or R (radar)");
     const std::size_t values = laser ? 2 : 3, columns = values + 8;
     if (fields.size() != columns)
-      return rows.fail(
-          "columns", std::to_string(fields.size()),
-          fmt::format("must be {} columns, separated by tabs, in a row of {}", columns, fields[0]));
+      return rows.fail("columns", std::to_string(fields.size()),
+                       fmt::format("must be {} columns, separated by tabs, in a row of {}", columns, fields[0]));
 
     std::array<double, 3> seen{};
     std::array<double, 6> truth{};
@@ -142,8 +139,7 @@ RecordedInput parse_laser_radar(const std::string& text, const std::string& name
     const std::optional<std::int64_t> time = rows.whole("t_us", fields[values + 1], " us");
     if (!time || !rows.numbers(all.subspan(values + 2), kTruthColumns, truth)) return;
     if (*time < last_time)
-      return rows.fail("t_us", fields[values + 1],
-                       fmt::format("must not be before the row above, {} us", last_time));
+      return rows.fail("t_us", fields[values + 1], fmt::format("must not be before the row above, {} us", last_time));
     last_time = *time;
 
     if (input.observations.empty()) input.first_time_us = *time;
@@ -184,12 +180,10 @@ std::vector<RecordedScan> parse_lidar_scans(const std::string& text, const std::
                        "must be 4 columns, separated by commas: frame, azimuth_rad, range_m, intensity");
     const std::optional<std::int64_t> frame = rows.whole("frame", fields[0], "");
     std::array<double, 3> values{};
-    if (!frame || !rows.numbers(std::span<const std::string_view>(fields).subspan(1), kScanColumns, values))
-      return;
+    if (!frame || !rows.numbers(std::span<const std::string_view>(fields).subspan(1), kScanColumns, values)) return;
     if (scans.empty() || scans.back().frame != *frame) {
       if (!scans.empty() && *frame < scans.back().frame)
-        return rows.fail("frame", fields[0],
-                         fmt::format("must not be before the row above, {}", scans.back().frame));
+        return rows.fail("frame", fields[0], fmt::format("must not be before the row above, {}", scans.back().frame));
       scans.emplace_back().frame = *frame;
     }
     scans.back().returns.push_back({values[0], values[1], values[2]});
@@ -201,9 +195,7 @@ std::vector<RecordedScan> parse_lidar_scans(const std::string& text, const std::
 }
 
 RecordedInput read_laser_radar(const std::string& path) { return parse_laser_radar(read_file(path), path); }
-std::vector<RecordedScan> read_lidar_scans(const std::string& path) {
-  return parse_lidar_scans(read_file(path), path);
-}
+std::vector<RecordedScan> read_lidar_scans(const std::string& path) { return parse_lidar_scans(read_file(path), path); }
 
 RecordingFormat sniff_recording(const std::string& path) {
   return sniff_recording(read_file(path, kRecordingHead), path);
@@ -225,10 +217,9 @@ RecordingFormat sniff_recording(std::string_view text, const std::string& name) 
     decided = !comment || format.has_value();
   });
   if (!format)
-    throw InputError(
-        {name, 0, "", "",
-         "is no recording known here: rows of L or R (laser and radar), of frame, azimuth_rad, range_m, "
-         "intensity (scanner), or an MCAP log"});
+    throw InputError({name, 0, "", "",
+                      "is no recording known here: rows of L or R (laser and radar), of frame, azimuth_rad, range_m, "
+                      "intensity (scanner), or an MCAP log"});
   return *format;
 }
 

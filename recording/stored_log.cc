@@ -19,7 +19,7 @@ class ChunkTimes final : public Placing {
   void begin(std::size_t at, std::size_t size) { next_ = {at, size, {}, {}}; }
   using Placing::on;
   void on(const records::ClockCorrected& r) override {
-    const bool by_the_cluster = r.stamp.global.ns != r.stamp.local.ns;   // else it has no global time (records::Stamp)
+    const bool by_the_cluster = r.stamp.global.ns != r.stamp.local.ns;  // else it has no global time (records::Stamp)
     if (by_the_cluster && possible(r.stamp.true_time.ns) && possible(r.stamp.global.ns))
       stamps_.push_back({r.stamp.node, r.stamp.true_time, r.stamp.global});
     Placing::on(r);

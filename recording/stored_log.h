@@ -28,10 +28,10 @@ class StoredLog {
 
   // From the first to the last of its records' true times.
   struct Chunk {
-    std::size_t begin = 0, size = 0;   // of its record's content, in the bytes
+    std::size_t begin = 0, size = 0;  // of its record's content, in the bytes
     TrueTime first{}, last{};
   };
-  const std::vector<Chunk>& chunks() const { return chunks_; }   // in file order; none without a readable record
+  const std::vector<Chunk>& chunks() const { return chunks_; }  // in file order; none without a readable record
   // How its nodes' global times relate to its true time, where that is a host's clock.
   const std::vector<SyncStamp>& sync_stamps() const { return sync_stamps_; }
   std::string_view content(const Chunk& chunk) const {

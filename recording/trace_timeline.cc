@@ -140,19 +140,13 @@ void TraceTimeline::write(const Place& place, const Event& event) {
   auto& out = *packet.mutable_track_event();
   out.set_track_uuid(event.track);
   switch (what) {
-    case What::kEnd:
-      out.set_type(pb::TrackEvent::TYPE_SLICE_END);
-      break;
+    case What::kEnd: out.set_type(pb::TrackEvent::TYPE_SLICE_END); break;
     case What::kCounter:
       out.set_type(pb::TrackEvent::TYPE_COUNTER);
       out.set_double_counter_value(event.value);
       break;
-    case What::kInstant:
-      out.set_type(pb::TrackEvent::TYPE_INSTANT);
-      break;
-    case What::kBegin:
-      out.set_type(pb::TrackEvent::TYPE_SLICE_BEGIN);
-      break;
+    case What::kInstant: out.set_type(pb::TrackEvent::TYPE_INSTANT); break;
+    case What::kBegin: out.set_type(pb::TrackEvent::TYPE_SLICE_BEGIN); break;
   }
   if (what == What::kInstant || what == What::kBegin) {
     out.set_name(event.name);

@@ -29,7 +29,7 @@ struct TraceNote {
 // A slice or an instant that was told of.
 struct TraceMark {
   TrueTime at{};
-  std::uint64_t serial = 0;   // as it was told
+  std::uint64_t serial = 0;  // as it was told
   auto operator<=>(const TraceMark&) const = default;
 };
 
@@ -72,11 +72,11 @@ class TraceTimeline {
   const TraceCounts& counts() const { return counts_; }
 
  private:
-  enum class What : std::uint8_t { kEnd, kCounter, kInstant, kBegin };   // in this order at one instant
+  enum class What : std::uint8_t { kEnd, kCounter, kInstant, kBegin };  // in this order at one instant
   struct Lane {
     std::uint64_t track = 0;
     TrueTime busy_until{};
-    bool open = false;   // begin() without its end()
+    bool open = false;  // begin() without its end()
   };
   struct Event {
     What what{};
@@ -85,7 +85,7 @@ class TraceTimeline {
     std::string name;
     std::vector<TraceNote> notes;
   };
-  using Place = std::tuple<TrueTime, What, std::uint64_t>;   // the last: TraceMark::serial
+  using Place = std::tuple<TrueTime, What, std::uint64_t>;  // the last: TraceMark::serial
 
   std::uint64_t group_track(const std::string& group);
   Lane& lane_of(const std::string& group, const std::string& lane, bool counts, std::size_t beside = 0);
@@ -94,11 +94,11 @@ class TraceTimeline {
 
   Write write_;
   FlowsOf flows_of_;
-  std::map<std::string, std::uint64_t> groups_;   // by name: track
+  std::map<std::string, std::uint64_t> groups_;  // by name: track
   std::map<std::tuple<std::string, std::string, std::size_t>, Lane> lanes_;
   std::map<Place, Event> waiting_;
   std::uint64_t tracks_ = 0, serials_ = 0;
-  TrueTime written_{}, last_{};   // nothing before `written_` is written any more
+  TrueTime written_{}, last_{};  // nothing before `written_` is written any more
   TraceCounts counts_;
 };
 

@@ -26,8 +26,8 @@ std::string_view track_heading() {
 
 std::string track_line(const TrackRow& row) {
   constexpr std::int64_t kSecondNs = 1'000'000'000;
-  std::string line = fmt::format("{},{},{}", scaled_text(row.time_ns, kSecondNs), scaled_text(row.known_ns, kSecondNs),
-                                 row.track);
+  std::string line =
+      fmt::format("{},{},{}", scaled_text(row.time_ns, kSecondNs), scaled_text(row.known_ns, kSecondNs), row.track);
   for (const double value : {row.x, row.y, row.vx, row.vy}) line += ',' + six_decimals(value);
   for (const double value : row.covariance) line += fmt::format(",{:.9g}", value);
   line += ',' + six_decimals(row.heading) + ',' + six_decimals(row.sigma_heading);

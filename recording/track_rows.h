@@ -10,18 +10,18 @@
 namespace ttf::recording {
 
 struct TrackRow {
-  std::int64_t time_ns = 0;    // the state is of this instant
-  std::int64_t known_ns = 0;   // the instant of the fusion that gave it
+  std::int64_t time_ns = 0;   // the state is of this instant
+  std::int64_t known_ns = 0;  // the instant of the fusion that gave it
   int track = 0;
-  double x = 0, y = 0, vx = 0, vy = 0;      // [m], [m/s]
+  double x = 0, y = 0, vx = 0, vy = 0;  // [m], [m/s]
   // Upper triangle of the covariance of (x, y, vx, vy), by rows.
   std::array<double, 10> covariance{};
-  double heading = 0, sigma_heading = 0;    // [rad]
-  std::optional<double> length, width;      // [m], where they were measured
-  std::optional<double> z, height;          // [m], of the newest observation that had them
-  std::string class_name;                   // empty: none was told
-  double class_share = 0;                   // of all scores, the part of that class
-  bool coasting = false;                    // not observed of late: predicted only
+  double heading = 0, sigma_heading = 0;  // [rad]
+  std::optional<double> length, width;    // [m], where they were measured
+  std::optional<double> z, height;        // [m], of the newest observation that had them
+  std::string class_name;                 // empty: none was told
+  double class_share = 0;                 // of all scores, the part of that class
+  bool coasting = false;                  // not observed of late: predicted only
 };
 
 // With its line end. Times are exact decimals in seconds; positions, velocities, angles and sizes have six decimals,

@@ -15,15 +15,12 @@ int channel_of(std::string_view colour, std::size_t i) {
   return static_cast<int>(std::strtol(std::string(colour.substr(1 + 2 * i, 2)).c_str(), nullptr, 16));
 }
 
-double entry_width(const LegendEntry& e) {
-  return kLegendSample + text_width(e.text, kLegendText) + kLegendGap;
-}
+double entry_width(const LegendEntry& e) { return kLegendSample + text_width(e.text, kLegendText) + kLegendGap; }
 
 }  // namespace
 
 std::string palette(std::size_t i) {
-  constexpr std::array<std::string_view, 7> colours{kBlue,    kOrange,    kGreen, kPurple,
-                                                    kSkyBlue, kVermilion, kYellow};
+  constexpr std::array<std::string_view, 7> colours{kBlue, kOrange, kGreen, kPurple, kSkyBlue, kVermilion, kYellow};
   const std::size_t round = i / colours.size();
   return tint(colours[i % colours.size()], std::min(0.75, 0.4 * static_cast<double>(round)));
 }
@@ -40,8 +37,7 @@ std::string tint(std::string_view colour, double amount) {
 std::string_view text_colour_on(std::string_view colour) {
   // Relative luminance weights of ITU-R BT.709; 140 separates blue, green and vermilion from the light
   // colours.
-  const double y =
-      0.2126 * channel_of(colour, 0) + 0.7152 * channel_of(colour, 1) + 0.0722 * channel_of(colour, 2);
+  const double y = 0.2126 * channel_of(colour, 0) + 0.7152 * channel_of(colour, 1) + 0.0722 * channel_of(colour, 2);
   return y < 140 ? "#ffffff" : "#000000";
 }
 
@@ -108,8 +104,7 @@ void PlotFrame::draw(Svg& svg, std::string_view x_label, std::string_view y_labe
   svg.rect(area_, {.stroke = kBlack, .width = 0.8});
   if (!x_label.empty())
     svg.text({area_.x + area_.width / 2, bottom + 35}, x_label, {.size = 12, .anchor = Anchor::kMiddle});
-  svg.text({area_.x - 46, area_.y + area_.height / 2}, y_label,
-           {.size = 12, .anchor = Anchor::kMiddle, .rotate = -90});
+  svg.text({area_.x - 46, area_.y + area_.height / 2}, y_label, {.size = 12, .anchor = Anchor::kMiddle, .rotate = -90});
   svg.close_group();
 }
 
@@ -131,8 +126,8 @@ bool LabelSpace::claim(const Area& area) {
   return true;
 }
 
-std::optional<Point> LabelSpace::place(std::string_view text, const TextStyle& style,
-                                       std::span<const Point> candidates, const Area& bounds) {
+std::optional<Point> LabelSpace::place(std::string_view text, const TextStyle& style, std::span<const Point> candidates,
+                                       const Area& bounds) {
   for (const Point& p : candidates) {
     Area a = text_area(p, text, style);
     a.x -= 1.5;
@@ -162,16 +157,11 @@ void draw_legend(Svg& svg, Point top_left, double width, std::span<const LegendE
     const Paint line{.stroke = e.colour, .width = 1.5, .dash = e.dash};
     switch (e.kind) {
       case LegendEntry::Kind::kMarker:
-        svg.marker(
-            e.marker, {left + 12, y}, 8,
-            {.fill = e.filled ? std::string_view(e.colour) : "none", .stroke = e.colour, .width = 1.4});
+        svg.marker(e.marker, {left + 12, y}, 8,
+                   {.fill = e.filled ? std::string_view(e.colour) : "none", .stroke = e.colour, .width = 1.4});
         break;
-      case LegendEntry::Kind::kLine:
-        svg.line({left, y}, {left + 20, y}, line);
-        break;
-      case LegendEntry::Kind::kArrow:
-        svg.arrow({left, y}, {left + 20, y}, line, {}, "sample");
-        break;
+      case LegendEntry::Kind::kLine: svg.line({left, y}, {left + 20, y}, line); break;
+      case LegendEntry::Kind::kArrow: svg.arrow({left, y}, {left + 20, y}, line, {}, "sample"); break;
       case LegendEntry::Kind::kNumber:
         svg.rect({left + 3, y - 7, 17, 14}, {.fill = "#ffffff", .stroke = e.colour, .width = 0.7});
         svg.text({left + 11.5, y + 3.2}, "12", {.size = 8.5, .anchor = Anchor::kMiddle});

@@ -16,10 +16,9 @@
 namespace ttf::report {
 
 // M. Okabe, K. Ito: Color Universal Design (2008).
-inline constexpr std::string_view kBlack = "#000000", kOrange = "#e69f00", kSkyBlue = "#56b4e9",
-                                  kGreen = "#009e73", kYellow = "#f0e442", kBlue = "#0072b2",
-                                  kVermilion = "#d55e00", kPurple = "#cc79a7", kGrey = "#8c8c8c",
-                                  kStatusFrame = "#a8a8a8";
+inline constexpr std::string_view kBlack = "#000000", kOrange = "#e69f00", kSkyBlue = "#56b4e9", kGreen = "#009e73",
+                                  kYellow = "#f0e442", kBlue = "#0072b2", kVermilion = "#d55e00", kPurple = "#cc79a7",
+                                  kGrey = "#8c8c8c", kStatusFrame = "#a8a8a8";
 // The i-th colour for things without a colour of their own; lighter tints of the palette after its end.
 std::string palette(std::size_t i);
 // Mixed with white: amount 0 is the colour itself, 1 white. `colour` as "#rrggbb".

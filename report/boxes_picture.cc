@@ -12,8 +12,7 @@ namespace {
 std::array<Point, 4> corners(const Box& b) {
   const double c = std::cos(b.heading), s = std::sin(b.heading);
   const auto at = [&](double u, double v) {
-    return Point{b.x + c * u * b.length / 2 - s * v * b.width / 2,
-                 b.y + s * u * b.length / 2 + c * v * b.width / 2};
+    return Point{b.x + c * u * b.length / 2 - s * v * b.width / 2, b.y + s * u * b.length / 2 + c * v * b.width / 2};
   };
   return {at(1, 1), at(-1, 1), at(-1, -1), at(1, -1)};
 }
@@ -23,8 +22,7 @@ bool finite(Point p) { return std::isfinite(p.x) && std::isfinite(p.y); }
 }  // namespace
 
 std::string boxes_svg(std::span<const Point> points, std::span<const Box> boxes, std::string_view title) {
-  if (points.empty() && boxes.empty())
-    return empty_picture(title, "There are no points and no boxes to show.");
+  if (points.empty() && boxes.empty()) return empty_picture(title, "There are no points and no boxes to show.");
   Extent x, y;
   for (const Point& p : points) x.add(p.x), y.add(p.y);
   for (const Box& b : boxes)

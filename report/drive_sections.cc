@@ -100,8 +100,7 @@ void troubles_section(Page& page, const std::vector<ToldDrive>& drives) {
   if (!any)
     page.paragraph(fmt::format("No fault was injected, no slot had a problem, no deadline was missed{}.",
                                without.empty() ? "" : " in what was logged"));
-  if (!without.empty())
-    page.paragraph(fmt::format("Of {} there is no log: {}", joined(without), elsewhere));
+  if (!without.empty()) page.paragraph(fmt::format("Of {} there is no log: {}", joined(without), elsewhere));
 }
 
 }  // namespace ttf::report

@@ -16,8 +16,8 @@ namespace ttf::report {
 struct DiagramWindow {
   // From where the drive is judged unless given; 2 s at most.
   std::optional<TrueTime> from, to;
-  Duration length = Duration::milliseconds(160);   // where it is not given
-  std::size_t most = 6;                            // drives
+  Duration length = Duration::milliseconds(160);  // where it is not given
+  std::size_t most = 6;                           // drives
 };
 
 // The drive with what its log comes to.
@@ -26,7 +26,7 @@ ToldDrive told_of(const Drive& drive);
 // Each is left out where there is nothing to show, but for the faults: that there were none is worth a sentence.
 void errors_section(Page& page, const std::vector<ToldDrive>& drives);
 void timing_section(Page& page, const std::vector<ToldDrive>& drives, const DiagramWindow& window);
-void time_base_section(Page& page, const std::vector<ToldDrive>& drives, std::size_t most);   // corrections of so many
+void time_base_section(Page& page, const std::vector<ToldDrive>& drives, std::size_t most);  // corrections of so many
 void troubles_section(Page& page, const std::vector<ToldDrive>& drives);
 
 }  // namespace ttf::report

@@ -21,8 +21,8 @@ struct Estimate {
 
 struct ExperimentPoint {
   std::uint32_t point = 0;
-  std::vector<std::string> settings;               // by axis
-  std::vector<std::vector<Estimate>> estimates;    // by paradigm, then measure
+  std::vector<std::string> settings;             // by axis
+  std::vector<std::vector<Estimate>> estimates;  // by paradigm, then measure
 };
 
 struct ExperimentCrossing {
@@ -38,21 +38,21 @@ struct ExperimentExpectation {
 };
 
 struct ExperimentMeasure {
-  std::string name, unit, meaning;                 // of an older answer.json the name alone
+  std::string name, unit, meaning;  // of an older answer.json the name alone
   std::string with_unit() const { return unit.empty() ? name : name + " [" + unit + "]"; }
 };
 
 struct ExperimentFolder {
   std::string path, name, question, answer, baseline;
-  std::string file;                                // the experiment's, as it was named then; "" in older ones
+  std::string file;  // the experiment's, as it was named then; "" in older ones
   std::uint64_t seed = 0, runs = 0, failed = 0;
   double confidence = 0.95;
-  std::vector<std::string> axes, paradigms;        // in the file's order
-  std::vector<ExperimentMeasure> measures;         // the first is what is asked for
+  std::vector<std::string> axes, paradigms;  // in the file's order
+  std::vector<ExperimentMeasure> measures;   // the first is what is asked for
   std::vector<ExperimentPoint> points;
   std::vector<ExperimentCrossing> crossings;
   std::vector<ExperimentExpectation> expectations;
-  std::optional<results::Store> store;             // none where there is no results.sqlite
+  std::optional<results::Store> store;  // none where there is no results.sqlite
 };
 
 // Throws InputError: the file, the key and what it must be.

@@ -15,8 +15,8 @@
 namespace ttf::report {
 namespace {
 
-constexpr std::size_t kMostViews = 150;   // of a plot
-constexpr double kLogarithmic = 50.0;     // an axis that spans more than this factor
+constexpr std::size_t kMostViews = 150;  // of a plot
+constexpr double kLogarithmic = 50.0;    // an axis that spans more than this factor
 
 // "42 ms" is 42 and "ms".
 struct Quantity {
@@ -32,7 +32,7 @@ std::optional<Quantity> quantity_of(const std::string& label) {
 }
 
 struct XAxis {
-  std::optional<std::size_t> axis;   // none: points by their number
+  std::optional<std::size_t> axis;  // none: points by their number
   std::string name;
   bool logarithmic = false;
 };
@@ -91,8 +91,7 @@ Plot plot_over_axis(const ExperimentFolder& folder, bool differences) {
     points[others].push_back(&point);
   }
   if (x.axis)
-    for (auto& [others, of_one] : points)
-      std::ranges::stable_sort(of_one, {}, x_of);
+    for (auto& [others, of_one] : points) std::ranges::stable_sort(of_one, {}, x_of);
   for (std::size_t m = 0; m < folder.measures.size(); ++m)
     for (const std::string& others : combinations) {
       if (plot.views.size() >= kMostViews) return plot;

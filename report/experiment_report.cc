@@ -67,7 +67,8 @@ PageTable means_table(const ExperimentFolder& folder, std::size_t m) {
   const ExperimentMeasure& measure = folder.measures[m];
   PageTable table{fmt::format("{}{}; mean of the replications, {:g} % intervals", measure.with_unit(),
                               measure.meaning.empty() ? "" : ": " + measure.meaning, 100.0 * folder.confidence),
-                  axes_of(folder), {}};
+                  axes_of(folder),
+                  {}};
   table.header.push_back("runs");
   for (const std::string& paradigm : folder.paradigms) table.header.push_back(paradigm);
   for (const ExperimentPoint& point : folder.points) {
@@ -84,7 +85,9 @@ PageTable means_table(const ExperimentFolder& folder, std::size_t m) {
 
 PageTable differences_table(const ExperimentFolder& folder, std::size_t m) {
   PageTable table{fmt::format("{} less that of {}, paired by replication: whether it is less or more for certain",
-                              folder.measures[m].with_unit(), folder.baseline), axes_of(folder), {}};
+                              folder.measures[m].with_unit(), folder.baseline),
+                  axes_of(folder),
+                  {}};
   for (const std::string& paradigm : folder.paradigms)
     if (paradigm != folder.baseline) table.header.push_back(fmt::format("{} − {}", paradigm, folder.baseline));
   for (const ExperimentPoint& point : folder.points) {
@@ -163,9 +166,10 @@ void how_made(Page& page, const ExperimentFolder& folder) {
       std::string("The whole of it again, and one run with its log and a report of its own. The experiment's "
                   "file is below") +
       (folder.file.empty() ? "; it may be in another folder than experiments/:" : ":"));
-  page.command(fmt::format("ttfusion experiment {0} --out again\nttfusion experiment {0} --replay {1} --out one\n"
-                           "ttfusion report one -o one.html\n",
-                           file, shell_word(fmt::format("0/{}/0", folder.paradigms.front()))));
+  page.command(
+      fmt::format("ttfusion experiment {0} --out again\nttfusion experiment {0} --replay {1} --out one\n"
+                  "ttfusion report one -o one.html\n",
+                  file, shell_word(fmt::format("0/{}/0", folder.paradigms.front()))));
   page.preformatted("The experiment's file", head.text);
 }
 
@@ -219,10 +223,10 @@ std::string experiment_answer(const ExperimentFolder& folder) {
                                : least[p] == folder.points.size()
                                    ? fmt::format(" at all {} points", folder.points.size())
                                    : fmt::format(" at {} of {} points", least[p], folder.points.size());
-    const std::string sure = !folder.store              ? ""
-                             : certain[p] == least[p]   ? ", for certain"
-                             : certain[p] == 0          ? ", not for certain"
-                                                        : fmt::format(", for certain at {}", certain[p]);
+    const std::string sure = !folder.store            ? ""
+                             : certain[p] == least[p] ? ", for certain"
+                             : certain[p] == 0        ? ", not for certain"
+                                                      : fmt::format(", for certain at {}", certain[p]);
     text += text.empty()
                 ? fmt::format("{} has the smallest {}{}{}", folder.paradigms[p], folder.measures[0].name, points, sure)
                 : fmt::format("; {}{}{}", folder.paradigms[p], points, sure);
@@ -244,8 +248,10 @@ std::string experiment_report_html(const ExperimentFolder& folder, const Experim
   for (std::size_t a = 0; a < folder.axes.size(); ++a)
     axes.push_back(fmt::format("{} ({} to {})", folder.axes[a], folder.points.front().settings[a],
                                folder.points.back().settings[a]));
-  page.facts({{"paradigms", joined(folder.paradigms)}, {"baseline", folder.baseline},
-              {"axes", axes.empty() ? "none" : joined(axes)}, {"points", std::to_string(folder.points.size())},
+  page.facts({{"paradigms", joined(folder.paradigms)},
+              {"baseline", folder.baseline},
+              {"axes", axes.empty() ? "none" : joined(axes)},
+              {"points", std::to_string(folder.points.size())},
               {"runs", fmt::format("{}, of which {} failed", folder.runs, folder.failed)},
               {"measure that is asked for", folder.measures[0].with_unit()}});
   page.section("What came out");

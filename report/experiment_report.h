@@ -14,8 +14,8 @@ namespace ttf::report {
 // One run of every paradigm, driven again for its log.
 struct ExperimentDrives {
   std::uint32_t point = 0, replication = 0;
-  std::vector<Drive> drives;   // with logs, in the order of the folder's paradigms; or none
-  std::string why_none;        // a sentence; empty where they were not asked for
+  std::vector<Drive> drives;  // with logs, in the order of the folder's paradigms; or none
+  std::string why_none;       // a sentence; empty where they were not asked for
 };
 
 std::string experiment_report_html(const ExperimentFolder& folder, const ExperimentDrives& drives,

@@ -14,7 +14,7 @@ namespace ttf::report {
 namespace {
 
 constexpr std::size_t kValueColumns = 7;
-constexpr std::size_t kMostCellsARow = 64;   // of the grid, most of which has a row each
+constexpr std::size_t kMostCellsARow = 64;  // of the grid, most of which has a row each
 constexpr const char* kNameOfAFile = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
 
 }  // namespace
@@ -50,7 +50,7 @@ ExperimentSummary read_summary(std::string_view text, const std::string& file) {
   ExperimentSummary summary;
   summary.axes.assign(names.begin() + 1, names.end() - static_cast<std::ptrdiff_t>(kValueColumns));
   NameList points, paradigms, measures;
-  std::map<std::array<std::size_t, 3>, SummaryCell> cells;   // by point, measure and paradigm
+  std::map<std::array<std::size_t, 3>, SummaryCell> cells;  // by point, measure and paradigm
   while (lines.next()) {
     const std::vector<std::string>& row = lines.fields();
     if (!lines.broken().empty()) throw refuse(std::string(lines.broken()));

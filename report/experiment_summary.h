@@ -18,11 +18,11 @@ struct SummaryCell {
   double mean = kAbsent, half_width = kAbsent, difference = kAbsent, difference_half_width = kAbsent;
 };
 struct SummaryPoint {
-  std::vector<std::string> labels;               // by axis
-  std::vector<std::vector<SummaryCell>> cells;   // by measure, then paradigm
+  std::vector<std::string> labels;              // by axis
+  std::vector<std::vector<SummaryCell>> cells;  // by measure, then paradigm
 };
 struct ExperimentSummary {
-  std::vector<std::string> axes, paradigms, measures;   // in the order of the file; measures are fit for a file's name
+  std::vector<std::string> axes, paradigms, measures;  // in the order of the file; measures are fit for a file's name
   std::vector<SummaryPoint> points;
 };
 

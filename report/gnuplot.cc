@@ -13,7 +13,8 @@ namespace {
 
 // A line that ends in a backslash would go on in the next one.
 std::string comment(std::string text) {
-  std::ranges::replace_if(text, [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
+  std::ranges::replace_if(
+      text, [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
   text.erase(text.find_last_not_of(' ') + 1);
   return "# " + text + (text.ends_with('\\') ? "." : "") + "\n";
 }

@@ -17,12 +17,12 @@ struct PaperFile {
 
 // A picture of panels, row by row.
 struct GnuplotFigure {
-  std::string name;                     // of the script and of what it draws
-  std::vector<std::string> about;       // what the picture shows, a line each; comments of the script
-  std::string settings;                 // commands for all panels
+  std::string name;                // of the script and of what it draws
+  std::vector<std::string> about;  // what the picture shows, a line each; comments of the script
+  std::string settings;            // commands for all panels
   int columns = 1;
   double panel_width_cm = 8.5, panel_height_cm = 6.0;
-  std::vector<std::string> panels;      // commands of each, ending in a plot
+  std::vector<std::string> panels;  // commands of each, ending in a plot
 };
 PaperFile gnuplot_script(const GnuplotFigure& figure);
 

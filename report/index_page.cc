@@ -21,8 +21,8 @@ std::string url(std::string_view name) {
   std::string out;
   for (const char c : name) {
     const auto u = static_cast<unsigned char>(c);
-    const bool plain = (u >= '0' && u <= '9') || (u >= 'A' && u <= 'Z') || (u >= 'a' && u <= 'z') ||
-                       c == '-' || c == '_' || c == '.' || c == '/' || c == '~';
+    const bool plain = (u >= '0' && u <= '9') || (u >= 'A' && u <= 'Z') || (u >= 'a' && u <= 'z') || c == '-' ||
+                       c == '_' || c == '.' || c == '/' || c == '~';
     out += plain ? std::string(1, c) : fmt::format("%{:02X}", u);
   }
   return out;

@@ -13,9 +13,8 @@ namespace {
 
 using records::BinnedDurations;
 
-constexpr Area kPlot{112, 0, 860, 420};   // its top is below the legend
+constexpr Area kPlot{112, 0, 860, 420};  // its top is below the legend
 constexpr std::string_view kFloorDash = "6 3";
-
 
 // One distribution of wake-ups.
 struct Curve {

@@ -8,8 +8,8 @@
 
 namespace ttf::report {
 
-inline constexpr std::int64_t kMostCycleLines = 2000;   // in a picture: more are no grid any more
-inline constexpr Duration kLongestCycle = Duration::milliseconds(16);   // cCycleMax
+inline constexpr std::int64_t kMostCycleLines = 2000;                  // in a picture: more are no grid any more
+inline constexpr Duration kLongestCycle = Duration::milliseconds(16);  // cCycleMax
 
 // Within 36 years of the run's start.
 constexpr bool possible(std::int64_t ns) {

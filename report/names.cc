@@ -28,8 +28,7 @@ std::string Names::sensor(SensorId id) const { return at(sensors, index_of(id), 
 std::string Names::can_bus(std::size_t index) const { return at(can_buses, index, "CAN"); }
 
 std::string Names::task(NodeId node, std::uint8_t task) const {
-  return index_of(node) < tasks.size() ? at(tasks[index_of(node)], task, "task")
-                                       : fmt::format("task {}", task);
+  return index_of(node) < tasks.size() ? at(tasks[index_of(node)], task, "task") : fmt::format("task {}", task);
 }
 
 SensorId Names::sensor_of(PduId id) const {
@@ -79,14 +78,10 @@ SensorLook look_of(const std::string& sensor_name) {
 
 std::string sensor_colour(const Names& names, SensorId sensor) {
   switch (look_of(names.sensor(sensor))) {
-    case SensorLook::kLaser:
-      return std::string(kVermilion);
-    case SensorLook::kCamera:
-      return std::string(kBlue);
-    case SensorLook::kRadar:
-      return std::string(kGreen);
-    case SensorLook::kOther:
-      break;
+    case SensorLook::kLaser: return std::string(kVermilion);
+    case SensorLook::kCamera: return std::string(kBlue);
+    case SensorLook::kRadar: return std::string(kGreen);
+    case SensorLook::kOther: break;
   }
   const std::string others[] = {std::string(kPurple), std::string(kSkyBlue), std::string(kOrange)};
   return others[index_of(sensor) % 3];

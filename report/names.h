@@ -12,7 +12,7 @@ namespace ttf::report {
 
 // Index = the id's value (tasks: node, then task). Pictures of ids beyond a list show the number.
 struct Names {
-  std::string run;   // which drive, for titles: "paper_scenario1, tt"
+  std::string run;  // which drive, for titles: "paper_scenario1, tt"
   std::vector<std::string> nodes, pdus, sensors, can_buses;
   std::vector<std::vector<std::string>> tasks;
   // Per PDU the sensor whose measurement the list descends from, kNoSensor for none. May be left empty: then

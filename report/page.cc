@@ -52,7 +52,7 @@ std::string inlined(std::string_view svg, const std::string& prefix) {
   svg.remove_prefix(std::min(svg.find("<svg"), svg.size()));
   struct Mark {
     std::string_view text;
-    std::size_t at;   // the next
+    std::size_t at;  // the next
   };
   Mark marks[] = {{" id=\"", 0}, {"url(#", 0}};
   for (Mark& mark : marks) mark.at = svg.find(mark.text);
@@ -73,8 +73,9 @@ std::string inlined(std::string_view svg, const std::string& prefix) {
 }  // namespace
 
 std::string shell_word(const std::string& word) {
-  const bool plain = !word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                                             "0123456789_-./,:=@+") == word.npos;
+  const bool plain = !word.empty() && word.find_first_not_of(
+                                          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                          "0123456789_-./,:=@+") == word.npos;
   if (plain) return word;
   std::string out = "'";
   for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -102,8 +103,7 @@ void Page::points(const std::vector<std::string>& sentences) {
 
 void Page::facts(const std::vector<std::pair<std::string, std::string>>& facts) {
   body_ += "<dl class=\"facts\">\n";
-  for (const auto& [name, value] : facts)
-    body_ += fmt::format("<dt>{}</dt><dd>{}</dd>\n", escape(name), escape(value));
+  for (const auto& [name, value] : facts) body_ += fmt::format("<dt>{}</dt><dd>{}</dd>\n", escape(name), escape(value));
   body_ += "</dl>\n";
 }
 
@@ -138,16 +138,17 @@ void Page::plot(const Plot& plot) {
   const bool any = std::ranges::any_of(plot.views, [](const PlotView& view) { return !view.curves.empty(); });
   if (!any) return;
   static constexpr std::string_view kKinds[] = {"lines", "points", "steps"};
-  Json json{{"heading", plot.heading}, {"x", plot.x}, {"kind", kKinds[static_cast<std::size_t>(plot.kind)]},
+  Json json{{"heading", plot.heading},   {"x", plot.x},       {"kind", kKinds[static_cast<std::size_t>(plot.kind)]},
             {"log", plot.logarithmic_x}, {"zero", plot.zero}, {"views", Json::array()}};
   for (const PlotView& view : plot.views) {
     Json one{{"label", view.label}, {"y", view.y}, {"curves", Json::array()}};
     for (const Curve& curve : view.curves) one["curves"].push_back(curve_json(curve));
     json["views"].push_back(std::move(one));
   }
-  body_ += fmt::format("<figure class=\"plot\" data-plot=\"{}\"><figcaption><strong>{}</strong> {}</figcaption>"
-                       "<noscript><p>Plots need JavaScript, which is in this page.</p></noscript></figure>\n",
-                       plots_.size(), escape(plot.heading), escape(plot.caption));
+  body_ += fmt::format(
+      "<figure class=\"plot\" data-plot=\"{}\"><figcaption><strong>{}</strong> {}</figcaption>"
+      "<noscript><p>Plots need JavaScript, which is in this page.</p></noscript></figure>\n",
+      plots_.size(), escape(plot.heading), escape(plot.caption));
   plots_.push_back(std::move(json));
 }
 
@@ -192,9 +193,10 @@ std::string Page::html() const {
       escape(title_));
   out += assets::kUplotStyle;
   out += assets::kStyle;
-  out += fmt::format("</style></head>\n<body>\n<a class=\"skip\" href=\"#main\">To the report</a>\n"
-                     "<header><p class=\"kind\">{}</p><h1>{}</h1></header>\n<nav aria-label=\"Contents\"><ol>",
-                     escape(kind_), escape(title_));
+  out += fmt::format(
+      "</style></head>\n<body>\n<a class=\"skip\" href=\"#main\">To the report</a>\n"
+      "<header><p class=\"kind\">{}</p><h1>{}</h1></header>\n<nav aria-label=\"Contents\"><ol>",
+      escape(kind_), escape(title_));
   for (const Entry& entry : contents_)
     out += fmt::format("<li><a href=\"#{}\">{}</a></li>", entry.id, escape(entry.heading));
   out += "</ol></nav>\n<main id=\"main\">\n" + body_ + (contents_.empty() ? "" : "</section>\n") + "</main>\n<footer>";

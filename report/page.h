@@ -15,35 +15,35 @@ namespace ttf::report {
 
 struct PageTable {
   std::string caption;
-  std::vector<std::string> header;               // the first column names the rows
-  std::vector<std::vector<std::string>> rows;    // cells missing at the end are empty
+  std::vector<std::string> header;             // the first column names the rows
+  std::vector<std::vector<std::string>> rows;  // cells missing at the end are empty
 };
 
 // One curve. `low` and `high`, if any, are its interval; what is not finite is a gap.
 struct Curve {
   std::string label;
-  int colour = 0;                                // the same number is the same colour all over the page
+  int colour = 0;  // the same number is the same colour all over the page
   std::vector<double> x, y, low, high;
 };
 
 // What a plot shows; several of them in one plot are chosen from a list above it.
 struct PlotView {
-  std::string label;                             // in that list
-  std::string y;                                 // axis, with its unit
+  std::string label;  // in that list
+  std::string y;      // axis, with its unit
   std::vector<Curve> curves;
 };
 
 struct Plot {
   std::string heading, caption;
-  std::string x;                                 // axis, with its unit
-  enum class Kind : std::uint8_t { kLines, kPoints, kSteps } kind = Kind::kLines;   // steps: of histograms
+  std::string x;                                                                   // axis, with its unit
+  enum class Kind : std::uint8_t { kLines, kPoints, kSteps } kind = Kind::kLines;  // steps: of histograms
   bool logarithmic_x = false;
-  bool zero = false;                             // a line at 0: differences
+  bool zero = false;  // a line at 0: differences
   std::vector<PlotView> views;
 };
 
 struct PageDiagram {
-  std::string label, svg;                        // TimingDiagram::svg(TimingUse::kPage)
+  std::string label, svg;  // TimingDiagram::svg(TimingUse::kPage)
 };
 
 class Page {
@@ -52,7 +52,7 @@ class Page {
   Page(std::string title, std::string kind);
 
   void section(std::string_view heading);
-  void lead(std::string_view text);              // what it comes to, set large
+  void lead(std::string_view text);  // what it comes to, set large
   void paragraph(std::string_view text);
   void points(const std::vector<std::string>& sentences);
   void facts(const std::vector<std::pair<std::string, std::string>>& facts);
@@ -61,8 +61,8 @@ class Page {
   // A picture as it is: an SVG document of ours.
   void picture(std::string_view svg, std::string_view caption);
   void diagrams(const std::vector<PageDiagram>& diagrams, std::string_view caption);
-  void command(std::string_view words);          // to be copied into a shell
-  void preformatted(std::string_view summary, std::string_view text);   // behind a line that opens it
+  void command(std::string_view words);                                // to be copied into a shell
+  void preformatted(std::string_view summary, std::string_view text);  // behind a line that opens it
   void open_details(std::string_view summary);
   void close_details();
 

@@ -6,8 +6,8 @@
 namespace ttf::report::assets {
 
 extern const std::string_view kStyle;
-extern const std::string_view kPlotsScript;    // plots, with uPlot
-extern const std::string_view kTimingDrawingScript, kTimingScript;   // timing diagrams, in this order
+extern const std::string_view kPlotsScript;                         // plots, with uPlot
+extern const std::string_view kTimingDrawingScript, kTimingScript;  // timing diagrams, in this order
 extern const std::string_view kUplot, kUplotStyle, kUplotLicence;
 
 }  // namespace ttf::report::assets

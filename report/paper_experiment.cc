@@ -15,7 +15,7 @@
 namespace ttf::report {
 namespace {
 
-constexpr double kWideRange = 20.0;   // from here on an axis that is above 0 is drawn by its logarithm
+constexpr double kWideRange = 20.0;  // from here on an axis that is above 0 is drawn by its logarithm
 
 // What goes along the pictures' x: an axis by its numbers, all of one unit, or else one point after the other.
 struct AcrossAxis {
@@ -40,7 +40,7 @@ AcrossAxis across(const ExperimentSummary& summary) {
       least = std::min(least, number->first), most = std::max(most, number->first);
       unit = number->second;
     }
-    numbers = numbers && least < most;   // "1 ms" and "1.0 ms" are one place
+    numbers = numbers && least < most;  // "1 ms" and "1.0 ms" are one place
     if (labels.size() < 2 || (found.axis && !numbers)) continue;
     found = {a, numbers, numbers && least > 0.0 && most > kWideRange * least, numbers ? *unit : "", least, most};
   }
@@ -215,7 +215,7 @@ class MeasureFigure {
     text += range_of(k, column);
     if (!x_.by_number) text += label_tics(k);
     std::string curves = column == 2 ? "0 with lines linecolor rgb \"#888888\" notitle" : "";
-    const std::size_t first = summary_.axes.size() + 2;   // the column of x, counted from 1
+    const std::size_t first = summary_.axes.size() + 2;  // the column of x, counted from 1
     const std::size_t all = summary_.paradigms.size();
     const std::string table = gnuplot_text(summary_.measures[measure_] + ".csv");
     for (std::size_t p = 0; p < all; ++p) {
@@ -228,11 +228,11 @@ class MeasureFigure {
                             (x_.by_number ? 0.006 * (x_.most - x_.least) : 0.6 / static_cast<double>(all)) * beside);
       const std::size_t value = first + 1 + 4 * p + static_cast<std::size_t>(column);
       // An interval that is not there, as of a single run, is none.
-      curves += fmt::format("{}{} skip 1 using ($1=={}?{}:NaN):{}:(valid({})?column({}):0) with {} title {}{} "
-                            "pointsize 0.5",
-                            curves.empty() ? "" : ", \\\n  ", table, k, x, value, value + 1, value + 1,
-                            x_.by_number ? "yerrorlines" : "yerrorbars", gnuplot_text(summary_.paradigms[p]),
-                            gnuplot_curve(p));
+      curves += fmt::format(
+          "{}{} skip 1 using ($1=={}?{}:NaN):{}:(valid({})?column({}):0) with {} title {}{} "
+          "pointsize 0.5",
+          curves.empty() ? "" : ", \\\n  ", table, k, x, value, value + 1, value + 1,
+          x_.by_number ? "yerrorlines" : "yerrorbars", gnuplot_text(summary_.paradigms[p]), gnuplot_curve(p));
     }
     if (curves.empty()) curves = "0 with lines linecolor rgb \"#ffffff\" notitle";
     return text + "plot " + curves + "\n";

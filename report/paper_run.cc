@@ -172,7 +172,7 @@ PaperFile ages(const std::vector<PaperRun>& runs) {
 }  // namespace
 
 std::string sensor_kind(const std::string& name) {
-  std::string_view last = name;   // and `sensor truth` itself is `sensor sensor truth`
+  std::string_view last = name;  // and `sensor truth` itself is `sensor sensor truth`
   while (last.starts_with("sensor ")) last.remove_prefix(std::string_view("sensor ").size());
   return is_sensor(last) ? name : "sensor " + name;
 }

@@ -26,14 +26,14 @@ std::string sensor_kind(const std::string& name);
 
 // What a run's tables have. Nothing is drawn of what they have not.
 struct PaperRun {
-  std::string label;                                        // of its files
+  std::string label;  // of its files
   std::string title;
-  std::vector<std::string> kinds;                           // of positions
-  int object = 0;                                           // whose errors are drawn
-  bool errors = false, sigmas = false, nees = false;        // of that object; of all
-  double first_error_s = 0, last_error_s = 0;               // of that object
-  std::vector<std::pair<std::string, std::string>> ages;    // (of, sensor)
-  double least_age_ms = 0, most_age_ms = 0;                 // 0 among them
+  std::vector<std::string> kinds;                         // of positions
+  int object = 0;                                         // whose errors are drawn
+  bool errors = false, sigmas = false, nees = false;      // of that object; of all
+  double first_error_s = 0, last_error_s = 0;             // of that object
+  std::vector<std::pair<std::string, std::string>> ages;  // (of, sensor)
+  double least_age_ms = 0, most_age_ms = 0;               // 0 among them
 };
 
 std::vector<PaperFile> scripts_of_runs(const std::vector<PaperRun>& runs);

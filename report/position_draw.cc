@@ -16,8 +16,7 @@ using Sample = PositionPlots::Sample;
 using Selection = PositionPlots::Selection;
 
 constexpr double kLeft = 70, kMarker = 7;
-constexpr std::string_view kReference = kPurple, kFusion = kBlack, kTruth = "#777777",
-                           kUnused = "#a0a0a0";
+constexpr std::string_view kReference = kPurple, kFusion = kBlack, kTruth = "#777777", kUnused = "#a0a0a0";
 constexpr std::string_view kCaption =
     "Axes follow ISO 8855 (x forward, y to the left of the sensor vehicle); the paper draws y forward and x "
     "sideways.";
@@ -26,32 +25,24 @@ bool over_time(PositionView view) { return view != PositionView::kPlane; }
 
 Point coordinates(const Sample& s, PositionView view) {
   switch (view) {
-    case PositionView::kXOverTime:
-      return {s.t, s.x};
-    case PositionView::kYOverTime:
-      return {s.t, s.y};
-    case PositionView::kPlane:
-      break;
+    case PositionView::kXOverTime: return {s.t, s.x};
+    case PositionView::kYOverTime: return {s.t, s.y};
+    case PositionView::kPlane: break;
   }
   return {s.x, s.y};
 }
 
 Marker marker_of(SensorLook look) {
   switch (look) {
-    case SensorLook::kLaser:
-      return Marker::kCross;
-    case SensorLook::kCamera:
-      return Marker::kTriangle;
-    case SensorLook::kRadar:
-      return Marker::kDiamond;
-    case SensorLook::kOther:
-      break;
+    case SensorLook::kLaser: return Marker::kCross;
+    case SensorLook::kCamera: return Marker::kTriangle;
+    case SensorLook::kRadar: return Marker::kDiamond;
+    case SensorLook::kOther: break;
   }
   return Marker::kDownTriangle;
 }
 
-template <class Visit>
-void every_sample(const Selection& s, const Visit& visit) {
+template <class Visit> void every_sample(const Selection& s, const Visit& visit) {
   for (const auto* list : {&s.truth, &s.reference, &s.fusion, &s.unused})
     for (const Sample& sample : *list) visit(sample);
   for (const auto& list : s.observations)
@@ -83,28 +74,24 @@ std::vector<LegendEntry> legend_of(std::span<const Selection> selections, const 
     return std::ranges::any_of(selections, [&](const Selection& s) { return !(s.*list).empty(); });
   };
   std::vector<LegendEntry> legend;
-  if (any(&Selection::reference))
-    legend.push_back({K::kMarker, "dgps", std::string(kReference), Marker::kCircle});
+  if (any(&Selection::reference)) legend.push_back({K::kMarker, "dgps", std::string(kReference), Marker::kCircle});
   std::size_t sensors = 0;
   for (const Selection& s : selections) sensors = std::max(sensors, s.observations.size());
   for (std::size_t i = 0; i < sensors; ++i) {
     const SensorId id{static_cast<std::uint8_t>(i)};
-    if (std::ranges::any_of(selections, [&](const Selection& s) {
-          return i < s.observations.size() && !s.observations[i].empty();
-        }))
-      legend.push_back(
-          {K::kMarker, names.sensor(id), sensor_colour(names, id), marker_of(look_of(names.sensor(id)))});
+    if (std::ranges::any_of(
+            selections, [&](const Selection& s) { return i < s.observations.size() && !s.observations[i].empty(); }))
+      legend.push_back({K::kMarker, names.sensor(id), sensor_colour(names, id), marker_of(look_of(names.sensor(id)))});
   }
   if (any(&Selection::fusion))
-    legend.push_back(
-        {K::kMarker, "fusion (image at its instant of use)", std::string(kFusion), Marker::kSquare});
+    legend.push_back({K::kMarker, "fusion (image at its instant of use)", std::string(kFusion), Marker::kSquare});
   if (any(&Selection::unused))
     legend.push_back({K::kMarker, "image that nobody used", std::string(kUnused), Marker::kSquare});
   if (any(&Selection::truth)) legend.push_back({K::kLine, "truth", std::string(kTruth)});
   if (any(&Selection::instants)) legend.push_back({K::kNumber, "fusion instant", std::string(kBlack)});
   const auto late = [](const auto& a) { return a.late; };
-  const bool any_late = std::ranges::any_of(
-      selections, [&](const Selection& s) { return std::ranges::any_of(s.laser_arrows, late); });
+  const bool any_late =
+      std::ranges::any_of(selections, [&](const Selection& s) { return std::ranges::any_of(s.laser_arrows, late); });
   if (any(&Selection::laser_arrows))
     legend.push_back({K::kArrow, "laser measurement to its integration", std::string(kVermilion)});
   if (any_late) legend.push_back({K::kArrow, "the same, late", std::string(kVermilion), {}, false, "5 3"});
@@ -144,8 +131,8 @@ void draw_instants(Svg& svg, const PlotFrame& frame, const Selection& s, Positio
       const std::string text = fmt::format("{}", i->step);
       const Point centre{p.x, area.y - kStrip / 2 - 1};
       const Area box = box_around(centre, text);
-      const bool shown = numbers && box.x >= area.x - 10 && box.x + box.width <= area.x + area.width + 10 &&
-                         space.claim(box);
+      const bool shown =
+          numbers && box.x >= area.x - 10 && box.x + box.width <= area.x + area.width + 10 && space.claim(box);
       svg.line({p.x, area.y - (shown ? 4.0 : 0.0)}, {p.x, area.y + area.height},
                {.stroke = i->laser ? "#c4c4c4" : "#e4e4e4", .width = 0.7}, "instant-line");
       if (shown) boxed_number(svg, centre, text, kSize);
@@ -168,8 +155,8 @@ void draw_instants(Svg& svg, const PlotFrame& frame, const Selection& s, Positio
     for (const double reach : {26.0, 40.0, 56.0, 74.0}) {
       if (!i->laser && reach > 40) break;  // in a crowd only the instants the arrows lead to
       bool done = false;
-      for (const Point d : {Point{0, -1}, Point{0, 1}, Point{0.7, -0.7}, Point{-0.7, -0.7}, Point{0.7, 0.7},
-                            Point{-0.7, 0.7}}) {
+      for (const Point d :
+           {Point{0, -1}, Point{0, 1}, Point{0.7, -0.7}, Point{-0.7, -0.7}, Point{0.7, 0.7}, Point{-0.7, 0.7}}) {
         const Point c{p.x + reach * d.x, p.y + reach * d.y};
         const Area box = box_around(c, text);
         if (box.x < area.x || box.y < area.y || box.x + box.width > area.x + area.width ||
@@ -197,16 +184,15 @@ void draw_data(Svg& svg, const PlotFrame& frame, const Selection& s, const Names
   svg.open_group("data", frame.area());
   svg.polyline(line, {.stroke = kTruth, .width = 1.0}, false, "truth", "truth");
   for (const auto& a : s.laser_arrows)
-    svg.arrow(at(a.measured), at(a.fused), {.stroke = kVermilion, .width = 0.9, .dash = a.late ? "5 3" : ""},
-              fmt::format("{} #{}{}", names.sensor(a.measured.id.sensor), a.measured.id.sequence,
-                          a.late ? ", late" : ""),
-              a.late ? "arrow late" : "arrow");
+    svg.arrow(
+        at(a.measured), at(a.fused), {.stroke = kVermilion, .width = 0.9, .dash = a.late ? "5 3" : ""},
+        fmt::format("{} #{}{}", names.sensor(a.measured.id.sensor), a.measured.id.sequence, a.late ? ", late" : ""),
+        a.late ? "arrow late" : "arrow");
   const auto hover = [](const std::string& what, const Sample& v) {
     return fmt::format("{}: t {:.4f} s, x {:.2f} m, y {:.2f} m", what, v.t, v.x, v.y);
   };
   for (const Sample& v : s.reference)
-    svg.marker(Marker::kCircle, at(v), kMarker, {.stroke = kReference, .width = 1.3}, hover("dgps", v),
-               "dgps");
+    svg.marker(Marker::kCircle, at(v), kMarker, {.stroke = kReference, .width = 1.3}, hover("dgps", v), "dgps");
   for (std::size_t i = 0; i < s.observations.size(); ++i) {
     const SensorId id{static_cast<std::uint8_t>(i)};
     const std::string colour = sensor_colour(names, id), name = names.sensor(id);
@@ -215,11 +201,10 @@ void draw_data(Svg& svg, const PlotFrame& frame, const Selection& s, const Names
                  hover(fmt::format("{} #{}", name, v.id.sequence), v), "observation");
   }
   for (const Sample& v : s.unused)
-    svg.marker(Marker::kSquare, at(v), kMarker, {.stroke = kUnused, .width = 1.0},
-               hover("image that nobody used", v), "unused");
+    svg.marker(Marker::kSquare, at(v), kMarker, {.stroke = kUnused, .width = 1.0}, hover("image that nobody used", v),
+               "unused");
   for (const Sample& v : s.fusion)
-    svg.marker(Marker::kSquare, at(v), kMarker, {.stroke = kFusion, .width = 1.3}, hover("fusion", v),
-               "fusion");
+    svg.marker(Marker::kSquare, at(v), kMarker, {.stroke = kFusion, .width = 1.3}, hover("fusion", v), "fusion");
   svg.close_group();
 }
 

@@ -18,7 +18,7 @@ double seconds(GlobalTime t, const records::Stamp& stamp) {
   return (ns(t.ns) + offset) * 1e-9;
 }
 
-constexpr double kLongestUse = 1.0;   // s from an image to its last use; older ones are refused
+constexpr double kLongestUse = 1.0;  // s from an image to its last use; older ones are refused
 
 bool earlier(const PositionPlots::Sample& a, const PositionPlots::Sample& b) { return a.t < b.t; }
 
@@ -48,12 +48,10 @@ void PositionPlots::on(const records::ListFused& r) {
     fused_.push_back({r.step, r.id, r.disposition == Disposition::kFusedLate, seconds(r.measured, r.stamp)});
 }
 void PositionPlots::on(const records::FusionStep& r) {
-  steps_.push_back(
-      {r.step, r.stamp.true_time.ns != 0 ? seconds(r.stamp.true_time) : seconds(r.stamp.global, r.stamp)});
+  steps_.push_back({r.step, r.stamp.true_time.ns != 0 ? seconds(r.stamp.true_time) : seconds(r.stamp.global, r.stamp)});
 }
 void PositionPlots::on(const records::TrackState& r) {
-  if (!r.predicted_for_image)
-    tracks_.push_back({{seconds(r.valid_at, r.stamp), r.state[0], r.state[1], {}}, r.step});
+  if (!r.predicted_for_image) tracks_.push_back({{seconds(r.valid_at, r.stamp), r.state[0], r.state[1], {}}, r.step});
 }
 void PositionPlots::on(const records::ImageWritten& r) {
   Image& image = images_.emplace_back(Image{r.sequence, seconds(r.stamp.global, r.stamp), {}});
@@ -71,10 +69,7 @@ bool PositionPlots::is_used(const Image& image) const {
 void PositionPlots::on(const records::ReferenceFix& r) {
   if (r.object == options_.object)
     fixes_.push_back(
-        {r.measured_true.ns != 0 ? seconds(r.measured_true) : static_cast<double>(r.measured.ns) * 1e-9,
-         r.x,
-         r.y,
-         {}});
+        {r.measured_true.ns != 0 ? seconds(r.measured_true) : static_cast<double>(r.measured.ns) * 1e-9, r.x, r.y, {}});
 }
 void PositionPlots::on(const records::TruthState& r) {
   // Several nodes may have recorded it at one instant.
@@ -167,8 +162,7 @@ PositionPlots::Selection PositionPlots::select() const {
       if (s.id == f.id && std::abs(s.t - f.measured) < 1e-3) measured = &s;
     std::vector<Sample> at_step;
     if (const auto it = tracks.find(f.step); it != tracks.end()) add_nearest(it->second, at_step);
-    std::optional<Sample> at =
-        at_step.empty() ? interpolate(images, t->second, 0.05) : std::optional(at_step.front());
+    std::optional<Sample> at = at_step.empty() ? interpolate(images, t->second, 0.05) : std::optional(at_step.front());
     if (!at && measured != nullptr) at = *measured;
     if (!at) continue;
     at->t = t->second;

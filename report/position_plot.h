@@ -64,8 +64,8 @@ class PositionPlots : public records::Sink {
   };
   struct Selection {
     std::vector<Sample> truth, reference;
-    std::vector<Sample> fusion;   // of images that were used, at the instant they were predicted to
-    std::vector<Sample> unused;   // of those that nobody used, or that were refused as too old
+    std::vector<Sample> fusion;                     // of images that were used, at the instant they were predicted to
+    std::vector<Sample> unused;                     // of those that nobody used, or that were refused as too old
     std::vector<std::vector<Sample>> observations;  // per sensor
     std::vector<Integration> laser_arrows;
     std::vector<Instant> instants;
@@ -88,12 +88,12 @@ class PositionPlots : public records::Sink {
   };
   struct Image {
     std::uint32_t sequence;
-    double written;   // s
+    double written;  // s
     std::vector<Sample> objects;
   };
   struct Use {
     std::uint32_t image;
-    double t;         // s
+    double t;  // s
   };
   bool is_used(const Image& image) const;
   struct Positioned {

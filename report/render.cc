@@ -86,8 +86,7 @@ void write_picture(const std::string& svg, const std::string& path) {
     return;
   }
   GError* error = nullptr;
-  const Handle handle(
-      rsvg_handle_new_from_data(reinterpret_cast<const guint8*>(svg.data()), svg.size(), &error));
+  const Handle handle(rsvg_handle_new_from_data(reinterpret_cast<const guint8*>(svg.data()), svg.size(), &error));
   if (!handle) fail(path, "picture", "", "is not valid SVG: " + take(error));
   rsvg_handle_set_dpi(handle.get(), 96);
   double width = 0, height = 0;
@@ -110,8 +109,7 @@ void write_picture(const std::string& svg, const std::string& path) {
       fail_to_write(path, cairo_status_to_string(status));
     return;
   }
-  const Surface surface(
-      cairo_pdf_surface_create(path.c_str(), width * kPointsPerPixel, height * kPointsPerPixel));
+  const Surface surface(cairo_pdf_surface_create(path.c_str(), width * kPointsPerPixel, height * kPointsPerPixel));
   if (const cairo_status_t status = cairo_surface_status(surface.get()); status != CAIRO_STATUS_SUCCESS)
     fail_to_write(path, cairo_status_to_string(status));
   // cairo would write today's date: a fixed one keeps equal pictures equal bytes.

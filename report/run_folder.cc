@@ -52,7 +52,7 @@ Json parse_json(std::string_view text, const std::string& file) {
     const std::string_view before = text.substr(0, error.byte > 0 ? error.byte - 1 : 0);
     const auto line = 1 + static_cast<int>(std::ranges::count(before, '\n'));
     throw InputError({file, line, "", "", "must be JSON: it is damaged here, or cut off"});
-  } catch (const Json::exception&) {   // 1e999
+  } catch (const Json::exception&) {  // 1e999
     throw InputError({file, 0, "", "", "must be JSON: a number in it is none"});
   }
 }

@@ -19,18 +19,18 @@ FolderKind kind_of_folder(const std::string& path);
 // One strategy's drive.
 struct Drive {
   std::string folder, scenario, strategy;
-  std::string log_name;                                // the log's in the folder; "" where none was kept
-  std::string label;                                   // tells it from the others of the page
+  std::string log_name;  // the log's in the folder; "" where none was kept
+  std::string label;     // tells it from the others of the page
   std::uint64_t seed = 0;
-  nlohmann::ordered_json summary;                      // its part of summary.json; null without one
-  std::shared_ptr<const recording::MergedLogs> log;    // none: the run kept none
+  nlohmann::ordered_json summary;                    // its part of summary.json; null without one
+  std::shared_ptr<const recording::MergedLogs> log;  // none: the run kept none
 };
 
 struct RunFolder {
   std::string path;
-  nlohmann::ordered_json summary;                      // of all; null where there are logs alone
-  std::vector<Drive> drives;                           // at least one
-  std::vector<std::string> remarks;                    // sentences: what is missing or damaged
+  nlohmann::ordered_json summary;    // of all; null where there are logs alone
+  std::vector<Drive> drives;         // at least one
+  std::vector<std::string> remarks;  // sentences: what is missing or damaged
 };
 // Throws InputError: a summary that is none, a log that cannot be read.
 RunFolder read_run_folder(const std::string& path);

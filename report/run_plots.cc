@@ -9,7 +9,7 @@
 namespace ttf::report {
 namespace {
 
-constexpr std::size_t kMostPoints = 3000;   // of a curve; of a longer one the largest of neighbours
+constexpr std::size_t kMostPoints = 3000;  // of a curve; of a longer one the largest of neighbours
 constexpr int kBins = 40;
 constexpr std::string_view kTimeAxis = "true time [s]";
 
@@ -102,38 +102,62 @@ std::vector<Curve> histogram(const std::vector<NamedValues>& all, int bins) {
 Plot error_plot(const std::vector<ToldDrive>& drives) {
   Plot plot{"Error over time",
             "At each use of an image, against the truth: the root mean square over the objects that were matched.",
-            std::string(kTimeAxis), Plot::Kind::kLines, false, false, {}};
+            std::string(kTimeAxis),
+            Plot::Kind::kLines,
+            false,
+            false,
+            {}};
   add_view(plot, "position", "position error [m]", curves_of(drives, &RunSeries::position_error));
   add_view(plot, "velocity", "velocity error [m/s]", curves_of(drives, &RunSeries::velocity_error));
   return plot;
 }
 
 Plot age_plot(const std::vector<ToldDrive>& drives) {
-  Plot plot{"Age over time", "Of the newest measurement of each sensor in an image, at the instant the image is used.",
-            std::string(kTimeAxis), Plot::Kind::kLines, false, false, {}};
+  Plot plot{"Age over time",
+            "Of the newest measurement of each sensor in an image, at the instant the image is used.",
+            std::string(kTimeAxis),
+            Plot::Kind::kLines,
+            false,
+            false,
+            {}};
   add_view(plot, "newest of the sensors", "age [ms]", curves_of(drives, &RunSeries::newest_age));
   add_view(plot, "oldest of the sensors", "age [ms]", curves_of(drives, &RunSeries::oldest_age));
   return plot;
 }
 
 Plot age_histogram(const std::vector<ToldDrive>& drives) {
-  Plot plot{"How old measurements are", "Latency from the instant of measuring, as shares of all.", "age [ms]",
-            Plot::Kind::kSteps, false, false, {}};
+  Plot plot{"How old measurements are",
+            "Latency from the instant of measuring, as shares of all.",
+            "age [ms]",
+            Plot::Kind::kSteps,
+            false,
+            false,
+            {}};
   add_age_views(plot, drives, &RunSeries::age_used, "used");
   add_age_views(plot, drives, &RunSeries::age_fused, "fused");
   return plot;
 }
 
 Plot precision_plot(const std::vector<ToldDrive>& drives) {
-  Plot plot{"Precision", "Largest difference between any two nodes' global times, double cycle by double cycle.",
-            std::string(kTimeAxis), Plot::Kind::kLines, false, false, {}};
+  Plot plot{"Precision",
+            "Largest difference between any two nodes' global times, double cycle by double cycle.",
+            std::string(kTimeAxis),
+            Plot::Kind::kLines,
+            false,
+            false,
+            {}};
   add_view(plot, "precision", "clocks apart [us]", curves_of(drives, &RunSeries::precision));
   return plot;
 }
 
 Plot corrections_plot(const ToldDrive& told, const Names& names) {
-  Plot plot{told.drive->label + ": offset corrections", "What each node corrects its clock by in a double cycle.",
-            std::string(kTimeAxis), Plot::Kind::kLines, false, true, {}};
+  Plot plot{told.drive->label + ": offset corrections",
+            "What each node corrects its clock by in a double cycle.",
+            std::string(kTimeAxis),
+            Plot::Kind::kLines,
+            false,
+            true,
+            {}};
   std::vector<Curve> curves;
   int colour = 0;
   for (const auto& [node, values] : told.series.offset_corrections) {

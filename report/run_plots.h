@@ -11,10 +11,10 @@
 namespace ttf::report {
 
 Plot error_plot(const std::vector<ToldDrive>& drives);
-Plot age_plot(const std::vector<ToldDrive>& drives);             // over time
+Plot age_plot(const std::vector<ToldDrive>& drives);  // over time
 Plot age_histogram(const std::vector<ToldDrive>& drives);
 Plot precision_plot(const std::vector<ToldDrive>& drives);
-Plot corrections_plot(const ToldDrive& drive, const Names& names);   // a curve a node
+Plot corrections_plot(const ToldDrive& drive, const Names& names);  // a curve a node
 
 // Shares of the values in bins of one width over all of them, as curves of Plot::Kind::kSteps: x is where a bin begins,
 // with one more of height 0 behind the last.

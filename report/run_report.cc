@@ -20,7 +20,7 @@
 namespace ttf::report {
 namespace {
 
-constexpr std::size_t kMostPictures = 6;   // drives
+constexpr std::size_t kMostPictures = 6;  // drives
 
 // Its labels are words that tell the drives apart: strategies, or folders with them.
 void label_drives(std::vector<RunFolder>& folders) {
@@ -47,7 +47,8 @@ void asked(Page& page, const std::vector<RunFolder>& folders, const std::vector<
     const Drive& first = folder.drives.front();
     std::vector<std::string> strategies;
     for (const Drive& drive : folder.drives) strategies.push_back(drive.strategy);
-    std::vector<std::pair<std::string, std::string>> facts{{"folder", folder.path}, {"scenario", first.scenario},
+    std::vector<std::pair<std::string, std::string>> facts{{"folder", folder.path},
+                                                           {"scenario", first.scenario},
                                                            {"seed", std::to_string(first.seed)},
                                                            {"strategies", joined(strategies)}};
     if (const auto duration = folder.summary.find("duration_s");

@@ -16,8 +16,7 @@ double seconds_of(TrueTime t) { return static_cast<double>(t.ns) * 1e-9; }
 }  // namespace
 
 void RunSeriesSink::on(const records::ListFused& r) {
-  const bool fused =
-      r.disposition == records::Disposition::kFused || r.disposition == records::Disposition::kFusedLate;
+  const bool fused = r.disposition == records::Disposition::kFused || r.disposition == records::Disposition::kFusedLate;
   if (!fused || !possible(r.stamp.global.ns) || !possible(r.measured.ns) || !possible(r.stamp.true_time)) return;
   series_.age_fused[r.id.sensor].push_back(in_ms(r.stamp.global - r.measured));
   const TrueTime measured = records::true_time_of(r.stamp, r.measured);
@@ -48,8 +47,8 @@ void RunSeriesSink::on(const records::FeatureUsed& r) {
 }
 
 void RunSeriesSink::judge_age(std::uint32_t sequence, TrueTime used) {
-  const auto image = std::find_if(images_.rbegin(), images_.rend(),
-                                  [&](const Image& one) { return one.sequence == sequence; });
+  const auto image =
+      std::find_if(images_.rbegin(), images_.rend(), [&](const Image& one) { return one.sequence == sequence; });
   if (image == images_.rend() || image->newest.empty()) return;
   Duration newest = used - image->newest.front().measured, oldest = newest;
   for (const Fused& one : image->newest) {
@@ -70,7 +69,7 @@ void RunSeriesSink::on(const records::TruthState& r) {
     }
     truth_.clear();
   }
-  if (!truth_.empty() && truth_node_ != r.node) return;   // another node recorded the same
+  if (!truth_.empty() && truth_node_ != r.node) return;  // another node recorded the same
   truth_at_ = r.at;
   truth_node_ = r.node;
   truth_.push_back({r.x, r.y, r.speed * std::cos(r.heading), r.speed * std::sin(r.heading)});
@@ -160,9 +159,8 @@ std::vector<TimedValue> thinned(const std::vector<TimedValue>& all, std::size_t 
   for (std::size_t i = 0; i < all.size(); i += group) {
     const auto begin = all.begin() + static_cast<std::ptrdiff_t>(i);
     const auto end = all.begin() + static_cast<std::ptrdiff_t>(std::min(i + group, all.size()));
-    some.push_back(*std::max_element(begin, end, [](const TimedValue& a, const TimedValue& b) {
-      return std::abs(a.value) < std::abs(b.value);
-    }));
+    some.push_back(*std::max_element(
+        begin, end, [](const TimedValue& a, const TimedValue& b) { return std::abs(a.value) < std::abs(b.value); }));
   }
   return some;
 }

@@ -22,26 +22,26 @@ struct TimedValue {
 };
 
 struct FaultTold {
-  std::string kind, text;                    // text: of its first act, or of its begin where it has not acted
+  std::string kind, text;  // text: of its first act, or of its begin where it has not acted
   NodeId node = kNoNode;
   std::optional<double> begins_s, first_act_s, ends_s;
   std::uint64_t acts = 0;
 };
 
 struct RunSeries {
-  std::vector<TimedValue> position_error;    // [m] at each use of an image: root mean square over the objects matched
-  std::vector<TimedValue> velocity_error;    // [m/s]
-  std::vector<TimedValue> newest_age;        // [ms] of the newest measurement in an image, at its use
-  std::vector<TimedValue> oldest_age;        // [ms] of the sensor that was heard longest ago
-  std::map<SensorId, std::vector<double>> age_fused, age_used;   // [ms]
-  std::vector<TimedValue> precision;         // [us]
-  std::map<NodeId, std::vector<TimedValue>> offset_corrections;   // microticks
-  std::map<NodeId, std::map<std::uint8_t, std::uint64_t>> slot_problems;   // by the bits of their status: how many
-  std::map<std::pair<NodeId, std::uint8_t>, std::uint64_t> deadlines_missed;   // by task
+  std::vector<TimedValue> position_error;  // [m] at each use of an image: root mean square over the objects matched
+  std::vector<TimedValue> velocity_error;  // [m/s]
+  std::vector<TimedValue> newest_age;      // [ms] of the newest measurement in an image, at its use
+  std::vector<TimedValue> oldest_age;      // [ms] of the sensor that was heard longest ago
+  std::map<SensorId, std::vector<double>> age_fused, age_used;                // [ms]
+  std::vector<TimedValue> precision;                                          // [us]
+  std::map<NodeId, std::vector<TimedValue>> offset_corrections;               // microticks
+  std::map<NodeId, std::map<std::uint8_t, std::uint64_t>> slot_problems;      // by the bits of their status: how many
+  std::map<std::pair<NodeId, std::uint8_t>, std::uint64_t> deadlines_missed;  // by task
   std::map<std::uint32_t, FaultTold> faults;
-  std::map<std::string, std::uint64_t> guardian;   // what central guardians kept back, by the reason in words
+  std::map<std::string, std::uint64_t> guardian;  // what central guardians kept back, by the reason in words
   std::uint64_t missed = 0, spurious = 0, matched = 0;
-  double end_s = 0.0;                        // of the last task
+  double end_s = 0.0;  // of the last task
 };
 
 class RunSeriesSink final : public records::Sink {
@@ -83,8 +83,8 @@ class RunSeriesSink final : public records::Sink {
   double gate_m_;
   RunSeries series_;
   std::map<SensorId, Fused> newest_fused_;
-  std::deque<Image> images_;                 // the last few
-  std::optional<Use> pending_;               // waits for its truth
+  std::deque<Image> images_;    // the last few
+  std::optional<Use> pending_;  // waits for its truth
   std::vector<State> truth_;
   TrueTime truth_at_{};
   NodeId truth_node_{};

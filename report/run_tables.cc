@@ -18,14 +18,14 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double kConfidence = 0.95;
-constexpr std::size_t kMostRemarked = 6;   // drives; of more of them only what went wrong is told
+constexpr std::size_t kMostRemarked = 6;  // drives; of more of them only what went wrong is told
 
 struct MeasureRow {
   const char* name;
   const char* pointer;
   int decimals;
   double factor = 1.0;
-  bool rare = false;   // not shown where it is 0 in all
+  bool rare = false;  // not shown where it is 0 in all
 };
 
 constexpr MeasureRow kMeasureRows[] = {
@@ -70,7 +70,7 @@ constexpr std::pair<const char*, const char*> kTroubles[] = {{"/deadlines_missed
 // The drives of every seed that all of the strategies drove, strategy by strategy.
 struct Repeated {
   std::vector<std::string> strategies;
-  std::vector<std::vector<const Drive*>> runs;   // by seed, then strategy
+  std::vector<std::vector<const Drive*>> runs;  // by seed, then strategy
 };
 std::map<std::string, Repeated> repeated(const std::vector<ToldDrive>& drives) {
   std::map<std::string, std::map<std::uint64_t, std::map<std::string, const Drive*>>> by_scenario;
@@ -139,14 +139,14 @@ std::string repeated_answer(const std::string& scenario, const Repeated& runs) {
   std::vector<double> means;
   for (std::size_t s = 0; s < runs.strategies.size(); ++s) {
     means.push_back(interval(runs, pointer, s, std::nullopt).mean);
-    if (!(means[best] <= means[s]) && std::isfinite(means[s])) best = s;   // the first may have none
+    if (!(means[best] <= means[s]) && std::isfinite(means[s])) best = s;  // the first may have none
   }
   if (!std::isfinite(means[best]))
     return fmt::format("Over {} runs of {}: No position was compared with the truth.", runs.runs.size(), scenario);
   const results::Interval least = interval(runs, pointer, best, std::nullopt);
-  std::string text = fmt::format("Over {} runs of {}, {} has the smallest position error on average: {} m (95 %)",
-                                 runs.runs.size(), scenario, runs.strategies[best],
-                                 with_interval(least.mean, least.half_width));
+  std::string text =
+      fmt::format("Over {} runs of {}, {} has the smallest position error on average: {} m (95 %)", runs.runs.size(),
+                  scenario, runs.strategies[best], with_interval(least.mean, least.half_width));
   for (std::size_t s = 0; s < runs.strategies.size(); ++s) {
     if (s == best) continue;
     const results::Interval more = interval(runs, pointer, s, best);
@@ -228,7 +228,9 @@ std::vector<PageTable> repeated_tables(const std::vector<ToldDrive>& drives) {
   std::vector<PageTable> tables;
   for (const auto& [scenario, runs] : repeated(drives)) {
     PageTable table{fmt::format("{}: means of {} runs, 95 % intervals; differences are paired, run by run", scenario,
-                                runs.runs.size()), {"measure"}, {}};
+                                runs.runs.size()),
+                    {"measure"},
+                    {}};
     for (const std::string& strategy : runs.strategies) table.header.push_back(strategy);
     for (std::size_t s = 1; s < runs.strategies.size(); ++s)
       table.header.push_back(fmt::format("{} − {}", runs.strategies[s], runs.strategies[0]));

@@ -13,7 +13,7 @@ namespace ttf::report {
 
 struct ToldDrive {
   const Drive* drive = nullptr;
-  RunSeries series;              // empty without a log
+  RunSeries series;  // empty without a log
 };
 
 // The number at the pointer ("/rmse_truth/position_m") of a drive's summary.

@@ -26,9 +26,8 @@ std::vector<PageTable> trouble_tables(const ToldDrive& told) {
                            fault.node == kNoNode ? "-" : names.node(fault.node), seconds_cell(fault.begins_s),
                            seconds_cell(fault.first_act_s), std::to_string(fault.acts), seconds_cell(fault.ends_s),
                            fault.text});
-  PageTable slots{label + ": slots that did not bring one valid frame, as receivers saw them",
-                  {"receiver", "status", "times"},
-                  {}};
+  PageTable slots{
+      label + ": slots that did not bring one valid frame, as receivers saw them", {"receiver", "status", "times"}, {}};
   for (const auto& [node, by_status] : series.slot_problems)
     for (const auto& [status, times] : by_status)
       slots.rows.push_back({names.node(node), recording::slot_status_words(status), std::to_string(times)});

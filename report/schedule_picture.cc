@@ -36,8 +36,7 @@ class SchedulePainter {
     const std::vector<LegendEntry> legend = make_legend();
     const std::vector<TaskLane> lanes = task_lanes();
     for (const TaskLane& lane : lanes) left_ = std::clamp(text_width(lane.label, 10) + 24, left_, 320.0);
-    const double matrix_cell =
-        std::clamp(kPlot / std::max<double>(1.0, static_cast<double>(used_.size())), 16.0, 90.0);
+    const double matrix_cell = std::clamp(kPlot / std::max<double>(1.0, static_cast<double>(used_.size())), 16.0, 90.0);
     const double width = left_ + std::max(kPlot, matrix_cell * static_cast<double>(used_.size())) + 30;
     const double legend_y = 40, strip = legend_y + legend_height(legend, kPlot) + 34;
     const double tasks = strip + 2 * (kSlotLane + 6) + 14;
@@ -51,9 +50,9 @@ class SchedulePainter {
     svg_ = &svg;
     const auto& g = c_.flexray;
     svg.text({20, 24},
-             fmt::format("Schedule of {}: cycle {} ms, {} static slots of {} MT, {} minislots{}, NIT {} MT",
-                         c_.name, number(static_cast<double>(g.cycle_ps()) * 1e-9), g.gNumberOfStaticSlots,
-                         g.gdStaticSlot, g.gNumberOfMinislots,
+             fmt::format("Schedule of {}: cycle {} ms, {} static slots of {} MT, {} minislots{}, NIT {} MT", c_.name,
+                         number(static_cast<double>(g.cycle_ps()) * 1e-9), g.gNumberOfStaticSlots, g.gdStaticSlot,
+                         g.gNumberOfMinislots,
                          g.gdSymbolWindow > 0 ? fmt::format(", symbol window {} MT", g.gdSymbolWindow) : "", g.gdNIT),
              {.size = 14, .bold = true});
     draw_legend(svg, {left_, legend_y}, kPlot, legend);
@@ -112,8 +111,8 @@ class SchedulePainter {
 
   std::string frame_text(const FrameSlot& f) const {
     return f.pdu == kNoPdu ? names_.node(f.sender) + ": status"
-                           : fmt::format("{}: {} {}/{}", names_.node(f.sender), names_.pdu(f.pdu),
-                                         f.fragment + 1, c_.pdu(f.pdu).max_fragments());
+                           : fmt::format("{}: {} {}/{}", names_.node(f.sender), names_.pdu(f.pdu), f.fragment + 1,
+                                         c_.pdu(f.pdu).max_fragments());
   }
 
   // The longest beginning of a text that fits.
@@ -139,8 +138,8 @@ class SchedulePainter {
       for (const FrameSlot* f : here)
         hover += fmt::format("; {} in cycles {} mod {}", frame_text(*f), f->base_cycle, f->repetition);
       if (here.empty()) {
-        svg_->rect({left, top, width, kSlotLane}, {.fill = "#ffffff", .stroke = "#bbbbbb", .width = 0.5},
-                   hover, "slot free");
+        svg_->rect({left, top, width, kSlotLane}, {.fill = "#ffffff", .stroke = "#bbbbbb", .width = 0.5}, hover,
+                   "slot free");
       } else {
         // Multiplexed frames share the slot's height.
         const double part = kSlotLane / static_cast<double>(here.size());
@@ -154,9 +153,9 @@ class SchedulePainter {
       if (width >= 10 && !here.empty()) {
         // The owner above the PDU where two lines have room, else the PDU; the hover text has it all.
         const FrameSlot& f = *here.front();
-        std::string text = f.pdu == kNoPdu ? "status"
-                                           : fmt::format("{} {}/{}", names_.pdu(f.pdu), f.fragment + 1,
-                                                         c_.pdu(f.pdu).max_fragments());
+        std::string text =
+            f.pdu == kNoPdu ? "status"
+                            : fmt::format("{} {}/{}", names_.pdu(f.pdu), f.fragment + 1, c_.pdu(f.pdu).max_fragments());
         if (here.size() > 1) text += fmt::format(" +{}", here.size() - 1);
         const bool two = width >= 21;
         const double centre = left + width / 2 + 3, foot = top + kSlotLane - 14;
@@ -176,8 +175,7 @@ class SchedulePainter {
                  fmt::format("{}: {} MT", name, number(length)), "segment");
       const double free = x(at + taken), room = left + width - free;
       if (room > text_width(name, 10) + 6)
-        svg_->text({free + room / 2, top + kSlotLane / 2 + 4}, name,
-                   {.size = 10, .anchor = Anchor::kMiddle});
+        svg_->text({free + room / 2, top + kSlotLane / 2 + 4}, name, {.size = 10, .anchor = Anchor::kMiddle});
       else if (room > 11)
         svg_->text({free + room / 2 + 4, top + kSlotLane / 2}, name,
                    {.size = 9, .anchor = Anchor::kMiddle, .rotate = -90});
@@ -228,22 +226,19 @@ class SchedulePainter {
       for (const auto& task : node.tasks) {
         if (task.activation.kind != schedules::ActivationKind::kTime) continue;
         const auto& at = task.activation.at;
-        const std::string when =
-            at.repetition > 1 ? fmt::format(" ({} mod {})", at.base_cycle, at.repetition) : "";
-        lanes.push_back(
-            {node.name + ": " + task.name + when,
-             {{static_cast<double>(at.offset.value), macroticks(task.worst_case),
-               fmt::format("{}, at {} MT of cycles {} mod {}, at most {} us", task.name, at.offset.value,
-                           at.base_cycle, at.repetition, number(task.worst_case.seconds() * 1e6))}}});
+        const std::string when = at.repetition > 1 ? fmt::format(" ({} mod {})", at.base_cycle, at.repetition) : "";
+        lanes.push_back({node.name + ": " + task.name + when,
+                         {{static_cast<double>(at.offset.value), macroticks(task.worst_case),
+                           fmt::format("{}, at {} MT of cycles {} mod {}, at most {} us", task.name, at.offset.value,
+                                       at.base_cycle, at.repetition, number(task.worst_case.seconds() * 1e6))}}});
       }
     for (const auto& sensor : c_.sensors)
       if (sensor.scheduled)
-        lanes.push_back(
-            {fmt::format("{} measures{}", sensor.name,
-                         sensor.at.repetition > 1
-                             ? fmt::format(" ({} mod {})", sensor.at.base_cycle, sensor.at.repetition)
-                             : ""),
-             {{static_cast<double>(sensor.at.offset.value), 0, sensor.name}}});
+        lanes.push_back({fmt::format("{} measures{}", sensor.name,
+                                     sensor.at.repetition > 1
+                                         ? fmt::format(" ({} mod {})", sensor.at.base_cycle, sensor.at.repetition)
+                                         : ""),
+                         {{static_cast<double>(sensor.at.offset.value), 0, sensor.name}}});
     return lanes;
   }
 
@@ -256,8 +251,7 @@ class SchedulePainter {
                  {.size = 10, .anchor = Anchor::kEnd});
       for (const TaskBox& box : lanes[i].boxes) {
         if (box.length_mt <= 0) {
-          svg_->marker(Marker::kDownTriangle, {x(box.offset_mt), centre}, 11, {.fill = kBlack}, box.text,
-                       "instant");
+          svg_->marker(Marker::kDownTriangle, {x(box.offset_mt), centre}, 11, {.fill = kBlack}, box.text, "instant");
           continue;
         }
         // What runs on into the next cycle ends in an arrow at the cycle's end.
@@ -267,11 +261,10 @@ class SchedulePainter {
         if (box.offset_mt + box.length_mt > cycle)
           svg_->arrow({x(end) - 1, centre}, {x(end) + 14, centre}, {.stroke = "#5b7083", .width = 1.6},
                       "runs on into the next cycle", "overrun");
-        const std::string length = fmt::format(
-            "{} us", number(box.length_mt * static_cast<double>(c_.flexray.gdMacrotick_ps) * 1e-6));
+        const std::string length =
+            fmt::format("{} us", number(box.length_mt * static_cast<double>(c_.flexray.gdMacrotick_ps) * 1e-6));
         if (x(end) - x(box.offset_mt) > text_width(length, 9) + 6)
-          svg_->text({(x(box.offset_mt) + x(end)) / 2, centre + 3.5}, length,
-                     {.size = 9, .anchor = Anchor::kMiddle});
+          svg_->text({(x(box.offset_mt) + x(end)) / 2, centre + 3.5}, length, {.size = 9, .anchor = Anchor::kMiddle});
       }
     }
   }
@@ -285,8 +278,7 @@ class SchedulePainter {
       svg_->line({px, top}, {px, bottom + 4}, {.stroke = "#888888", .width = 0.5, .dash = "2 3"});
       svg_->text({px, bottom + 16}, tick_label(t, ticks.step), {.size = 10.5, .anchor = Anchor::kMiddle});
     }
-    svg_->text({left_ + kPlot / 2, bottom + 33}, "time in the cycle [ms]",
-               {.size = 11.5, .anchor = Anchor::kMiddle});
+    svg_->text({left_ + kPlot / 2, bottom + 33}, "time in the cycle [ms]", {.size = 11.5, .anchor = Anchor::kMiddle});
   }
 
   std::string list_of(const schedules::Task& task) const {
@@ -303,21 +295,13 @@ class SchedulePainter {
       for (const auto& task : node.tasks) {
         std::string when;
         switch (task.activation.kind) {
-          case ActivationKind::kTime:
-            continue;
-          case ActivationKind::kMessage:
-            when = "when " + list_of(task) + " has arrived";
-            break;
-          case ActivationKind::kSensor:
-            when = "when " + names_.sensor(task.activation.sensor) + " measures";
-            break;
-          case ActivationKind::kCompletion:
-            when = "when " + task.activation.after + " ends";
-            break;
+          case ActivationKind::kTime: continue;
+          case ActivationKind::kMessage: when = "when " + list_of(task) + " has arrived"; break;
+          case ActivationKind::kSensor: when = "when " + names_.sensor(task.activation.sensor) + " measures"; break;
+          case ActivationKind::kCompletion: when = "when " + task.activation.after + " ends"; break;
         }
         lines.push_back(fmt::format("{}: {} runs {}, {} to {} us", node.name, task.name, when,
-                                    number(task.best_case.seconds() * 1e6),
-                                    number(task.worst_case.seconds() * 1e6)));
+                                    number(task.best_case.seconds() * 1e6), number(task.worst_case.seconds() * 1e6)));
       }
     return lines;
   }
@@ -336,8 +320,7 @@ class SchedulePainter {
     svg_->text({left_ - 12, top - 6}, "slot", {.size = 10, .anchor = Anchor::kEnd});
     for (int cycle = 0; cycle < rows(); ++cycle) {
       const double y = top + row * cycle;
-      svg_->text({left_ - 12, y + row / 2 + 4}, fmt::format("cycle {}", cycle),
-                 {.size = 10, .anchor = Anchor::kEnd});
+      svg_->text({left_ - 12, y + row / 2 + 4}, fmt::format("cycle {}", cycle), {.size = 10, .anchor = Anchor::kEnd});
       for (std::size_t s = 0; s < used_.size(); ++s) {
         const double left = left_ + cell * static_cast<double>(s);
         svg_->rect({left, y, cell, row}, {.fill = "#ffffff"});
@@ -347,8 +330,7 @@ class SchedulePainter {
           svg_->rect({left, a ? y : y + row / 2, cell, a && b ? row : row / 2}, {.fill = colour(f->pdu)},
                      frame_text(*f), "cell");
           const std::string text =
-              f->pdu == kNoPdu ? "status"
-                               : fmt::format("{}/{}", f->fragment + 1, c_.pdu(f->pdu).max_fragments());
+              f->pdu == kNoPdu ? "status" : fmt::format("{}/{}", f->fragment + 1, c_.pdu(f->pdu).max_fragments());
           const double middle = a && b ? y + row / 2 : a ? y + row / 4 : y + row * 3 / 4;
           if (text_width(text, 8) <= cell - 2)
             svg_->text({left + cell / 2, middle + 3}, text, {.size = 8, .anchor = Anchor::kMiddle});

@@ -11,7 +11,7 @@ namespace ttf::report {
 
 struct LeadingNode {
   NodeId node{};
-  TrueTime cas{};   // end of the collision avoidance symbol its cycles count from
+  TrueTime cas{};  // end of the collision avoidance symbol its cycles count from
 };
 
 // The node that first went from coldstart consistency check to normal active, else the one that sent the last collision

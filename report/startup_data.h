@@ -14,7 +14,7 @@ struct StartupData {
   struct Change {
     TrueTime at;
     NodeId node;
-    std::uint8_t from, to;   // E-Ray CCSV.POCS
+    std::uint8_t from, to;  // E-Ray CCSV.POCS
     std::string from_name, to_name, why, consequence;
   };
   struct Power {
@@ -43,11 +43,11 @@ struct StartupData {
     std::string kind, text;
   };
 
-  std::vector<Change> changes;   // of the whole log: a state lasts until it is left
-  std::vector<Power> power;      // likewise
-  std::vector<Fault> faults;     // likewise
-  std::vector<Symbol> symbols;   // up to the end of the window: the cycles count from one
-  std::vector<Frame> frames;     // likewise
+  std::vector<Change> changes;  // of the whole log: a state lasts until it is left
+  std::vector<Power> power;     // likewise
+  std::vector<Fault> faults;    // likewise
+  std::vector<Symbol> symbols;  // up to the end of the window: the cycles count from one
+  std::vector<Frame> frames;    // likewise
 };
 
 // States that the picture and the leading node's cycles go by.

@@ -29,12 +29,11 @@ void StartupDiagram::on(const records::SymbolSent& r) {
 void StartupDiagram::on(const records::SlotFrameSent& r) {
   const TrueTime start = r.stamp.true_time, end = r.end.true_time;
   if (possible(start) && possible(end) && start <= to_ && possible_cycle(r.cycle))
-    data_.frames.push_back({start, end, r.stamp.node, r.cycle, r.slot, r.channel, r.null_frame,
-                            recording::is_startup_frame(r)});
+    data_.frames.push_back(
+        {start, end, r.stamp.node, r.cycle, r.slot, r.channel, r.null_frame, recording::is_startup_frame(r)});
 }
 void StartupDiagram::on(const records::FaultActivity& r) {
-  if (possible(r.at))
-    data_.faults.push_back({r.at, r.fault, r.what, r.node, std::string(r.kind), std::string(r.text)});
+  if (possible(r.at)) data_.faults.push_back({r.at, r.fault, r.what, r.node, std::string(r.kind), std::string(r.text)});
 }
 
 std::string StartupDiagram::svg() const {

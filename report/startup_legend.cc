@@ -34,8 +34,7 @@ std::vector<LegendEntry> startup_legend(const StartupData& data, const std::vect
   if (const auto faults = faults_within(data.faults, from, to); !faults.empty()) {
     legend.push_back({K::kBox, "fault, from its begin to its end", std::string(kFaultFill), {}, true});
     const auto acts = [&](const auto& f) { return f.what == records::kFaultActs && visible(f.at, f.at); };
-    if (std::ranges::any_of(faults, acts))
-      legend.push_back({K::kLine, "the fault acts", std::string(kVermilion)});
+    if (std::ranges::any_of(faults, acts)) legend.push_back({K::kLine, "the fault acts", std::string(kVermilion)});
   }
   return legend;
 }

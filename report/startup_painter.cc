@@ -28,13 +28,8 @@ class StartupPainter {
 
  public:
   StartupPainter(const Names& names, const StartupData& data, Duration cycle, TrueTime from, TrueTime to)
-      : names_(names),
-        data_(data),
-        from_(from),
-        to_(to),
-        spans_(state_spans(data, from, to)),
-        faults_(faults_within(data.faults, from, to)),
-        leader_(leading_node(data)),
+      : names_(names), data_(data), from_(from), to_(to), spans_(state_spans(data, from, to)),
+        faults_(faults_within(data.faults, from, to)), leader_(leading_node(data)),
         legend_(startup_legend(data, spans_, from, to)) {
     if (leader_) cycles_ = cycles_of(data, *leader_, cycle, to);
     for (const auto& c : data.changes) on_flexray_.insert(c.node);
@@ -66,15 +61,16 @@ class StartupPainter {
     const double legend_top = plot_.y + plot_.height + 46;
     // Nobody starts a cluster up that began integrated.
     const bool integrated = !leader_ && !active_from_the_start(data_).empty();
-    const std::string title = fmt::format("{}: {}, {} ms to {} ms", names_.run.empty() ? "Run" : names_.run,
-                                          integrated ? "changes of state" : "start-up", number(in_ms(from_)),
-                                          number(in_ms(to_)));
+    const std::string title =
+        fmt::format("{}: {}, {} ms to {} ms", names_.run.empty() ? "Run" : names_.run,
+                    integrated ? "changes of state" : "start-up", number(in_ms(from_)), number(in_ms(to_)));
     Svg svg(plot_.x + plot_.width + 24, legend_top + legend_height(legend_, legend_width) + 12, title);
     svg_ = &svg;
     svg.text({24, 22}, title, {.size = 14, .bold = true});
     if (leader_)
-      svg.text({24, 42}, fmt::format("Cycles count from the collision avoidance symbol of {}, which leads.",
-                                     names_.node(leader_->node)),
+      svg.text({24, 42},
+               fmt::format("Cycles count from the collision avoidance symbol of {}, which leads.",
+                           names_.node(leader_->node)),
                {.size = 11});
     grid();
     lanes();
@@ -113,8 +109,7 @@ class StartupPainter {
       const TrueTime end = next != cycles_.end() ? next->second : to_;
       if (!visible(it->second, end)) continue;
       const double left = stay_inside(x(it->second)), right = stay_inside(x(end));
-      if (it->first % 2 != 0)
-        svg_->rect({left, plot_.y, right - left, plot_.height}, {.fill = "#f4f4f4"}, {}, "cycle");
+      if (it->first % 2 != 0) svg_->rect({left, plot_.y, right - left, plot_.height}, {.fill = "#f4f4f4"}, {}, "cycle");
       if (it->second >= from_)
         svg_->line({left, plot_.y - 4}, {left, plot_.y + plot_.height}, {.stroke = "#b8b8b8", .width = 0.7}, "cycle");
       const std::string label = fmt::format("{}", it->first);
@@ -199,8 +194,8 @@ class StartupPainter {
           fmt::format("{}{}slot {}, cycle {}, {} ms", f.startup ? "startup frame, " : "",
                       f.null_frame ? "null frame, " : "", f.slot, f.cycle, number(in_ms(f.start)));
       if (f.null_frame && !f.startup)
-        svg_->rect(row(f.node, f.channel, f.start, f.end, 1.5),
-                   {.fill = "#ffffff", .stroke = kGrey, .width = 0.5}, hover, "null");
+        svg_->rect(row(f.node, f.channel, f.start, f.end, 1.5), {.fill = "#ffffff", .stroke = kGrey, .width = 0.5},
+                   hover, "null");
       else
         svg_->rect(row(f.node, f.channel, f.start, f.end, f.startup ? 2.0 : 1.2),
                    {.fill = f.startup ? kStartupFrameFill : kOtherFrameFill}, hover, f.startup ? "startup" : "frame");
@@ -213,8 +208,8 @@ class StartupPainter {
       if (!visible(s.start, s.end)) continue;
       Area area = row(s.node, s.channel, s.start, s.end, 2.5);
       area.x = x(s.end) - area.width;
-      svg_->rect(area, {.fill = kBlack},
-                 fmt::format("{}, {} ms", symbol_name(s.kind), number(in_ms(s.start))), "symbol");
+      svg_->rect(area, {.fill = kBlack}, fmt::format("{}, {} ms", symbol_name(s.kind), number(in_ms(s.start))),
+                 "symbol");
     }
   }
 
@@ -242,11 +237,11 @@ class StartupPainter {
         break;
       }
     }
-    for (const auto& p : data_.power)   // no note on a marker
+    for (const auto& p : data_.power)  // no note on a marker
       if (visible(p.at, p.at)) space_.take({x(p.at) - 5, top(p.node) + kNotes - 8, 10, 11});
     std::optional<std::pair<NodeId, TrueTime>> noted;
     for (const auto& s : data_.symbols) {
-      if (!visible(s.start, s.end) || noted == std::pair(s.node, s.start)) continue;   // one note for both channels
+      if (!visible(s.start, s.end) || noted == std::pair(s.node, s.start)) continue;  // one note for both channels
       noted = std::pair(s.node, s.start);
       note(symbol_name(s.kind), {.size = kText}, {x(s.start), top(s.node) + kNotes});
     }

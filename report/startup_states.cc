@@ -22,7 +22,7 @@ std::set<NodeId> active_from_the_start(const StartupData& data) {
     TrueTime at{};
     bool active = false;
   };
-  std::map<NodeId, Sign> first;   // of the node's states
+  std::map<NodeId, Sign> first;  // of the node's states
   for (const StartupData::Power& p : data.power) first.try_emplace(p.node, Sign{p.at, !p.on});
   for (const StartupData::Change& c : data.changes)
     if (const auto [sign, is_first] = first.try_emplace(c.node, Sign{c.at, false}); !is_first && c.at < sign->second.at)
@@ -111,7 +111,7 @@ std::string_view short_name(std::uint8_t state) {
 
 std::vector<StartupData::Fault> faults_within(const std::vector<StartupData::Fault>& faults, TrueTime from,
                                               TrueTime to) {
-  std::map<std::uint32_t, std::pair<TrueTime, TrueTime>> spans;   // from its first record to its end
+  std::map<std::uint32_t, std::pair<TrueTime, TrueTime>> spans;  // from its first record to its end
   for (const StartupData::Fault& f : faults) {
     auto& [begin, end] = spans.try_emplace(f.fault, f.at, to).first->second;
     begin = std::min(begin, f.at);

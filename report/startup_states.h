@@ -15,8 +15,8 @@ struct StateSpan {
   NodeId node{};
   std::uint8_t state = 0;
   TrueTime start{}, end{};
-  std::string name;   // as the log has it
-  std::string why;    // it was entered; empty where the log does not say
+  std::string name;  // as the log has it
+  std::string why;   // it was entered; empty where the log does not say
 };
 
 // The nodes that were normal active before the log says anything of their state: a run that begins integrated does not
@@ -31,7 +31,7 @@ std::vector<StateSpan> state_spans(const StartupData& data, TrueTime begin, True
 
 // What a node is about in a state: states of one phase have one colour.
 struct StatePhase {
-  std::string_view words;    // for the legend
+  std::string_view words;  // for the legend
   std::string colour;
 };
 StatePhase phase_of(std::uint8_t state);

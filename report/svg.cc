@@ -39,8 +39,7 @@ void add_class(std::string& out, std::string_view css_class) {
 std::string path_of(std::span<const Point> points, bool closed) {
   std::string d;
   for (std::size_t i = 0; i < points.size(); ++i)
-    fmt::format_to(std::back_inserter(d), "{}{} {}", i == 0 ? "M" : "L", number(points[i].x),
-                   number(points[i].y));
+    fmt::format_to(std::back_inserter(d), "{}{} {}", i == 0 ? "M" : "L", number(points[i].x), number(points[i].y));
   if (closed) d += 'Z';
   return d;
 }
@@ -60,20 +59,11 @@ std::string escape(std::string_view text) {
   out.reserve(text.size());
   for (const char c : text) {
     switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += static_cast<unsigned char>(c) < 0x20 && c != '\n' ? ' ' : c;
+      case '&': out += "&amp;"; break;
+      case '<': out += "&lt;"; break;
+      case '>': out += "&gt;"; break;
+      case '"': out += "&quot;"; break;
+      default: out += static_cast<unsigned char>(c) < 0x20 && c != '\n' ? ' ' : c;
     }
   }
   return out;
@@ -99,8 +89,7 @@ Area text_area(Point at, std::string_view text, const TextStyle& style) {
   return {left, at.y - 0.8 * style.size, width, style.size};
 }
 
-Svg::Svg(double width, double height, std::string_view title)
-    : width_(width), height_(height), title_(title) {}
+Svg::Svg(double width, double height, std::string_view title) : width_(width), height_(height), title_(title) {}
 
 void Svg::open_group(std::string_view css_class) {
   body_ += "<g";
@@ -110,8 +99,8 @@ void Svg::open_group(std::string_view css_class) {
 
 void Svg::open_group(std::string_view css_class, const Area& clip) {
   fmt::format_to(std::back_inserter(defs_),
-                 "<clipPath id=\"clip{}\"><rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/></clipPath>\n",
-                 clips_, number(clip.x), number(clip.y), number(clip.width), number(clip.height));
+                 "<clipPath id=\"clip{}\"><rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/></clipPath>\n", clips_,
+                 number(clip.x), number(clip.y), number(clip.width), number(clip.height));
   body_ += "<g";
   add_class(body_, css_class);
   fmt::format_to(std::back_inserter(body_), " clip-path=\"url(#clip{})\">\n", clips_++);
@@ -155,11 +144,10 @@ void Svg::arrow(Point a, Point b, const Paint& paint, std::string_view hover, st
   for (const char c : colour)
     if (c != '#') id += c;
   if (heads_.insert(id).second)
-    fmt::format_to(
-        std::back_inserter(defs_),
-        "<marker id=\"{}\" markerUnits=\"userSpaceOnUse\" markerWidth=\"8\" markerHeight=\"8\" refX=\"{}\" "
-        "refY=\"3\" orient=\"auto\"><path d=\"M0 0.4L6 3L0 5.6Z\" fill=\"{}\"/></marker>\n",
-        id, number(kHeadLength), colour);
+    fmt::format_to(std::back_inserter(defs_),
+                   "<marker id=\"{}\" markerUnits=\"userSpaceOnUse\" markerWidth=\"8\" markerHeight=\"8\" refX=\"{}\" "
+                   "refY=\"3\" orient=\"auto\"><path d=\"M0 0.4L6 3L0 5.6Z\" fill=\"{}\"/></marker>\n",
+                   id, number(kHeadLength), colour);
   const std::array<Point, 2> points{a, b};
   fmt::format_to(std::back_inserter(body_), "<path d=\"{}\"", path_of(points, false));
   add_class(body_, css_class);
@@ -178,8 +166,8 @@ void Svg::marker(Marker kind, Point at, double size, const Paint& paint, std::st
   };
   switch (kind) {
     case Marker::kCircle:
-      fmt::format_to(std::back_inserter(body_), "<circle cx=\"{}\" cy=\"{}\" r=\"{}\"", number(at.x),
-                     number(at.y), number(r));
+      fmt::format_to(std::back_inserter(body_), "<circle cx=\"{}\" cy=\"{}\" r=\"{}\"", number(at.x), number(at.y),
+                     number(r));
       add_class(body_, css_class);
       add_paint(body_, paint);
       finish_element("circle", hover);
@@ -191,34 +179,25 @@ void Svg::marker(Marker kind, Point at, double size, const Paint& paint, std::st
       add_paint(body_, paint);
       finish_element("path", hover);
       break;
-    case Marker::kTriangle:
-      shape({{0, -1.1}, {1, 0.8}, {-1, 0.8}});
-      break;
-    case Marker::kSquare:
-      shape({{-0.9, -0.9}, {0.9, -0.9}, {0.9, 0.9}, {-0.9, 0.9}});
-      break;
-    case Marker::kDiamond:
-      shape({{0, -1.2}, {1.2, 0}, {0, 1.2}, {-1.2, 0}});
-      break;
-    case Marker::kDownTriangle:
-      shape({{0, 1.1}, {1, -0.8}, {-1, -0.8}});
-      break;
+    case Marker::kTriangle: shape({{0, -1.1}, {1, 0.8}, {-1, 0.8}}); break;
+    case Marker::kSquare: shape({{-0.9, -0.9}, {0.9, -0.9}, {0.9, 0.9}, {-0.9, 0.9}}); break;
+    case Marker::kDiamond: shape({{0, -1.2}, {1.2, 0}, {0, 1.2}, {-1.2, 0}}); break;
+    case Marker::kDownTriangle: shape({{0, 1.1}, {1, -0.8}, {-1, -0.8}}); break;
   }
 }
 
 void Svg::text(Point at, std::string_view text, const TextStyle& style) {
-  fmt::format_to(std::back_inserter(body_), "<text x=\"{}\" y=\"{}\" font-size=\"{}\"", number(at.x),
-                 number(at.y), number(style.size));
+  fmt::format_to(std::back_inserter(body_), "<text x=\"{}\" y=\"{}\" font-size=\"{}\"", number(at.x), number(at.y),
+                 number(style.size));
   if (style.anchor != Anchor::kStart)
     fmt::format_to(std::back_inserter(body_), " text-anchor=\"{}\"",
                    style.anchor == Anchor::kMiddle ? "middle" : "end");
   if (style.bold) body_ += " font-weight=\"bold\"";
   if (style.fill != "#000000") fmt::format_to(std::back_inserter(body_), " fill=\"{}\"", style.fill);
   if (style.rotate != 0)
-    fmt::format_to(std::back_inserter(body_), " transform=\"rotate({} {} {})\"", number(style.rotate),
-                   number(at.x), number(at.y));
-  if (style.halo)
-    body_ += " stroke=\"#ffffff\" stroke-width=\"2.5\" stroke-linejoin=\"round\" paint-order=\"stroke\"";
+    fmt::format_to(std::back_inserter(body_), " transform=\"rotate({} {} {})\"", number(style.rotate), number(at.x),
+                   number(at.y));
+  if (style.halo) body_ += " stroke=\"#ffffff\" stroke-width=\"2.5\" stroke-linejoin=\"round\" paint-order=\"stroke\"";
   body_ += std::exchange(tags_, {});
   fmt::format_to(std::back_inserter(body_), ">{}</text>\n", escape(text));
 }

@@ -69,13 +69,11 @@ class Svg {
   void close_group();
 
   // `hover` becomes the shape's <title>.
-  void rect(const Area& area, const Paint& paint, std::string_view hover = {},
-            std::string_view css_class = {});
+  void rect(const Area& area, const Paint& paint, std::string_view hover = {}, std::string_view css_class = {});
   void line(Point a, Point b, const Paint& paint, std::string_view css_class = {});
-  void polyline(std::span<const Point> points, const Paint& paint, bool closed = false,
-                std::string_view hover = {}, std::string_view css_class = {});
-  void arrow(Point a, Point b, const Paint& paint, std::string_view hover = {},
-             std::string_view css_class = "arrow");
+  void polyline(std::span<const Point> points, const Paint& paint, bool closed = false, std::string_view hover = {},
+                std::string_view css_class = {});
+  void arrow(Point a, Point b, const Paint& paint, std::string_view hover = {}, std::string_view css_class = "arrow");
   void marker(Marker kind, Point at, double size, const Paint& paint, std::string_view hover = {},
               std::string_view css_class = {});
   void text(Point at, std::string_view text, const TextStyle& style = {});

@@ -37,8 +37,7 @@ void Table::add(std::vector<std::string> row) {
 }
 
 bool Table::numeric(std::size_t column) const {
-  return !rows_.empty() &&
-         std::ranges::all_of(rows_, [&](const auto& row) { return is_number(row[column]); });
+  return !rows_.empty() && std::ranges::all_of(rows_, [&](const auto& row) { return is_number(row[column]); });
 }
 
 std::vector<std::size_t> Table::widths() const {
@@ -56,8 +55,7 @@ std::string Table::text() const {
   std::string out;
   const auto line = [&](const std::vector<std::string>& cells) {
     std::string s;
-    for (std::size_t c = 0; c < cells.size(); ++c)
-      s += (c > 0 ? "  " : "") + padded(cells[c], width[c], numeric(c));
+    for (std::size_t c = 0; c < cells.size(); ++c) s += (c > 0 ? "  " : "") + padded(cells[c], width[c], numeric(c));
     s.erase(s.find_last_not_of(' ') + 1);
     out += s + "\n";
   };

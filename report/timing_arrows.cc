@@ -7,13 +7,10 @@ namespace ttf::report {
 
 double lane_height(const Lane& lane) {
   switch (lane.key.kind) {
-    case LaneKey::Kind::kSensor:
-      return 28;
-    case LaneKey::Kind::kChannel:
-      return 40;
+    case LaneKey::Kind::kSensor: return 28;
+    case LaneKey::Kind::kChannel: return 40;
     case LaneKey::Kind::kCan:
-    case LaneKey::Kind::kTask:
-      break;
+    case LaneKey::Kind::kTask: break;
   }
   return 30;
 }
@@ -40,14 +37,10 @@ void draw_way(Svg& svg, const TimingCanvas& canvas, const Way& way) {
     }
     const bool same = leg.from.lane == leg.to.lane;
     const double a = canvas.y(leg.from.lane), b = canvas.y(leg.to.lane), down = same ? 0 : b > a ? 1 : -1;
-    const auto edge = [&](const LaneKey& lane) {
-      return lane.kind == LaneKey::Kind::kSensor ? 5.0 : kBox / 2;
-    };
+    const auto edge = [&](const LaneKey& lane) { return lane.kind == LaneKey::Kind::kSensor ? 5.0 : kBox / 2; };
     const auto shift = [](const LaneKey& lane) { return lane.kind == LaneKey::Kind::kChannel ? 4.0 : 0.0; };
-    const Point p{canvas.x(leg.from.at),
-                  a + shift(leg.from.lane) + (same ? kBox / 2 + 3 : down * edge(leg.from.lane))};
-    const Point q{canvas.x(leg.to.at),
-                  b + shift(leg.to.lane) + (same ? kBox / 2 + 3 : -down * edge(leg.to.lane))};
+    const Point p{canvas.x(leg.from.at), a + shift(leg.from.lane) + (same ? kBox / 2 + 3 : down * edge(leg.from.lane))};
+    const Point q{canvas.x(leg.to.at), b + shift(leg.to.lane) + (same ? kBox / 2 + 3 : -down * edge(leg.to.lane))};
     svg.arrow(p, q,
               {.stroke = colour,
                .width = way.out_of_sequence ? 2.0

@@ -22,7 +22,7 @@ struct TimingCanvas {
   Area plot;
   std::map<LaneKey, double> centres;
 
-  static constexpr double kBox = 14, kText = 9.5;   // height of slots and tasks, size of what is written in them
+  static constexpr double kBox = 14, kText = 9.5;  // height of slots and tasks, size of what is written in them
 
   double x(TrueTime t) const {
     return plot.x + static_cast<double>((t - from).ns) / static_cast<double>((to - from).ns) * plot.width;

@@ -21,14 +21,14 @@ std::int64_t rounded(std::int64_t a, std::int64_t b) {
 struct Told {
   std::int64_t cycle;
   TrueTime start;
-  std::int64_t count;        // what the sender counts at the window's begin
-  std::int64_t rounds = 0;   // how far that is ahead of what most frames say
+  std::int64_t count;       // what the sender counts at the window's begin
+  std::int64_t rounds = 0;  // how far that is ahead of what most frames say
 };
 
 // In the order of the records.
 std::vector<Told> what_frames_tell(const TimingData& data, Duration cycle, TrueTime from) {
   std::vector<Told> all;
-  std::map<std::int64_t, std::size_t> frames;   // by count
+  std::map<std::int64_t, std::size_t> frames;  // by count
   for (const auto& f : data.slot_frames) {
     if (!f.by_the_cluster) continue;
     const TrueTime start = f.start - Duration{f.global.ns - f.cycle * cycle.ns};
@@ -36,8 +36,8 @@ std::vector<Told> what_frames_tell(const TimingData& data, Duration cycle, TrueT
     ++frames[all.back().count];
   }
   if (all.empty()) return all;
-  const auto usual = std::max_element(frames.begin(), frames.end(),
-                                      [](const auto& a, const auto& b) { return a.second < b.second; });
+  const auto usual =
+      std::max_element(frames.begin(), frames.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
   // In a window clocks drift from true time by far less than a cycle, and by nothing like a round.
   for (Told& told : all) told.rounds = rounded(told.count - usual->first, schedules::kCycles);
   return all;

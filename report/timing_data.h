@@ -31,7 +31,7 @@ struct TimingData {
     PduId pdu;
     std::uint32_t sequence;
     std::uint8_t fragment;
-    bool by_the_cluster = true;   // else its sender had no global time yet (records::Stamp)
+    bool by_the_cluster = true;  // else its sender had no global time yet (records::Stamp)
   };
   struct HopAt {
     TrueTime at;
@@ -70,7 +70,7 @@ struct TimingData {
     NodeId node;
     std::uint32_t image;
     bool fresh;
-    bool stale = false;   // it came too late to be of use
+    bool stale = false;  // it came too late to be of use
   };
   struct Fault {
     TrueTime at;
@@ -79,7 +79,7 @@ struct TimingData {
     NodeId node;
     std::string kind, text;
   };
-  struct OnChannel {      // records::ChannelFrame
+  struct OnChannel {  // records::ChannelFrame
     TrueTime start, end;
     NodeId sender;
     std::uint8_t channel, state;
@@ -87,7 +87,7 @@ struct TimingData {
     TrueTime sent;
     std::uint8_t sent_channel;
   };
-  struct Problem {        // records::TimingProblem
+  struct Problem {  // records::TimingProblem
     TrueTime at;
     NodeId node;
     std::uint8_t what;
@@ -107,7 +107,7 @@ struct TimingData {
   std::vector<Step> steps;
   std::vector<Image> images;
   std::vector<Use> uses;
-  std::vector<Fault> faults;         // begins and ends of the whole log up to the window, acts in it
+  std::vector<Fault> faults;  // begins and ends of the whole log up to the window, acts in it
   std::vector<OnChannel> on_channel;
   std::vector<Problem> problems;
 };

@@ -13,8 +13,7 @@
 namespace ttf::report {
 namespace {
 
-constexpr Duration kMargin =
-    Duration::milliseconds(300);  // ways of at most this length are followed into the window
+constexpr Duration kMargin = Duration::milliseconds(300);  // ways of at most this length are followed into the window
 
 }  // namespace
 
@@ -53,8 +52,7 @@ void TimingDiagram::on(const records::ListFused& r) {
     data_.fused.push_back({r.stamp.true_time, r.stamp.node, r.step, r.id, r.measured, r.disposition});
 }
 void TimingDiagram::on(const records::FusionStep& r) {
-  if (near(r.stamp.true_time, r.stamp.true_time))
-    data_.steps.push_back({r.stamp.true_time, r.stamp.node, r.step});
+  if (near(r.stamp.true_time, r.stamp.true_time)) data_.steps.push_back({r.stamp.true_time, r.stamp.node, r.step});
 }
 void TimingDiagram::on(const records::ImageWritten& r) {
   if (near(r.stamp.true_time, r.stamp.true_time))
@@ -82,12 +80,11 @@ void TimingDiagram::on(const records::TimingProblem& r) {
 
 std::string TimingDiagram::svg(TimingUse use) const {
   // These make the lanes; what was fused or used is drawn between them.
-  const bool nothing = data_.measurements.empty() && data_.can_frames.empty() && data_.slot_frames.empty() &&
-                       data_.runs.empty();
+  const bool nothing =
+      data_.measurements.empty() && data_.can_frames.empty() && data_.slot_frames.empty() && data_.runs.empty();
   if (from_ >= to_ || nothing)
     return empty_picture("Timing diagram", fmt::format("There are no records between {} ms and {} ms.",
-                                                       number(in_ms(from_)),
-                                                       number(in_ms(to_))));
+                                                       number(in_ms(from_)), number(in_ms(to_))));
   // Told of when it ended or, in a merged log, where it began: the picture is the same.
   TimingData data = data_;
   std::ranges::stable_sort(data.runs, {}, [](const TimingData::Run& run) { return std::tuple(run.start, run.node); });

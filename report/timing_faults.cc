@@ -30,9 +30,13 @@ FaultLanes::FaultLanes(const TimingData& data, const Names& names, TrueTime from
   for (const auto& f : data.faults) {
     if (f.what == records::kFaultBegins)
       lanes_.try_emplace(f.fault, Lane{f.node == kNoNode ? f.kind : fmt::format("{}, {}", f.kind, names.node(f.node)),
-                                       f.text, f.at, to, false, {}});
+                                       f.text,
+                                       f.at,
+                                       to,
+                                       false,
+                                       {}});
     const auto lane = lanes_.find(f.fault);
-    if (lane == lanes_.end()) continue;   // of a log that lost its begin
+    if (lane == lanes_.end()) continue;  // of a log that lost its begin
     if (f.what == records::kFaultEnds) {
       lane->second.end = f.at;
       lane->second.ends = true;

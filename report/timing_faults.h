@@ -15,7 +15,7 @@
 
 namespace ttf::report {
 
-inline constexpr std::string_view kFaultSpan = "#f2b8a0";   // as in start-up diagrams
+inline constexpr std::string_view kFaultSpan = "#f2b8a0";  // as in start-up diagrams
 
 // One bar per fault, from its begin to its end or to that of the window, and a mark where it acts.
 class FaultLanes {
@@ -37,17 +37,17 @@ class FaultLanes {
     std::string label, text;
     TrueTime start, end;
     bool ends;                                   // in the window
-    std::vector<const TimingData::Fault*> acts;   // in the window
+    std::vector<const TimingData::Fault*> acts;  // in the window
   };
   TrueTime from_, to_;
-  std::map<std::uint32_t, Lane> lanes_;   // by fault
+  std::map<std::uint32_t, Lane> lanes_;  // by fault
 };
 
 // What was on a channel otherwise than it was sent, where it is to be drawn: over its own box if it never arrived.
 struct ChannelMark {
   TrueTime start, end;
   std::uint8_t channel = 0;
-  bool missing = false;   // nothing of it reached anybody
+  bool missing = false;  // nothing of it reached anybody
   std::string words;
 };
 ChannelMark channel_mark(const TimingData::OnChannel& r, const Names& names);

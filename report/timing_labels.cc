@@ -48,8 +48,8 @@ class LabelPainter {
       }
       // Where channel A carries the same list, B needs no label of its own.
       if (t.lane.index == 1 && std::ranges::any_of(transfers, [&](const Transfer& o) {
-            return o.lane.kind == t.lane.kind && o.lane.index == 0 && o.pdu == t.pdu &&
-                   o.sequence == t.sequence && o.start == t.start;
+            return o.lane.kind == t.lane.kind && o.lane.index == 0 && o.pdu == t.pdu && o.sequence == t.sequence &&
+                   o.start == t.start;
           }))
         continue;
       const double baseline = canvas_.y(t.lane) + 4 - kBox / 2 - 4;

@@ -6,9 +6,8 @@
 
 namespace ttf::report {
 
-std::vector<LegendEntry> timing_legend(const TimingData& data, const Names& names,
-                                       const std::vector<Way>& ways, bool images, TrueTime from,
-                                       TrueTime to) {
+std::vector<LegendEntry> timing_legend(const TimingData& data, const Names& names, const std::vector<Way>& ways,
+                                       bool images, TrueTime from, TrueTime to) {
   const auto visible = [&](TrueTime start, TrueTime end) { return start < to && end >= from; };
   std::vector<LegendEntry> legend;
   using K = LegendEntry::Kind;
@@ -35,8 +34,7 @@ std::vector<LegendEntry> timing_legend(const TimingData& data, const Names& name
     else if (names.sensor_of(f.pdu) == kNoSensor)
       pdus[f.pdu] = true;
   }
-  for (const auto& [pdu, used] : pdus)
-    legend.push_back({K::kBox, names.pdu(pdu), pdu_colour(names, pdu), {}, true});
+  for (const auto& [pdu, used] : pdus) legend.push_back({K::kBox, names.pdu(pdu), pdu_colour(names, pdu), {}, true});
   if (images) legend.push_back({K::kArrow, "way of the real-time image", std::string(kBlack)});
   if (status) legend.push_back({K::kBox, "status frame", std::string(kStatusFrame), {}, true});
   if (null_frames) legend.push_back({K::kBox, "null frame", std::string(kGrey), {}, false});
@@ -46,8 +44,7 @@ std::vector<LegendEntry> timing_legend(const TimingData& data, const Names& name
   if (std::ranges::any_of(data.runs, [&](const auto& r) { return visible(r.activated, r.end); })) {
     legend.push_back({K::kBox, "task", std::string(kTaskFill), {}, true});
     legend.push_back({K::kLine, "activated, waiting", "#666666"});
-    if (std::ranges::any_of(data.runs,
-                            [&](const auto& r) { return !r.deadline_met && visible(r.activated, r.end); }))
+    if (std::ranges::any_of(data.runs, [&](const auto& r) { return !r.deadline_met && visible(r.activated, r.end); }))
       legend.push_back({K::kBox, "task, deadline missed", std::string(kDeadlineMissed), {}, true});
   }
   return legend;

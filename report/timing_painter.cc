@@ -25,11 +25,8 @@ class TimingPainter : TimingCanvas {
 
  public:
   TimingPainter(const TimingCanvas& empty, Duration cycle)
-      : TimingCanvas(empty),
-        cycle_(cycle),
-        transfers_(transfers_of(data)),
-        ways_(measurement_ways(data, names, transfers_)),
-        images_(image_ways(data, names, transfers_)),
+      : TimingCanvas(empty), cycle_(cycle), transfers_(transfers_of(data)),
+        ways_(measurement_ways(data, names, transfers_)), images_(image_ways(data, names, transfers_)),
         faults_(data, names, from, to) {
     std::vector<Way> all = ways_;
     all.insert(all.end(), images_.begin(), images_.end());
@@ -68,7 +65,8 @@ class TimingPainter : TimingCanvas {
     grid();
     faults_.draw_labels(svg, plot);
     svg.open_group("events", plot);
-    faults_.draw(svg, plot, [&](TrueTime t) { return x(t); }, tags);
+    faults_.draw(
+        svg, plot, [&](TrueTime t) { return x(t); }, tags);
     slots();
     channel_marks();
     can();
@@ -80,7 +78,12 @@ class TimingPainter : TimingCanvas {
     svg.close_group();
     svg.open_group("events", plot);
     instants();
-    problems_->draw(svg, [&](const LaneKey& lane, TrueTime at) { return Point{x(at), y(lane)}; }, tags);
+    problems_->draw(
+        svg,
+        [&](const LaneKey& lane, TrueTime at) {
+          return Point{x(at), y(lane)};
+        },
+        tags);
     svg.close_group();
     draw_labels(svg, *this, transfers_);
     svg.tag_next(tags.span(from, to));
@@ -105,8 +108,7 @@ class TimingPainter : TimingCanvas {
       }
       if (it->second >= from) {
         svg_->tag_next(tags.at(it->second));
-        svg_->line({left, plot.y - 4}, {left, plot.y + plot.height}, {.stroke = "#b8b8b8", .width = 0.7},
-                   "cycle");
+        svg_->line({left, plot.y - 4}, {left, plot.y + plot.height}, {.stroke = "#b8b8b8", .width = 0.7}, "cycle");
       }
       const std::string label = fmt::format("{}", it->first);
       const TextStyle style{.size = 10, .anchor = Anchor::kMiddle, .fill = "#444444"};
@@ -119,8 +121,7 @@ class TimingPainter : TimingCanvas {
       svg_->text({(left + right) / 2, plot.y - 7}, label, style);
     }
     if (!starts.empty())
-      svg_->text({plot.x - 10, plot.y - 7}, "cycle",
-                 {.size = 10, .anchor = Anchor::kEnd, .fill = "#444444"});
+      svg_->text({plot.x - 10, plot.y - 7}, "cycle", {.size = 10, .anchor = Anchor::kEnd, .fill = "#444444"});
     int section = lanes_.front().section;
     for (const Lane& lane : lanes_) {
       const double centre = y(lane.key), half = lane_height(lane) / 2;
@@ -132,7 +133,7 @@ class TimingPainter : TimingCanvas {
       svg_->line({plot.x, centre}, {plot.x + plot.width, centre}, {.stroke = "#e0e0e0", .width = 0.7});
       svg_->text({plot.x - 10, centre + 4}, lane.label, {.size = 11, .anchor = Anchor::kEnd});
     }
-    if (tags.on()) {   // of its own: the script draws another
+    if (tags.on()) {  // of its own: the script draws another
       svg_->close_group();
       svg_->open_group("time");
     }
@@ -146,9 +147,9 @@ class TimingPainter : TimingCanvas {
       const double centre = y({LaneKey::Kind::kChannel, f.channel, 0}) + 4;
       const double width = std::max(1.0, x(f.end) - x(f.start));
       const std::string colour = pdu_colour(names, f.pdu);
-      const std::string hover = fmt::format("slot {}, cycle {}, {}{} #{} fragment {}, from {}", f.slot,
-                                            f.cycle, f.null_frame ? "null frame, " : "", names.pdu(f.pdu),
-                                            f.sequence, f.fragment, names.node(f.node));
+      const std::string hover =
+          fmt::format("slot {}, cycle {}, {}{} #{} fragment {}, from {}", f.slot, f.cycle,
+                      f.null_frame ? "null frame, " : "", names.pdu(f.pdu), f.sequence, f.fragment, names.node(f.node));
       const Area area{x(f.start), centre - kBox / 2, width, kBox};
       svg_->tag_next(tags.span(f.start, f.end) +
                      (f.pdu == kNoPdu ? "" : tags.list(names.sensor_of(f.pdu), f.sequence)));
@@ -202,8 +203,7 @@ class TimingPainter : TimingCanvas {
       svg_->tag_next(tags.span(t.start, t.end) + tags.list(names.sensor_of(t.pdu), t.sequence));
       svg_->rect({x(t.start), y(t.lane) - kBox / 2, std::max(1.5, x(t.end) - x(t.start)), kBox},
                  {.fill = tint(colour, 0.55), .stroke = colour, .width = 0.9},
-                 fmt::format("{} #{}{}", names.pdu(t.pdu), t.sequence, times(t.start, t.end)),
-                 "transfer");
+                 fmt::format("{} #{}{}", names.pdu(t.pdu), t.sequence, times(t.start, t.end)), "transfer");
     }
   }
 
@@ -215,19 +215,17 @@ class TimingPainter : TimingCanvas {
         svg_->tag_next(tags.span(r.activated, r.start));
         svg_->line({x(r.activated), centre}, {x(r.start), centre}, {.stroke = "#666666", .width = 1.5});
         svg_->tag_next(tags.at(r.activated));
-        svg_->line({x(r.activated), centre - 4}, {x(r.activated), centre + 4},
-                   {.stroke = "#666666", .width = 1.0});
+        svg_->line({x(r.activated), centre - 4}, {x(r.activated), centre + 4}, {.stroke = "#666666", .width = 1.0});
       }
       const double width = std::max(1.5, x(r.end) - x(r.start));
       svg_->tag_next(tags.span(r.start, r.end));
-      svg_->rect(
-          {x(r.start), centre - kBox / 2, width, kBox},
-          {.fill = r.deadline_met ? "#c9d7e6" : kDeadlineMissed,
-           .stroke = r.deadline_met ? "#5b7083" : kBlack,
-           .width = r.deadline_met ? 0.6 : 1.6},
-          fmt::format("{}: {}{}{}", names.node(r.node), names.task(r.node, r.task), times(r.start, r.end),
-                      r.deadline_met ? "" : ", deadline missed"),
-          r.deadline_met ? "task" : "task missed");
+      svg_->rect({x(r.start), centre - kBox / 2, width, kBox},
+                 {.fill = r.deadline_met ? "#c9d7e6" : kDeadlineMissed,
+                  .stroke = r.deadline_met ? "#5b7083" : kBlack,
+                  .width = r.deadline_met ? 0.6 : 1.6},
+                 fmt::format("{}: {}{}{}", names.node(r.node), names.task(r.node, r.task), times(r.start, r.end),
+                             r.deadline_met ? "" : ", deadline missed"),
+                 r.deadline_met ? "task" : "task missed");
     }
   }
 
@@ -254,7 +252,7 @@ class TimingPainter : TimingCanvas {
   std::vector<Way> ways_, images_;
   FaultLanes faults_;
   std::vector<ChannelMark> marks_;
-  std::optional<ProblemMarks> problems_;   // when the lanes are known
+  std::optional<ProblemMarks> problems_;  // when the lanes are known
   std::vector<Lane> lanes_;
   std::vector<LegendEntry> legend_;
   Svg* svg_ = nullptr;

@@ -19,7 +19,7 @@ std::string paint_timing(const Names& names, const TimingData& data, Duration cy
                          TimingUse use);
 
 // What the picture explains: only what occurs in the window.
-std::vector<LegendEntry> timing_legend(const TimingData& data, const Names& names,
-                                       const std::vector<Way>& ways, bool images, TrueTime from, TrueTime to);
+std::vector<LegendEntry> timing_legend(const TimingData& data, const Names& names, const std::vector<Way>& ways,
+                                       bool images, TrueTime from, TrueTime to);
 
 }  // namespace ttf::report

@@ -22,12 +22,9 @@ std::string words_of(const TimingData::Problem& p, const Names& names) {
   const std::string by = number(static_cast<double>(p.late.ns) * 1e-3);
   const std::string slot = fmt::format("slot {} of cycle {}", p.slot, p.cycle);
   switch (p.what) {
-    case records::kLateWakeUp:
-      return fmt::format("{}: woken up {} us late", names.node(p.node), by);
-    case records::kSlotMissed:
-      return fmt::format("{}: missed its {}, {} us late", names.node(p.node), slot, by);
-    case records::kLateFrame:
-      return fmt::format("{}: the frame of {} came {} us late", names.node(p.node), slot, by);
+    case records::kLateWakeUp: return fmt::format("{}: woken up {} us late", names.node(p.node), by);
+    case records::kSlotMissed: return fmt::format("{}: missed its {}, {} us late", names.node(p.node), slot, by);
+    case records::kLateFrame: return fmt::format("{}: the frame of {} came {} us late", names.node(p.node), slot, by);
     case records::kEarlyFrame:
       return fmt::format("{}: the frame of {} came {} us early", names.node(p.node), slot,
                          number(static_cast<double>(p.late.ns) * -1e-3));

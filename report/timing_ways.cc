@@ -12,7 +12,7 @@ namespace {
 
 constexpr Duration kSameList = Duration::milliseconds(100);    // largest gap between two frames of one list
 constexpr Duration kLongestWay = Duration::milliseconds(500);  // from a measurement to the last trace of it
-constexpr Duration kTolerance = Duration::microseconds(2);  // between a task's start and what it reports then
+constexpr Duration kTolerance = Duration::microseconds(2);     // between a task's start and what it reports then
 
 bool same_sequence(std::uint32_t a, std::uint32_t b) { return ((a ^ b) & 0xffu) == 0; }
 
@@ -44,8 +44,8 @@ struct Segment {
   TrueTime in, out;
 };
 
-bool belongs(const MeasurementId& id, TrueTime measured, const Names& names, PduId pdu,
-             std::uint32_t sequence, TrueTime at) {
+bool belongs(const MeasurementId& id, TrueTime measured, const Names& names, PduId pdu, std::uint32_t sequence,
+             TrueTime at) {
   return same_sequence(sequence, id.sequence) && at >= measured && at < measured + kLongestWay &&
          names.sensor_of(pdu) == id.sensor;
 }
@@ -84,11 +84,9 @@ std::set<std::pair<MeasurementId, TrueTime>> out_of_sequence(const TimingData& d
     for (; i < data.fused.size() && data.fused[i].at == at; ++i) {
       const auto& f = data.fused[i];
       const auto [entry, first] = seen.try_emplace(f.id, f.at);
-      if (!first && f.at - entry->second < kLongestWay && f.what != records::Disposition::kFusedLate)
-        continue;
+      if (!first && f.at - entry->second < kLongestWay && f.what != records::Disposition::kFusedLate) continue;
       entry->second = f.at;
-      if ((newest && f.measured < *newest) || f.what == records::Disposition::kFusedLate)
-        late.insert({f.id, f.at});
+      if ((newest && f.measured < *newest) || f.what == records::Disposition::kFusedLate) late.insert({f.id, f.at});
       if (!newest_here || f.measured > *newest_here) newest_here = f.measured;
     }
     newest = newest_here;
@@ -127,8 +125,7 @@ std::vector<Transfer> transfers_of(const TimingData& data) {
     entry->second = transfers.size();
     transfers.push_back(t);
   };
-  for (const auto& f : data.can_frames)
-    add({{LaneKey::Kind::kCan, f.bus, 0}, f.start, f.end, f.pdu, f.sequence});
+  for (const auto& f : data.can_frames) add({{LaneKey::Kind::kCan, f.bus, 0}, f.start, f.end, f.pdu, f.sequence});
   // A state message is sent again whenever its slots come round: what travels is the first time of each
   // fragment.
   struct Sent {
@@ -139,8 +136,7 @@ std::vector<Transfer> transfers_of(const TimingData& data) {
   for (const auto& f : data.slot_frames) {
     if (f.null_frame || f.pdu == kNoPdu) continue;
     const auto [entry, first] = sent.try_emplace({f.channel, f.pdu, f.sequence}, Sent{{}, f.end});
-    if (f.start - entry->second.last >= kSameList)
-      entry->second.fragments.reset();  // the counter has come round
+    if (f.start - entry->second.last >= kSameList) entry->second.fragments.reset();  // the counter has come round
     entry->second.last = f.end;
     if (entry->second.fragments[f.fragment]) continue;
     entry->second.fragments.set(f.fragment);
@@ -149,16 +145,14 @@ std::vector<Transfer> transfers_of(const TimingData& data) {
   return transfers;
 }
 
-std::vector<Way> measurement_ways(const TimingData& data, const Names& names,
-                                  const std::vector<Transfer>& transfers) {
+std::vector<Way> measurement_ways(const TimingData& data, const Names& names, const std::vector<Transfer>& transfers) {
   const std::set<NodeId> fusion = fusion_nodes(data);
   const auto late = out_of_sequence(data);
   std::vector<Way> ways;
   for (const auto& m : data.measurements) {
     std::vector<Segment> segments;
     for (const Transfer& t : transfers)
-      if (belongs(m.id, m.at, names, t.pdu, t.sequence, t.start))
-        segments.push_back({t.lane, t.start, t.end});
+      if (belongs(m.id, m.at, names, t.pdu, t.sequence, t.start)) segments.push_back({t.lane, t.start, t.end});
     bool lost = false;
     for (const auto& h : data.hops) {
       if (!belongs(m.id, m.at, names, h.pdu, h.sequence, h.at)) continue;
@@ -167,22 +161,17 @@ std::vector<Way> measurement_ways(const TimingData& data, const Names& names,
       const bool passes = h.hop == records::Hop::kRead || h.hop == records::Hop::kWritten;
       if (!passes || fusion.contains(h.node)) continue;
       const TimingData::Run* run = run_at(data, h.node, h.at);
-      if (run != nullptr && run->start >= m.at)
-        segments.push_back({task_lane(h.node, run), run->start, run->end});
+      if (run != nullptr && run->start >= m.at) segments.push_back({task_lane(h.node, run), run->start, run->end});
     }
     sort_and_thin(segments);
 
-    Way way{m.id,
-            legs_through({{LaneKey::Kind::kSensor, index_of(m.id.sensor), 0}, m.at}, segments),
-            false,
-            false,
-            {}};
+    Way way{m.id, legs_through({{LaneKey::Kind::kSensor, index_of(m.id.sensor), 0}, m.at}, segments), false, false, {}};
     way.last = segments.empty() ? Stop{{LaneKey::Kind::kSensor, index_of(m.id.sensor), 0}, m.at}
                                 : Stop{segments.back().lane, segments.back().out};
     bool reached = false;
     for (const auto& f : data.fused) {
-      const bool mine = f.id.sensor == m.id.sensor && same_sequence(f.id.sequence, m.id.sequence) &&
-                        f.at >= m.at && f.at < m.at + kLongestWay;
+      const bool mine = f.id.sensor == m.id.sensor && same_sequence(f.id.sequence, m.id.sequence) && f.at >= m.at &&
+                        f.at < m.at + kLongestWay;
       if (!mine) continue;
       const TimingData::Run* run = run_at(data, f.node, f.at);
       const Stop step{task_lane(f.node, run), run != nullptr ? run->start : f.at};
@@ -204,8 +193,7 @@ std::vector<Way> measurement_ways(const TimingData& data, const Names& names,
   return ways;
 }
 
-std::vector<Way> image_ways(const TimingData& data, const Names& names,
-                            const std::vector<Transfer>& transfers) {
+std::vector<Way> image_ways(const TimingData& data, const Names& names, const std::vector<Transfer>& transfers) {
   std::vector<Way> ways;
   for (const auto& image : data.images) {
     const TimingData::Run* writer = run_at(data, image.node, image.at);
@@ -216,9 +204,8 @@ std::vector<Way> image_ways(const TimingData& data, const Names& names,
       if (f.node == image.node && f.pdu != kNoPdu && names.sensor_of(f.pdu) == kNoSensor) own.insert(f.pdu);
     std::vector<Segment> segments;
     for (const Transfer& t : transfers)
-      if (t.lane.kind == LaneKey::Kind::kChannel && own.contains(t.pdu) &&
-          same_sequence(t.sequence, image.sequence) && t.start >= image.at &&
-          t.start < image.at + kLongestWay)
+      if (t.lane.kind == LaneKey::Kind::kChannel && own.contains(t.pdu) && same_sequence(t.sequence, image.sequence) &&
+          t.start >= image.at && t.start < image.at + kLongestWay)
         segments.push_back({t.lane, t.start, t.end});
     sort_and_thin(segments);
     Way way{{kNoSensor, image.sequence},
@@ -283,15 +270,9 @@ std::vector<Lane> lanes_of(const TimingData& data, const Names& names, const std
     const auto mean = position.find({key.kind, key.index});
     double rank = mean != position.end() ? mean->second.sum / mean->second.n : 1e9;
     switch (key.kind) {
-      case Kind::kSensor:
-        lane.label = names.sensor(SensorId(key.index)), lane.section = 0, rank = 0;
-        break;
-      case Kind::kCan:
-        lane.label = names.can_bus(key.index);
-        break;
-      case Kind::kChannel:
-        lane.label = key.index == 0 ? "FlexRay A" : "FlexRay B", lane.section = 2, rank = 0;
-        break;
+      case Kind::kSensor: lane.label = names.sensor(SensorId(key.index)), lane.section = 0, rank = 0; break;
+      case Kind::kCan: lane.label = names.can_bus(key.index); break;
+      case Kind::kChannel: lane.label = key.index == 0 ? "FlexRay A" : "FlexRay B", lane.section = 2, rank = 0; break;
       case Kind::kTask: {
         const NodeId node{static_cast<std::uint8_t>(key.index)};
         const std::string task = names.task(node, key.task);
@@ -305,8 +286,7 @@ std::vector<Lane> lanes_of(const TimingData& data, const Names& names, const std
     }
     ranked.push_back({rank, std::move(lane)});
   }
-  std::ranges::stable_sort(ranked, {},
-                           [](const Ranked& r) { return std::tuple(r.lane.section, r.rank, r.lane.key); });
+  std::ranges::stable_sort(ranked, {}, [](const Ranked& r) { return std::tuple(r.lane.section, r.rank, r.lane.key); });
   std::vector<Lane> lanes;
   for (Ranked& r : ranked) lanes.push_back(std::move(r.lane));
   return lanes;

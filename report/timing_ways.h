@@ -54,11 +54,9 @@ struct Way {
 };
 
 // One way per measurement, in the order of the records; from its instant to the fusion step that used it.
-std::vector<Way> measurement_ways(const TimingData& data, const Names& names,
-                                  const std::vector<Transfer>& transfers);
+std::vector<Way> measurement_ways(const TimingData& data, const Names& names, const std::vector<Transfer>& transfers);
 // One way per image: from the task that wrote it to the use by the feature service.
-std::vector<Way> image_ways(const TimingData& data, const Names& names,
-                            const std::vector<Transfer>& transfers);
+std::vector<Way> image_ways(const TimingData& data, const Names& names, const std::vector<Transfer>& transfers);
 
 struct Lane {
   LaneKey key;

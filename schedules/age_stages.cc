@@ -110,13 +110,12 @@ class Builder {
     const CanBus& bus = cluster_.can_buses[*binding.can_bus];
     const auto worst = can_worst_response(cluster_, bus, *message_of(bus, binding.pdu));
     TTF_CHECK(worst.has_value(), "{} is overloaded", bus.name);
-    span(path, fmt::format("{} on {}", layout.name, bus.name),
-         can_soonest_arrival(bus, layout.fragment_bytes), *worst);
+    span(path, fmt::format("{} on {}", layout.name, bus.name), can_soonest_arrival(bus, layout.fragment_bytes), *worst);
   }
 
   const CanMessage* message_of(const CanBus& bus, PduId pdu) const {
-    const auto message = std::find_if(bus.messages.begin(), bus.messages.end(),
-                                      [&](const CanMessage& m) { return m.pdu == pdu; });
+    const auto message =
+        std::find_if(bus.messages.begin(), bus.messages.end(), [&](const CanMessage& m) { return m.pdu == pdu; });
     TTF_CHECK(message != bus.messages.end(), "{} is no message on {}", cluster_.pdu(pdu).name, bus.name);
     return &*message;
   }
@@ -160,9 +159,9 @@ class Builder {
   }
 
   // Other tasks that lists on the same CAN activate. One list's last frame ends before the other's next begins, so when
-  // `in` is there, such a task had at least the processor for `lead`: as long as the last frame of `in` takes, or, behind
-  // lists that have to wait for every frame of `in`, all of it. Of a shorter list the lead is shorter, but it was there
-  // as much earlier, so that the longest is the worst.
+  // `in` is there, such a task had at least the processor for `lead`: as long as the last frame of `in` takes, or,
+  // behind lists that have to wait for every frame of `in`, all of it. Of a shorter list the lead is shorter, but it
+  // was there as much earlier, so that the longest is the worst.
   struct Before {
     std::vector<const Task*> tasks;
     Duration lead{};
@@ -193,8 +192,8 @@ class Builder {
     });
   }
 
-  // What is not activated by time is activated by lists of some sensor, each of which comes (A1): at the latest when the next
-  // period is over too.
+  // What is not activated by time is activated by lists of some sensor, each of which comes (A1): at the latest when
+  // the next period is over too.
   Duration longest_period(const Task& task) const {
     Duration longest{};
     if (task.activation.kind == ActivationKind::kTime) return cluster_.cycle() * task.activation.at.repetition;
@@ -246,8 +245,8 @@ class Builder {
         }
     if (publisher == nullptr) return;
     if (publisher != &fusing) {
-      const bool follows = publisher->activation.kind == ActivationKind::kCompletion &&
-                           publisher->activation.after == fusing.name;
+      const bool follows =
+          publisher->activation.kind == ActivationKind::kCompletion && publisher->activation.after == fusing.name;
       if (!follows && publisher->activation.kind != ActivationKind::kTime) return;
       execution(path, id, fusing);
       // The image's instant may come while this list is being fused: its task then runs right behind, and fusing adds
@@ -305,8 +304,7 @@ std::vector<std::int64_t> entries(const Cluster& cluster, const Stage& stage, st
   std::vector<std::int64_t> instants;
   for (const CycleInstant& gate : gates)
     for (std::int64_t cycle = from_cycle; cycle < from_cycle + kCycles; ++cycle)
-      if (in_cycle(gate, cycle))
-        instants.push_back(time_of(cluster.flexray, cycle, gate.offset).ns + (latest ? 1 : 0));
+      if (in_cycle(gate, cycle)) instants.push_back(time_of(cluster.flexray, cycle, gate.offset).ns + (latest ? 1 : 0));
   return instants;
 }
 

@@ -16,7 +16,7 @@ namespace {
 struct Extreme {
   std::vector<std::int64_t> shares;
   std::int64_t sum = 0;
-  std::int64_t on_grid = 0;   // of the sum, from the first stage on the grid on
+  std::int64_t on_grid = 0;  // of the sum, from the first stage on the grid on
 };
 
 class Ages {
@@ -53,8 +53,8 @@ class Ages {
     }
   }
 
-  // On arrival: what no sensor's slowest list can precede any more goes with the next list of the sensor whose lists are the
-  // least apart when they come.
+  // On arrival: what no sensor's slowest list can precede any more goes with the next list of the sensor whose lists
+  // are the least apart when they come.
   Duration held_for_arrivals(const std::vector<AgePath>& paths) const {
     Duration slowest{};
     std::optional<Duration> apart;
@@ -81,9 +81,7 @@ class Ages {
       fused = std::max(fused, instants[path.fused - gate - 1] - measured);
       if (path.used != 0) used = std::max(used, instants.back() - measured);
     }
-    const auto with_clocks = [&](std::int64_t sum) {
-      return Duration{sum + clocks_.apart_ns + clocks_.drift_ns(sum)};
-    };
+    const auto with_clocks = [&](std::int64_t sum) { return Duration{sum + clocks_.apart_ns + clocks_.drift_ns(sum)}; };
     ages.buffered_fused_worst = with_clocks(fused);
     if (path.used == 0) return;
     ages.buffered_use_worst = with_clocks(used);
@@ -92,9 +90,7 @@ class Ages {
 
  private:
   void buffer(AgePath& ages, const Path& path, Duration held) const {
-    const auto with_clocks = [&](Duration sum) {
-      return sum + Duration{clocks_.apart_ns + clocks_.drift_ns(sum.ns)};
-    };
+    const auto with_clocks = [&](Duration sum) { return sum + Duration{clocks_.apart_ns + clocks_.drift_ns(sum.ns)}; };
     ages.buffered_fused_worst = with_clocks(held);
     if (path.used == 0) return;
     ages.buffered_use_worst = with_clocks(held + fusion_to_use(path));
@@ -142,15 +138,14 @@ class Ages {
     if (!sensor.scheduled)
       for (; gate < last && !path.stages[gate].on_grid(latest); ++gate) {
         const Stage& stage = path.stages[gate];
-        before.push_back(latest                                ? stage.worst.ns
+        before.push_back(latest                              ? stage.worst.ns
                          : stage.kind == Stage::Kind::kSlots ? stage.shortest.ns
-                                                               : stage.best.ns);
+                                                             : stage.best.ns);
       }
     std::vector<std::int64_t> starts;
     if (sensor.scheduled) {
       for (std::int64_t cycle = kFromCycle; cycle < kFromCycle + kCycles; ++cycle)
-        if (in_cycle(sensor.at, cycle))
-          starts.push_back(time_of(cluster_.flexray, cycle, sensor.at.offset).ns);
+        if (in_cycle(sensor.at, cycle)) starts.push_back(time_of(cluster_.flexray, cycle, sensor.at.offset).ns);
     } else if (gate < last) {
       starts = entries(cluster_, path.stages[gate], kFromCycle, latest);
     } else {
@@ -186,7 +181,6 @@ class Ages {
   const Cluster& cluster_;
   ClockBounds clocks_;
 };
-
 
 }  // namespace
 

@@ -67,8 +67,7 @@ class ArrivalFinder {
     if (writers_ == WritersOfLists::kUnknown) return;
     const std::int64_t sent = slots->longest.ns + slots->spread.ns;
     if (const auto written = shortest_written(pdu))
-      found_.all.push_back(
-          {own(written->ns), sent + clocks_.drift_ns(sent) + 2 * clocks_.apart_ns + kGranularity_ns});
+      found_.all.push_back({own(written->ns), sent + clocks_.drift_ns(sent) + 2 * clocks_.apart_ns + kGranularity_ns});
   }
 
   // Between two lists where they are written, on the writer's clock.
@@ -104,8 +103,7 @@ std::int64_t ArrivalBounds::most(std::int64_t window_ns) const {
 
 std::optional<std::int64_t> ArrivalBounds::gap() const {
   std::optional<std::int64_t> longest;
-  for (const Arrivals& one : all)
-    longest = std::max(longest.value_or(0), one.period - one.jitter);
+  for (const Arrivals& one : all) longest = std::max(longest.value_or(0), one.period - one.jitter);
   return longest;
 }
 

@@ -24,12 +24,12 @@
 namespace ttf::schedules {
 
 struct Arrivals {
-  std::int64_t period = 0;   // T, 1 at least; nanoseconds
-  std::int64_t jitter = 0;   // J
+  std::int64_t period = 0;  // T, 1 at least; nanoseconds
+  std::int64_t jitter = 0;  // J
 };
 
 struct ArrivalBounds {
-  std::vector<Arrivals> all;   // empty: nothing is known
+  std::vector<Arrivals> all;  // empty: nothing is known
 
   // In a closed window; where nothing is known, 1.
   std::int64_t most(std::int64_t window_ns) const;

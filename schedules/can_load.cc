@@ -10,12 +10,12 @@
 namespace ttf::schedules {
 namespace {
 
-constexpr int kStuffedClassic = 34;      // SOF to the end of the CRC, without data
-constexpr int kUnstuffed = 13;           // CRC delimiter to the end of the intermission
-constexpr std::int64_t kIntermission = 3;   // of these bits
-constexpr int kArbitrationFd = 17;       // SOF, identifier, RRS, IDE, FDF, res, BRS
-constexpr int kStuffedFd = 14;           // of them up to IDE: FDF, res and BRS alternate, so no run goes on
-constexpr int kControlFd = 5;            // ESI, DLC
+constexpr int kStuffedClassic = 34;        // SOF to the end of the CRC, without data
+constexpr int kUnstuffed = 13;             // CRC delimiter to the end of the intermission
+constexpr std::int64_t kIntermission = 3;  // of these bits
+constexpr int kArbitrationFd = 17;         // SOF, identifier, RRS, IDE, FDF, res, BRS
+constexpr int kStuffedFd = 14;             // of them up to IDE: FDF, res and BRS alternate, so no run goes on
+constexpr int kControlFd = 5;              // ESI, DLC
 
 }  // namespace
 
@@ -37,8 +37,9 @@ CanBits can_unstuffed_bits(const CanBus& bus, int bytes) {
 
 Duration can_duration(const CanBus& bus, CanBits bits) {
   const Int128 rates = static_cast<Int128>(bus.nominal_bit_rate) * bus.data_bit_rate;
-  const Int128 work = (static_cast<Int128>(bits.nominal) * bus.data_bit_rate +
-                       static_cast<Int128>(bits.data) * bus.nominal_bit_rate) * 1'000'000'000;
+  const Int128 work =
+      (static_cast<Int128>(bits.nominal) * bus.data_bit_rate + static_cast<Int128>(bits.data) * bus.nominal_bit_rate) *
+      1'000'000'000;
   return {static_cast<std::int64_t>((work + rates - 1) / rates)};
 }
 
@@ -48,7 +49,7 @@ Duration can_worst_case(const CanBus& bus, int bytes) {
   // After the first bit, every fourth can need a stuff bit.
   if (bus.flexible_data_rate) {
     bits.nominal += (kStuffedFd - 1) / 4;
-    bits.data += (1 + kControlFd + payload - 1) / 4;   // BRS begins a run
+    bits.data += (1 + kControlFd + payload - 1) / 4;  // BRS begins a run
   } else {
     bits.nominal += (kStuffedClassic + payload - 1) / 4;
   }
@@ -88,8 +89,7 @@ std::optional<Duration> can_worst_response(const Cluster& cluster, const CanBus&
     Duration next = fixed;
     for (const CanMessage& other : bus.messages)
       if (other.identifier < message.identifier)
-        next += can_list_worst_case(bus, cluster.pdu(other.pdu)) *
-                (response.ns / other.shortest_period.ns + 1);
+        next += can_list_worst_case(bus, cluster.pdu(other.pdu)) * (response.ns / other.shortest_period.ns + 1);
     next.ns = static_cast<std::int64_t>(std::ceil(static_cast<double>(next.ns) / (1.0 - bus.other_load)));
     if (next == response) return response;
     response = next;

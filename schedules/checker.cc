@@ -20,7 +20,8 @@ constexpr std::int64_t kDriverReaction_ps = 400'000;
 
 // 2 gdActionPointOffset + ceil((bits gdBitMax + delays) / (gdMacrotick (1 - cClockDeviationMax))).
 std::int64_t around_action_points(const GlobalParameters& g, std::int64_t bits, std::int64_t extra_ps) {
-  const Int128 time = longest_bits(g, bits) + scaled(g.gdMinPropagationDelay_ps + g.gdMaxPropagationDelay_ps + extra_ps);
+  const Int128 time =
+      longest_bits(g, bits) + scaled(g.gdMinPropagationDelay_ps + g.gdMaxPropagationDelay_ps + extra_ps);
   return 2 * g.gdActionPointOffset + ceil_div(time, shortest_macroticks(g, 1));
 }
 
@@ -28,12 +29,11 @@ std::int64_t around_action_points(const GlobalParameters& g, std::int64_t bits, 
 // correction makes, and still leave each of them a microtick. The external terms come on top of both corrections.
 std::int64_t offset_correction_room(const GlobalParameters& g, const NodeParameters& p) {
   const std::int64_t macroticks = g.gMacroPerCycle - g.gOffsetCorrectionStart;
-  return macroticks * (p.pMicroPerCycle - p.pRateCorrectionOut - p.pExternRateCorrection) / g.gMacroPerCycle - macroticks -
-         p.pExternOffsetCorrection;
+  return macroticks * (p.pMicroPerCycle - p.pRateCorrectionOut - p.pExternRateCorrection) / g.gMacroPerCycle -
+         macroticks - p.pExternOffsetCorrection;
 }
 
-template <std::size_t N>
-bool is_one_of(const std::int64_t (&allowed)[N], std::int64_t value) {
+template <std::size_t N> bool is_one_of(const std::int64_t (&allowed)[N], std::int64_t value) {
   return std::find(std::begin(allowed), std::end(allowed), value) != std::end(allowed);
 }
 
@@ -83,11 +83,12 @@ void check_cycle(const Cluster& cluster, ClusterFindings& findings) {
   const int sum = g.gdStaticSlot * g.gNumberOfStaticSlots + difference + g.gdMinislot * g.gNumberOfMinislots +
                   g.gdSymbolWindow + g.gdNIT;
   if (sum != g.gMacroPerCycle)
-    wrong("gMacroPerCycle", g.gMacroPerCycle,
-          fmt::format("must be {} macroticks: {} slots x {} + {} (action point difference) + {} minislots x {} + symbol "
-                      "window {} + gdNIT {} (constraint 18)",
-                      sum, g.gNumberOfStaticSlots, g.gdStaticSlot, difference, g.gNumberOfMinislots, g.gdMinislot,
-                      g.gdSymbolWindow, g.gdNIT));
+    wrong(
+        "gMacroPerCycle", g.gMacroPerCycle,
+        fmt::format("must be {} macroticks: {} slots x {} + {} (action point difference) + {} minislots x {} + symbol "
+                    "window {} + gdNIT {} (constraint 18)",
+                    sum, g.gNumberOfStaticSlots, g.gdStaticSlot, difference, g.gNumberOfMinislots, g.gdMinislot,
+                    g.gdSymbolWindow, g.gdNIT));
   if (g.cycle_ps() != g.gdCycle_ps)
     findings.parameter("flexray.gdCycle", us(g.gdCycle_ps),
                        fmt::format("must be gMacroPerCycle * gdMacrotick = {}", us(g.cycle_ps())));
@@ -100,14 +101,14 @@ void check_cycle(const Cluster& cluster, ClusterFindings& findings) {
           fmt::format("must be at least {} macroticks to hold a frame of {} words between its action points", needed,
                       g.gPayloadLengthStatic));
   const std::int64_t precision = assumed_precision_ps(g);
-  const std::int64_t action_point = ceil_div(std::max<std::int64_t>(precision - g.gdMinPropagationDelay_ps, 0),
-                                             g.gdMacrotick_ps);
+  const std::int64_t action_point =
+      ceil_div(std::max<std::int64_t>(precision - g.gdMinPropagationDelay_ps, 0), g.gdMacrotick_ps);
   if (g.gdActionPointOffset < action_point)
     wrong("gdActionPointOffset", g.gdActionPointOffset,
           fmt::format("must be at least {} macroticks: the assumed precision is {}", action_point, us(precision)));
   if (g.gdSymbolWindow > 0) {
-    const std::int64_t needed = around_action_points(g, g.gdTSSTransmitter + kCasBits + kIdleDelimiterBits,
-                                                     kDriverReaction_ps);
+    const std::int64_t needed =
+        around_action_points(g, g.gdTSSTransmitter + kCasBits + kIdleDelimiterBits, kDriverReaction_ps);
     if (g.gdSymbolWindow < needed)
       wrong("gdSymbolWindow", g.gdSymbolWindow,
             fmt::format("must be 0 (none) or at least {} macroticks (constraint 16)", needed));
@@ -135,8 +136,8 @@ void check_cycle(const Cluster& cluster, ClusterFindings& findings) {
           fmt::format("must be below gdMinislot = {} macroticks", g.gdMinislot));
 }
 
-// The key slot is the node's own, static, on all its channels, in every cycle. Where the node sends in nothing else until its
-// host commands ALL_SLOTS, it must have nothing else to send: no host gives that command on its own.
+// The key slot is the node's own, static, on all its channels, in every cycle. Where the node sends in nothing else
+// until its host commands ALL_SLOTS, it must have nothing else to send: no host gives that command on its own.
 void check_key_slot(const Cluster& cluster, NodeId id, ClusterFindings& findings) {
   const Node& node = cluster.node(id);
   const NodeParameters& p = *node.flexray;
@@ -153,10 +154,11 @@ void check_key_slot(const Cluster& cluster, NodeId id, ClusterFindings& findings
                        fmt::format("must be a static slot that {} owns on {} in every cycle", node.name,
                                    p.pChannels == Channels::kAB ? "both channels" : "its channel"));
   if (p.pKeySlotOnlyEnabled && other != nullptr)
-    findings.parameter(fmt::format("nodes.{}.flexray.pKeySlotOnlyEnabled", node.name), "true",
-                       fmt::format("must be false: {} also has slot {} (line {}), but would send in its key slot only until "
-                                   "a host commands ALL_SLOTS",
-                                   node.name, other->slot, other->line));
+    findings.parameter(
+        fmt::format("nodes.{}.flexray.pKeySlotOnlyEnabled", node.name), "true",
+        fmt::format("must be false: {} also has slot {} (line {}), but would send in its key slot only until "
+                    "a host commands ALL_SLOTS",
+                    node.name, other->slot, other->line));
 }
 
 void check_clocks(const Cluster& cluster, ClusterFindings& findings) {
@@ -173,9 +175,9 @@ void check_clocks(const Cluster& cluster, ClusterFindings& findings) {
   for (std::size_t n = 0; n < cluster.nodes.size(); ++n) {
     const Node& node = cluster.nodes[n];
     if (node.drift_ppb && std::abs(*node.drift_ppb) > node.max_drift_ppb)
-      findings.parameter(fmt::format("nodes.{}.drift_ppm", node.name),
-                         fmt::format("{}", static_cast<double>(*node.drift_ppb) / 1e3),
-                         fmt::format("must be within +-max_drift_ppm = {}", static_cast<double>(node.max_drift_ppb) / 1e3));
+      findings.parameter(
+          fmt::format("nodes.{}.drift_ppm", node.name), fmt::format("{}", static_cast<double>(*node.drift_ppb) / 1e3),
+          fmt::format("must be within +-max_drift_ppm = {}", static_cast<double>(node.max_drift_ppb) / 1e3));
     if (!node.flexray) continue;
     const NodeParameters& p = *node.flexray;
     const auto wrong = [&](const char* name, const std::string& value, const std::string& expected) {
@@ -207,7 +209,8 @@ void check_clocks(const Cluster& cluster, ClusterFindings& findings) {
     if (p.pOffsetCorrectionOut < offset || p.pOffsetCorrectionOut > room)
       wrong("pOffsetCorrectionOut", text(p.pOffsetCorrectionOut),
             fmt::format("must be {}..{} microticks: from the assumed precision to what fits behind "
-                        "gOffsetCorrectionStart at the fastest rate", offset, room));
+                        "gOffsetCorrectionStart at the fastest rate",
+                        offset, room));
     if (static_cast<std::int64_t>(p.pClusterDriftDamping) * p.pdMicrotick_ps >
         static_cast<std::int64_t>(g.gClusterDriftDamping) * g.gdMaxMicrotick_ps)
       wrong("pClusterDriftDamping", text(p.pClusterDriftDamping),
@@ -219,15 +222,16 @@ void check_clocks(const Cluster& cluster, ClusterFindings& findings) {
       wrong("pKeySlotUsedForStartup", "true", "needs pKeySlotUsedForSync: a startup frame is a sync frame");
     if (!includes(p.pChannels, p.pWakeupChannel))
       wrong("pWakeupChannel", p.pWakeupChannel == Channel::kA ? "A" : "B",
-            fmt::format("must be a channel that {} is attached to (pChannels = {})", node.name, channels_text(p.pChannels)));
+            fmt::format("must be a channel that {} is attached to (pChannels = {})", node.name,
+                        channels_text(p.pChannels)));
     check_key_slot(cluster, static_cast<NodeId>(n), findings);
   }
   if (controllers < 2)
     findings.parameter("nodes", fmt::format("{}", controllers), "must have at least 2 nodes on FlexRay");
   if (sync < 2 || sync > g.gSyncNodeMax)
-    findings.parameter("flexray.gSyncNodeMax", fmt::format("{}", g.gSyncNodeMax),
-                       fmt::format("must allow the nodes with pKeySlotUsedForSync, which must be at least 2: there are {}",
-                                   sync));
+    findings.parameter(
+        "flexray.gSyncNodeMax", fmt::format("{}", g.gSyncNodeMax),
+        fmt::format("must allow the nodes with pKeySlotUsedForSync, which must be at least 2: there are {}", sync));
   const int needed = std::min(controllers, 3);
   if (startup < std::max(needed, 2))
     findings.parameter("nodes", fmt::format("{}", startup),

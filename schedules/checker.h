@@ -1,13 +1,14 @@
 // Proves a cluster consistent before anything runs: what the loader cannot see key by key.
 //
 // The rules and where they come from:
-//   cycle        constraints 16 and 18, static slot length, action point against the assumed precision, durations of cycle,
+//   cycle        constraints 16 and 18, static slot length, action point against the assumed precision, durations of
+//   cycle,
 //                macrotick, microtick and bit against each other (FlexRay 2.1A, annex B)
 //   star         a guardian sits in a star
 //   clocks       sync and startup nodes, key slots, correction limits against the drifts the file allows
 //   slots        nobody owns a slot another owns in the same cycle and channel; a sender is attached to the
-//                frame's channels; payload fits, behind the network management vector where the frame carries it; a PDU's
-//                fragments complete
+//                frame's channels; payload fits, behind the network management vector where the frame carries it; a
+//                PDU's fragments complete
 //   dynamic      minislots that all clocks count alike, frames that end within the segment (schedules/minislots.h)
 //   CAN          frames fit, identifiers are unique, worst-case load, responses within periods (schedules/can_load.h)
 //   tasks        no overlap, deadlines with every wait for other tasks, an end before the next activation
@@ -54,9 +55,9 @@ std::string ms(Duration duration);
 
 void check_cycle(const Cluster& cluster, ClusterFindings& findings);
 void check_clocks(const Cluster& cluster, ClusterFindings& findings);
-void check_key_slot(const Cluster& cluster, NodeId node, ClusterFindings& findings);   // of a node with a controller
+void check_key_slot(const Cluster& cluster, NodeId node, ClusterFindings& findings);  // of a node with a controller
 void check_slots(const Cluster& cluster, ClusterFindings& findings);
-void check_dynamic(const Cluster& cluster, ClusterFindings& findings);   // after check_slots()
+void check_dynamic(const Cluster& cluster, ClusterFindings& findings);  // after check_slots()
 void check_can(const Cluster& cluster, ClusterFindings& findings);
 void check_tasks(const Cluster& cluster, ClusterFindings& findings);
 // A node whose tasks passed check_tasks(): deadlines with other tasks' turns, and what its lists promise on CANs.
@@ -66,8 +67,8 @@ void check_loops(const Cluster& cluster, ClusterFindings& findings);  // after a
 
 // gAssumedPrecision = (34 + 20 gClusterDriftDamping) gdMaxMicrotick + 2 gdMaxPropagationDelay, in picoseconds.
 std::int64_t assumed_precision_ps(const GlobalParameters& flexray);
-// The same rounded up to whole nanoseconds: readings of two clocks that are further apart than this are so whichever way they
-// were rounded.
+// The same rounded up to whole nanoseconds: readings of two clocks that are further apart than this are so whichever
+// way they were rounded.
 Duration assumed_precision(const GlobalParameters& flexray);
 // Shortest static slot that holds a frame of gPayloadLengthStatic words, in macroticks.
 std::int64_t shortest_static_slot(const GlobalParameters& flexray);

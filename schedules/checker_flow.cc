@@ -14,7 +14,7 @@
 namespace ttf::schedules {
 namespace {
 
-using Medium = std::pair<PduId, std::ptrdiff_t>;   // CAN index, -1 for FlexRay
+using Medium = std::pair<PduId, std::ptrdiff_t>;  // CAN index, -1 for FlexRay
 Medium medium_of(const PortBinding& binding) {
   return {binding.pdu, binding.can_bus ? static_cast<std::ptrdiff_t>(*binding.can_bus) : -1};
 }
@@ -53,11 +53,12 @@ void check_hears(const Cluster& cluster, const End& end, const std::string& name
     return findings.at(end.binding->line, end_path(cluster, end, "reads"), name, "needs a node on FlexRay");
   for (const FrameSlot& frame : cluster.frames) {
     if (frame.pdu != end.binding->pdu || share_a_channel(frame.channels, node.flexray->pChannels)) continue;
-    return findings.at(end.binding->line, end_path(cluster, end, "reads"), name,
-                       fmt::format("must be sent on {}: {} is attached to no other channel (pChannels), and slot {} (line {}) "
-                                   "is on {} only",
-                                   channels_text(node.flexray->pChannels), node.name, frame.slot, frame.line,
-                                   channels_text(frame.channels)));
+    return findings.at(
+        end.binding->line, end_path(cluster, end, "reads"), name,
+        fmt::format("must be sent on {}: {} is attached to no other channel (pChannels), and slot {} (line {}) "
+                    "is on {} only",
+                    channels_text(node.flexray->pChannels), node.name, frame.slot, frame.line,
+                    channels_text(frame.channels)));
   }
 }
 
@@ -130,7 +131,7 @@ class RingFinder {
   const std::map<Medium, std::vector<End>>& readers_;
   SensorId sensor_;
   ClusterFindings& findings_;
-  std::vector<std::vector<State>> state_;   // by node and task
+  std::vector<std::vector<State>> state_;  // by node and task
 };
 
 }  // namespace
@@ -155,7 +156,8 @@ void check_flow(const Cluster& cluster, ClusterFindings& findings) {
   for (const auto& [medium, ends] : writers) {
     const std::string name = medium_name(cluster, medium);
     if (!readers.contains(medium))
-      findings.at(ends[0].binding->line, end_path(cluster, ends[0], "writes"), name, "is written, but no task reads it");
+      findings.at(ends[0].binding->line, end_path(cluster, ends[0], "writes"), name,
+                  "is written, but no task reads it");
     if (ends.size() > 1)
       findings.at(ends[1].binding->line, end_path(cluster, ends[1], "writes"), name,
                   fmt::format("has a writer already: {}", end_path(cluster, ends[0], "writes")));
@@ -173,8 +175,9 @@ void check_flow(const Cluster& cluster, ClusterFindings& findings) {
   for (std::size_t b = 0; b < cluster.can_buses.size(); ++b)
     for (const CanMessage& message : cluster.can_buses[b].messages)
       if (!writers.contains({message.pdu, static_cast<std::ptrdiff_t>(b)}))
-        findings.at(message.line, fmt::format("can.{}.messages.{}", cluster.can_buses[b].name,
-                                              cluster.pdu(message.pdu).name), "", "is a message, but no task writes it");
+        findings.at(message.line,
+                    fmt::format("can.{}.messages.{}", cluster.can_buses[b].name, cluster.pdu(message.pdu).name), "",
+                    "is a message, but no task writes it");
   for (std::size_t s = 0; s < cluster.sensors.size(); ++s) {
     check_sensor(cluster, static_cast<SensorId>(s), findings);
     RingFinder(cluster, readers, static_cast<SensorId>(s), findings).run();

@@ -7,25 +7,27 @@
 namespace ttf::schedules {
 
 void check_loops(const Cluster& cluster, ClusterFindings& findings) {
-  const bool sound = findings.size() == 0;   // rounds are known of what passed all other rules
+  const bool sound = findings.size() == 0;  // rounds are known of what passed all other rules
   for (std::size_t s = 0; s < cluster.sensors.size(); ++s) {
     const Sensor& sensor = cluster.sensors[s];
     if (!sensor.follows()) continue;
     const std::string path = "sensors." + sensor.name;
     const auto loop = loop_of(cluster, static_cast<SensorId>(s));
     if (!loop || !loop->raw->can_bus) {
-      findings.parameter(path + ".after", sensor.after,
-                         fmt::format("must be a task of {} that a list over a CAN from the measuring task of {} activates, and "
-                                     "that no other task follows",
-                                     cluster.node(sensor.host).name, cluster.node(sensor.device).name));
+      findings.parameter(
+          path + ".after", sensor.after,
+          fmt::format("must be a task of {} that a list over a CAN from the measuring task of {} activates, and "
+                      "that no other task follows",
+                      cluster.node(sensor.host).name, cluster.node(sensor.device).name));
       continue;
     }
     const auto longest = sound ? longest_round(cluster, *loop) : std::nullopt;
     if (longest && sensor.longest < *longest)
-      findings.parameter(path + ".longest_period", ms(sensor.longest),
-                         fmt::format("must be at least {}: from one measurement to the next, if everything takes as long as it "
-                                     "may; the device must not measure by itself where nothing is lost",
-                                     ms(*longest)));
+      findings.parameter(
+          path + ".longest_period", ms(sensor.longest),
+          fmt::format("must be at least {}: from one measurement to the next, if everything takes as long as it "
+                      "may; the device must not measure by itself where nothing is lost",
+                      ms(*longest)));
   }
 }
 

@@ -1,5 +1,5 @@
-// The checker's rules about waiting: every task ends by its deadline and before it is activated again, and lists are not
-// sent more often than their CAN is told.
+// The checker's rules about waiting: every task ends by its deadline and before it is activated again, and lists are
+// not sent more often than their CAN is told.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,10 +19,11 @@ void check_task(const Node& node, const Task& task, const TaskResponse& response
                        fmt::format("must be at least {}: from its activation to its end, other tasks' turns included",
                                    ms(response.worst)));
   if (response.gap && response.worst >= *response.gap)
-    findings.parameter(path + ".worst_case", ms(task.worst_case),
-                       fmt::format("must let the task end, at worst {} after its activation, before the next one, at the "
-                                   "shortest {} after it",
-                                   ms(response.worst), ms(*response.gap)));
+    findings.parameter(
+        path + ".worst_case", ms(task.worst_case),
+        fmt::format("must let the task end, at worst {} after its activation, before the next one, at the "
+                    "shortest {} after it",
+                    ms(response.worst), ms(*response.gap)));
 }
 
 // In true time: the node's clock may be slow.
@@ -35,7 +36,8 @@ void check_written(const Cluster& cluster, const Node& node, const Task& task, D
     const CanBus& bus = cluster.can_buses[*binding.can_bus];
     for (const CanMessage& message : bus.messages)
       if (message.pdu == binding.pdu && message.shortest_period > shortest)
-        findings.at(message.line, fmt::format("can.{}.messages.{}.shortest_period", bus.name, cluster.pdu(message.pdu).name),
+        findings.at(message.line,
+                    fmt::format("can.{}.messages.{}.shortest_period", bus.name, cluster.pdu(message.pdu).name),
                     ms(message.shortest_period),
                     fmt::format("must be at most {}: the shortest time between two lists of {}", ms(shortest),
                                 task_path(node, task)));

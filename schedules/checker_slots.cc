@@ -37,9 +37,10 @@ void check_order(const PduLayout& layout, const Groups& groups, ClusterFindings&
       // One slot may be given channel by channel.
       const bool repeated = frame.slot == before.slot && frame.fragment == before.fragment;
       if (repeated || frame.fragment > before.fragment) continue;
-      wrong(frame, fmt::format("must be above fragment {} of slot {} (line {}): a list's fragments are sent once each and in "
-                               "ascending order",
-                               before.fragment, before.slot, before.line));
+      wrong(frame,
+            fmt::format("must be above fragment {} of slot {} (line {}): a list's fragments are sent once each and in "
+                        "ascending order",
+                        before.fragment, before.slot, before.line));
       break;
     }
     for (auto other = groups.begin(); other != group; ++other) {
@@ -67,9 +68,9 @@ void check_list(const Cluster& cluster, PduId pdu, ClusterFindings& findings) {
                   fmt::format("must be 0..{}: {} has {} fragments", layout.max_fragments() - 1, layout.name,
                               layout.max_fragments()));
     if (sender && *sender != frame.sender)
-      findings.at(frame.line, key, cluster.node(frame.sender).name,
-                  fmt::format("must be {}: all fragments of {} have one sender", cluster.node(*sender).name,
-                              layout.name));
+      findings.at(
+          frame.line, key, cluster.node(frame.sender).name,
+          fmt::format("must be {}: all fragments of {} have one sender", cluster.node(*sender).name, layout.name));
     if (!sender) sender = &frame.sender;
     if (first == nullptr) first = &frame;
     if (is_dynamic(cluster.flexray, frame) && !is_dynamic(cluster.flexray, *first))
@@ -84,10 +85,11 @@ void check_list(const Cluster& cluster, PduId pdu, ClusterFindings& findings) {
     for (const FrameSlot* frame : frames) fragments.insert(frame->fragment);
     for (int f = 0; f < layout.max_fragments(); ++f)
       if (!fragments.contains(f)) {
-        findings.at(line, fmt::format("frames.{}", layout.name), "",
-                    fmt::format("must have a slot for each of the {} fragments in the same cycles: fragment {} has none "
-                                "in base cycle {}, repetition {}",
-                                layout.max_fragments(), f, cycles.first, cycles.second));
+        findings.at(
+            line, fmt::format("frames.{}", layout.name), "",
+            fmt::format("must have a slot for each of the {} fragments in the same cycles: fragment {} has none "
+                        "in base cycle {}, repetition {}",
+                        layout.max_fragments(), f, cycles.first, cycles.second));
         break;
       }
   }
@@ -103,9 +105,10 @@ void check_segment(const Cluster& cluster, const FrameSlot& frame, const std::st
                     : fmt::format("must be 1..{} (gNumberOfStaticSlots and a dynamic one per minislot)",
                                   g.gNumberOfStaticSlots + g.gNumberOfMinislots));
   else if (is_dynamic(g, frame) && frame.pdu == kNoPdu)
-    findings.at(frame.line, key, cluster.node(frame.sender).name,
-                fmt::format("needs a PDU in the dynamic segment (slots above {}): without one there is never anything to send",
-                            g.gNumberOfStaticSlots));
+    findings.at(
+        frame.line, key, cluster.node(frame.sender).name,
+        fmt::format("needs a PDU in the dynamic segment (slots above {}): without one there is never anything to send",
+                    g.gNumberOfStaticSlots));
 }
 
 // What the frame carries fits its payload: the fragment, behind the network management vector where there is one.
@@ -117,10 +120,10 @@ void check_payload(const Cluster& cluster, const FrameSlot& frame, const std::st
                   fmt::format("needs a static slot, 1..{} (gNumberOfStaticSlots)", g.gNumberOfStaticSlots));
     const int most = kMostFragmentBytes - (frame.message_id ? kMessageIdBytes : 0);
     if (frame.pdu != kNoPdu && cluster.pdu(frame.pdu).fragment_bytes > most)
-      findings.at(frame.line, key, fmt::format("{} ({} bytes)", cluster.pdu(frame.pdu).name,
-                                               cluster.pdu(frame.pdu).fragment_bytes),
+      findings.at(frame.line, key,
+                  fmt::format("{} ({} bytes)", cluster.pdu(frame.pdu).name, cluster.pdu(frame.pdu).fragment_bytes),
                   fmt::format("must have at most {} bytes behind its message id", most));
-    return;   // as long as its fragment
+    return;  // as long as its fragment
   }
   if (frame.message_id)
     findings.at(frame.line, key, fmt::format("message_id: {}", *frame.message_id),
@@ -164,11 +167,12 @@ void check_slots(const Cluster& cluster, ClusterFindings& findings) {
     for (std::size_t j = i; j-- > 0 && cluster.frames[j].slot == frame.slot;) {
       const FrameSlot& other = cluster.frames[j];
       if (!share_a_channel(other.channels, frame.channels) || !share_a_cycle(other, frame)) continue;
-      findings.at(frame.line, key, fmt::format("{} on {}", sender.name, channels_text(frame.channels)),
-                  fmt::format("is owned twice: {} on {} sends there in some of the same cycles (base {}, repetition {}; "
-                              "line {})",
-                              cluster.node(other.sender).name, channels_text(other.channels), other.base_cycle,
-                              other.repetition, other.line));
+      findings.at(
+          frame.line, key, fmt::format("{} on {}", sender.name, channels_text(frame.channels)),
+          fmt::format("is owned twice: {} on {} sends there in some of the same cycles (base {}, repetition {}; "
+                      "line {})",
+                      cluster.node(other.sender).name, channels_text(other.channels), other.base_cycle,
+                      other.repetition, other.line));
       break;
     }
   }
@@ -195,20 +199,21 @@ void check_can(const Cluster& cluster, ClusterFindings& findings) {
       if (!pdus.insert(message.pdu).second)
         findings.at(message.line, key, layout.name, "must be sent by one message of its CAN only");
     }
-    if (!all_fit) continue;   // no load without lengths
+    if (!all_fit) continue;  // no load without lengths
     const double load = can_worst_load(cluster, bus);
     if (load > kCanLoadLimit) {
       findings.at(bus.line, path, fmt::format("worst-case load {:.1f} %", 100.0 * load),
                   fmt::format("must be at most {:.0f} %, other_load included", 100.0 * kCanLoadLimit));
-      continue;   // responses may have no bound
+      continue;  // responses may have no bound
     }
     for (const CanMessage& message : bus.messages) {
       // What makes the response a bound: no second list of the message while the first is on its way.
       const auto response = can_worst_response(cluster, bus, message);
       if (response && *response > message.shortest_period)
-        findings.at(message.line, fmt::format("{}.messages.{}.shortest_period", path, cluster.pdu(message.pdu).name),
-                    ms(message.shortest_period),
-                    fmt::format("must be at least {}: from queueing a full list to its last frame's end", ms(*response)));
+        findings.at(
+            message.line, fmt::format("{}.messages.{}.shortest_period", path, cluster.pdu(message.pdu).name),
+            ms(message.shortest_period),
+            fmt::format("must be at least {}: from queueing a full list to its last frame's end", ms(*response)));
     }
   }
 }

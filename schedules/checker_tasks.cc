@@ -22,7 +22,7 @@ bool meet(const GlobalParameters& flexray, const Task& a, const Task& b) {
   const std::int64_t period = cycle_ns * std::min(x.repetition, y.repetition);
   const std::int64_t start_a = time_of(flexray, x.base_cycle, x.offset).ns;
   const std::int64_t start_b = time_of(flexray, y.base_cycle, y.offset).ns;
-  const std::int64_t from_a = ((start_b - start_a) % period + period) % period;   // a's start to the next start of b
+  const std::int64_t from_a = ((start_b - start_a) % period + period) % period;  // a's start to the next start of b
   return from_a < a.worst_case.ns || period - from_a < b.worst_case.ns;
 }
 
@@ -69,16 +69,17 @@ void check_activation(const Cluster& cluster, NodeId id, const Task& task, Clust
       // A sensor that waits for the task's end sends nothing before.
       const bool waited_for = loop_through(cluster, id, task).has_value();
       if (period > Duration{} && task.worst_case > period && !waited_for)
-        findings.parameter(path + ".worst_case", ms(task.worst_case),
-                           fmt::format("must be at most the shortest period of {}, {}", cluster.pdu(read->pdu).name,
-                                       ms(period)));
+        findings.parameter(
+            path + ".worst_case", ms(task.worst_case),
+            fmt::format("must be at most the shortest period of {}, {}", cluster.pdu(read->pdu).name, ms(period)));
       break;
     }
     case ActivationKind::kSensor: {
       const Sensor& sensor = cluster.sensor(task.activation.sensor);
       if (task.worst_case > sensor.period)
-        findings.parameter(path + ".worst_case", ms(task.worst_case),
-                           fmt::format("must be at most the period of the sensor {}, {}", sensor.name, ms(sensor.period)));
+        findings.parameter(
+            path + ".worst_case", ms(task.worst_case),
+            fmt::format("must be at most the period of the sensor {}, {}", sensor.name, ms(sensor.period)));
       if (sensor.device != id)
         findings.parameter(path + ".activation.sensor", sensor.name,
                            fmt::format("must be a sensor whose device is {}", node.name));
@@ -88,9 +89,8 @@ void check_activation(const Cluster& cluster, NodeId id, const Task& task, Clust
       // Followed to its beginning, a chain of completions must end at another kind of activation.
       const Task* at = &task;
       for (std::size_t steps = 0; at && at->activation.kind == ActivationKind::kCompletion; ++steps) {
-        const auto before = std::find_if(node.tasks.begin(), node.tasks.end(), [&](const Task& candidate) {
-          return candidate.name == at->activation.after;
-        });
+        const auto before = std::find_if(node.tasks.begin(), node.tasks.end(),
+                                         [&](const Task& candidate) { return candidate.name == at->activation.after; });
         if (before == node.tasks.end() || steps > node.tasks.size()) {
           findings.parameter(path + ".activation.after", task.activation.after,
                              "must lead back to a task of this node that time, a message or a sensor activates");
@@ -125,9 +125,9 @@ void check_tasks(const Cluster& cluster, ClusterFindings& findings) {
       for (std::size_t other = 0; other < t; ++other)
         if (node.tasks[other].activation.kind == ActivationKind::kTime &&
             meet(cluster.flexray, node.tasks[other], task))
-          findings.parameter(path + ".activation", task.name,
-                             fmt::format("overlaps {} of the same node (line {})", node.tasks[other].name,
-                                         node.tasks[other].line));
+          findings.parameter(
+              path + ".activation", task.name,
+              fmt::format("overlaps {} of the same node (line {})", node.tasks[other].name, node.tasks[other].line));
     }
     if (findings.size() == before) check_responses(cluster, static_cast<NodeId>(n), findings);
   }

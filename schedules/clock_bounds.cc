@@ -19,6 +19,8 @@ ClockBounds clock_bounds(const Cluster& cluster) {
   return bounds;
 }
 
-std::int64_t worst_drift_ppb(const Node& node) { return node.drift_ppb ? std::abs(*node.drift_ppb) : node.max_drift_ppb; }
+std::int64_t worst_drift_ppb(const Node& node) {
+  return node.drift_ppb ? std::abs(*node.drift_ppb) : node.max_drift_ppb;
+}
 
 }  // namespace ttf::schedules

@@ -8,8 +8,8 @@
 namespace ttf::schedules {
 
 struct ClockBounds {
-  std::int64_t apart_ns = 0;       // any two nodes' global times: the assumed precision and a macrotick
-  std::int64_t drift_ppb = 0;      // any oscillator against true time
+  std::int64_t apart_ns = 0;   // any two nodes' global times: the assumed precision and a macrotick
+  std::int64_t drift_ppb = 0;  // any oscillator against true time
 
   // What two oscillators can make of a time, the one it runs on and the one it is judged by; rounded up.
   std::int64_t drift_ns(std::int64_t ns) const;

@@ -9,8 +9,7 @@ namespace ttf::schedules {
 
 namespace {
 
-template <class Id, class Item>
-std::optional<Id> find_named(const std::vector<Item>& items, std::string_view name) {
+template <class Id, class Item> std::optional<Id> find_named(const std::vector<Item>& items, std::string_view name) {
   const auto found = std::find_if(items.begin(), items.end(), [&](const Item& item) { return item.name == name; });
   if (found == items.end()) return std::nullopt;
   return static_cast<Id>(found - items.begin());
@@ -59,8 +58,8 @@ bool is_on_can(const Node& node, std::size_t can_bus) {
 }
 
 GlobalTime time_of(const GlobalParameters& flexray, std::int64_t cycle, Macroticks offset) {
-  const Int128 ps = static_cast<Int128>(cycle) * flexray.cycle_ps() +
-                    static_cast<Int128>(offset.value) * flexray.gdMacrotick_ps;
+  const Int128 ps =
+      static_cast<Int128>(cycle) * flexray.cycle_ps() + static_cast<Int128>(offset.value) * flexray.gdMacrotick_ps;
   // Rounded up: a clock that shows this nanosecond has reached the macrotick.
   const Int128 ns = ps / 1000;
   return {static_cast<std::int64_t>(ns * 1000 < ps ? ns + 1 : ns)};

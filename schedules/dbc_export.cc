@@ -46,12 +46,16 @@ struct OnChannel {
   std::int64_t low, high;
 };
 constexpr std::int64_t kCrc24 = 0xff'ffff, kAny32 = 0xffff'ffff, kSigned32 = 0x7fff'ffff;
-constexpr OnChannel kOnChannel[] = {
-    {1, "cas_duration", "ns", 1, 4, false, 0, kAny32},    {1, "cas_crc", "", 5, 3, false, 0, kCrc24},
-    {2, "wakeup_duration", "ns", 1, 4, false, 0, kAny32}, {2, "wakeup_crc", "", 5, 3, false, 0, kCrc24},
-    {3, "noise_duration", "ns", 1, 4, false, 0, kAny32},  {3, "noise_crc", "", 5, 3, false, 0, kCrc24},
-    {4, "slot", "", 1, 2, false, 1, 2047},                {4, "cycle", "", 3, 1, false, 0, 63},
-    {4, "late", "ns", 4, 4, true, -kSigned32 - 1, kSigned32}, {4, "follow_up_crc", "", 8, 3, false, 0, kCrc24}};
+constexpr OnChannel kOnChannel[] = {{1, "cas_duration", "ns", 1, 4, false, 0, kAny32},
+                                    {1, "cas_crc", "", 5, 3, false, 0, kCrc24},
+                                    {2, "wakeup_duration", "ns", 1, 4, false, 0, kAny32},
+                                    {2, "wakeup_crc", "", 5, 3, false, 0, kCrc24},
+                                    {3, "noise_duration", "ns", 1, 4, false, 0, kAny32},
+                                    {3, "noise_crc", "", 5, 3, false, 0, kCrc24},
+                                    {4, "slot", "", 1, 2, false, 1, 2047},
+                                    {4, "cycle", "", 3, 1, false, 0, 63},
+                                    {4, "late", "ns", 4, 4, true, -kSigned32 - 1, kSigned32},
+                                    {4, "follow_up_crc", "", 8, 3, false, 0, kCrc24}};
 constexpr int kOnChannelBytes = 12;
 
 class DbcWriter {
@@ -88,8 +92,9 @@ class DbcWriter {
                            in_quotes(line.strobe ? "In real time: the measurement is taken now."
                                                  : "In real time, where measurements are scheduled: measure now."));
     if (!channels_.empty())
-      text_ += "CM_ BO_ 0 \"On the interfaces of the FlexRay channels: a symbol (8 bytes), or how late the sync frame "
-               "of a slot and cycle left.\";\n";
+      text_ +=
+          "CM_ BO_ 0 \"On the interfaces of the FlexRay channels: a symbol (8 bytes), or how late the sync frame "
+          "of a slot and cycle left.\";\n";
     put_attributes();
     if (!channels_.empty()) text_ += "VAL_ 0 kind 1 \"CAS\" 2 \"wakeup\" 3 \"noise\" 4 \"follow_up\" ;\n";
     return std::move(text_);
@@ -141,7 +146,7 @@ class DbcWriter {
       });
       if (reads) text += (text.empty() ? "" : ",") + nodes_[n];
     }
-    return text.empty() ? "Vector__XXX" : text;   // what the format calls nobody
+    return text.empty() ? "Vector__XXX" : text;  // what the format calls nobody
   }
 
   // A big-endian signal is named by its most significant bit; bits count up from each byte's least significant one.
@@ -189,22 +194,24 @@ class DbcWriter {
     const std::string elements =
         layout.max_fragments() == 1
             ? "One frame is a list: the elements below count are valid."
-            : fmt::format("One frame is a fragment of a list of up to {} elements in {} fragments, which have one "
-                          "sequence number; NAME_k is element {} * fragment + k of the list, valid if that is less "
-                          "than count.",
-                          layout.max_elements, layout.max_fragments(), layout.elements_per_fragment);
+            : fmt::format(
+                  "One frame is a fragment of a list of up to {} elements in {} fragments, which have one "
+                  "sequence number; NAME_k is element {} * fragment + k of the list, valid if that is less "
+                  "than count.",
+                  layout.max_elements, layout.max_fragments(), layout.elements_per_fragment);
     text_ += fmt::format("CM_ BO_ {} {};\n", message.message->identifier,
                          in_quotes(fmt::format("{} Lists are queued at least {} ms apart.", elements,
                                                static_cast<double>(message.message->shortest_period.ns) / 1e6)));
   }
 
   void put_attributes() {
-    text_ += "BA_DEF_ BO_ \"CAN\" STRING ;\n"
-             "BA_DEF_ BO_ \"VFrameFormat\" ENUM \"StandardCAN\",\"ExtendedCAN\",\"reserved\",\"J1939PG\",\"reserved\","
-             "\"reserved\",\"reserved\",\"reserved\",\"reserved\",\"reserved\",\"reserved\",\"reserved\",\"reserved\","
-             "\"reserved\",\"StandardCAN_FD\",\"ExtendedCAN_FD\";\n"
-             "BA_DEF_DEF_ \"CAN\" \"\";\n"
-             "BA_DEF_DEF_ \"VFrameFormat\" \"StandardCAN\";\n";
+    text_ +=
+        "BA_DEF_ BO_ \"CAN\" STRING ;\n"
+        "BA_DEF_ BO_ \"VFrameFormat\" ENUM \"StandardCAN\",\"ExtendedCAN\",\"reserved\",\"J1939PG\",\"reserved\","
+        "\"reserved\",\"reserved\",\"reserved\",\"reserved\",\"reserved\",\"reserved\",\"reserved\",\"reserved\","
+        "\"reserved\",\"StandardCAN_FD\",\"ExtendedCAN_FD\";\n"
+        "BA_DEF_DEF_ \"CAN\" \"\";\n"
+        "BA_DEF_DEF_ \"VFrameFormat\" \"StandardCAN\";\n";
     for (const Message& message : messages_) {
       text_ += fmt::format("BA_ \"CAN\" BO_ {} {};\n", message.message->identifier, in_quotes(message.bus->name));
       if (message.bus->flexible_data_rate)
@@ -217,10 +224,10 @@ class DbcWriter {
 
   const Cluster& cluster_;
   std::vector<const CanBus*> buses_;
-  std::vector<std::string> nodes_;   // by node
+  std::vector<std::string> nodes_;  // by node
   std::vector<Message> messages_;
   std::vector<Line> lines_;
-  std::string channels_;             // the message of the FlexRay channels; empty: none
+  std::string channels_;  // the message of the FlexRay channels; empty: none
   std::set<std::string> node_names_, message_names_;
   std::string text_;
 };

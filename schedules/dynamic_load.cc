@@ -57,22 +57,22 @@ std::string dynamic_text(const Cluster& cluster) {
   const auto lists = dynamic_lists(cluster);
   if (lists.empty()) return "";
   const GlobalParameters& g = cluster.flexray;
-  std::string text = fmt::format("dynamic segment: {} minislots of {} macroticks; with every slot in use", g.gNumberOfMinislots,
-                                 g.gdMinislot);
+  std::string text = fmt::format("dynamic segment: {} minislots of {} macroticks; with every slot in use",
+                                 g.gNumberOfMinislots, g.gdMinislot);
   for (const DynamicLoad& load : dynamic_load(cluster))
-    text += fmt::format("{} {} takes {} ({:.1f} %)", load.channel == Channel::kA ? "" : ",",
-                        letter(load.channel), load.minislots, 100.0 * load.share);
+    text += fmt::format("{} {} takes {} ({:.1f} %)", load.channel == Channel::kA ? "" : ",", letter(load.channel),
+                        load.minislots, 100.0 * load.share);
   text += fmt::format("\n{:>9}  {:<2}  {:<12}{:<24}{:>15}  {}\n", "slot", "ch", "sender", "list", "minislots each",
                       "turn in minislot");
   for (const DynamicList& list : lists) {
     const bool one = list.first_slot == list.last_slot;
-    text += fmt::format("{:>9}  {:<2}  {:<12}{:<24}{:>15}  {}-{}{}\n",
-                        one ? fmt::format("{}", list.first_slot) : fmt::format("{}-{}", list.first_slot, list.last_slot),
-                        channels_text(list.channels), cluster.node(list.sender).name,
-                        fmt::format("{} {}{}", cluster.pdu(list.pdu).name, list.first_fragment,
-                                    one ? "" : fmt::format("-{}", list.last_fragment)),
-                        list.minislots_each, list.earliest_turn, list.latest_turn,
-                        list.always_in_time ? "" : ", or in a later cycle");
+    text += fmt::format(
+        "{:>9}  {:<2}  {:<12}{:<24}{:>15}  {}-{}{}\n",
+        one ? fmt::format("{}", list.first_slot) : fmt::format("{}-{}", list.first_slot, list.last_slot),
+        channels_text(list.channels), cluster.node(list.sender).name,
+        fmt::format("{} {}{}", cluster.pdu(list.pdu).name, list.first_fragment,
+                    one ? "" : fmt::format("-{}", list.last_fragment)),
+        list.minislots_each, list.earliest_turn, list.latest_turn, list.always_in_time ? "" : ", or in a later cycle");
   }
   return text;
 }

@@ -21,8 +21,7 @@ std::int64_t ceil_div(std::int64_t a, std::int64_t b) { return (a + b - 1) / b; 
 template <class Parameters, class Table>
 void set_next_to(Parameters& parameters, const Table& table, std::string_view name, std::int64_t value) {
   for (const auto& p : table)
-    if (p.name == name)
-      parameters.*p.member = static_cast<int>(std::clamp<std::int64_t>(value, p.low, p.high));
+    if (p.name == name) parameters.*p.member = static_cast<int>(std::clamp<std::int64_t>(value, p.low, p.high));
 }
 
 }  // namespace
@@ -30,15 +29,12 @@ void set_next_to(Parameters& parameters, const Table& table, std::string_view na
 void assume_global(FibexFile& file, const std::string& name, std::set<std::string, std::less<>>& assumed,
                    Findings& wrong) {
   GlobalParameters& g = file.global;
-  const auto given = [&](std::string_view parameter) {
-    return file.given.find(parameter) != file.given.end();
-  };
+  const auto given = [&](std::string_view parameter) { return file.given.find(parameter) != file.given.end(); };
   const auto missing = [&](std::string what) {
     wrong.add({name, file.cluster_line, "fx:CLUSTER", "", "must have " + std::move(what)});
   };
   for (const FibexParameter& one : kFibexCluster)
-    if ((one.name == "gdStaticSlot" || one.name == "gNumberOfStaticSlots" ||
-         one.name == "gPayloadLengthStatic") &&
+    if ((one.name == "gdStaticSlot" || one.name == "gNumberOfStaticSlots" || one.name == "gPayloadLengthStatic") &&
         !given(one.name))
       missing(fmt::format("a {} ({})", one.element, one.name));
   if (!given("baudrate")) missing("a fx:SPEED (baudrate)");
@@ -49,15 +45,13 @@ void assume_global(FibexFile& file, const std::string& name, std::set<std::strin
   }
   if (!given("gdCycle")) g.gdCycle_ps = g.cycle_ps();
   if (!given("gdMacrotick")) g.gdMacrotick_ps = g.gdCycle_ps / g.gMacroPerCycle;
-  if (!given("gMacroPerCycle"))
-    set_next_to(g, kGlobalIntegers, "gMacroPerCycle", g.gdCycle_ps / g.gdMacrotick_ps);
-  if (of_three < 3 && g.cycle_ps() != g.gdCycle_ps)
-    missing("a flexray:CYCLE of a whole number of macroticks");
+  if (!given("gMacroPerCycle")) set_next_to(g, kGlobalIntegers, "gMacroPerCycle", g.gdCycle_ps / g.gdMacrotick_ps);
+  if (of_three < 3 && g.cycle_ps() != g.gdCycle_ps) missing("a flexray:CYCLE of a whole number of macroticks");
   if (!given("gdBit")) g.gdBit_ps = kPicosecondsPerSecond / g.baudrate;
   for (const auto& p : kGlobalScaled)
     if (!given(p.name) && (g.*p.member < p.low || g.*p.member > p.high))
-      missing(fmt::format("parameters from which {} follows in {}..{} {}", p.name,
-                          scaled_text(p.low, p.scale), scaled_text(p.high, p.scale), p.unit));
+      missing(fmt::format("parameters from which {} follows in {}..{} {}", p.name, scaled_text(p.low, p.scale),
+                          scaled_text(p.high, p.scale), p.unit));
   // Constraint 18: what is left of the cycle.
   const int action_points =
       g.gNumberOfMinislots == 0 ? 0 : std::max(g.gdActionPointOffset - g.gdMinislotActionPointOffset, 0);
@@ -73,8 +67,7 @@ void assume_global(FibexFile& file, const std::string& name, std::set<std::strin
     g.gdMaxMicrotick_ps = longest;
   }
   const auto mark = [&](std::string_view parameter) {
-    if (!given(parameter) && parameter != "gCycleCountMax")
-      assumed.insert(fmt::format("flexray.{}", parameter));
+    if (!given(parameter) && parameter != "gCycleCountMax") assumed.insert(fmt::format("flexray.{}", parameter));
   };
   for (const auto& p : kGlobalIntegers) mark(p.name);
   for (const auto& p : kGlobalScaled) mark(p.name);

@@ -9,9 +9,8 @@ namespace {
 
 // STARTUP-SYNC and SYNC hold the slot; NONE none, which our own extension adds.
 void read_key_slot(XmlElement& controller, FibexEcu& out, FibexReader& reader) {
-  static constexpr FibexParameter kKeySlot[] = {{"pKeySlotId", "flexray:STARTUP-SYNC"},
-                                                {"pKeySlotId", "flexray:SYNC"},
-                                                {"pKeySlotId", "ttf:KEY-SLOT-ID"}};
+  static constexpr FibexParameter kKeySlot[] = {
+      {"pKeySlotId", "flexray:STARTUP-SYNC"}, {"pKeySlotId", "flexray:SYNC"}, {"pKeySlotId", "ttf:KEY-SLOT-ID"}};
   if (auto usage = controller.child("flexray:KEY-SLOT-USAGE")) {
     out.parameters.pKeySlotUsedForStartup = usage->has("flexray:STARTUP-SYNC");
     out.parameters.pKeySlotUsedForSync = usage->has("flexray:STARTUP-SYNC") || usage->has("flexray:SYNC");
@@ -42,8 +41,8 @@ void read_controller(XmlElement& controller, FibexEcu& out, FibexReader& reader)
   controller.finish();
 }
 
-// Whether a connector is a plug of the ECU's FlexRay controller on the cluster. Where it does not say of which controller or
-// channel it is, it is.
+// Whether a connector is a plug of the ECU's FlexRay controller on the cluster. Where it does not say of which
+// controller or channel it is, it is.
 bool is_of_the_cluster(XmlElement& connector, const std::set<std::string>& controllers, const std::string& controller,
                        const ChannelIds& channels, FibexReader& reader) {
   const std::string of = connector.reference("fx:CONTROLLER-REF"), on = connector.reference("fx:CHANNEL-REF");

@@ -15,7 +15,6 @@
 namespace ttf::schedules {
 namespace {
 
-
 std::string channel_id(Channel channel) { return fmt::format("channel_{}", letter(channel)); }
 std::string controller_id(std::size_t node) { return fmt::format("controller_{}", node); }
 std::string triggering_id(std::size_t frame, Channel channel) {
@@ -61,8 +60,7 @@ class Exporter {
 
   void put_cluster(pugi::xml_node clusters) {
     const GlobalParameters& g = cluster_.flexray;
-    pugi::xml_node cluster =
-        put_named(clusters, "fx:CLUSTER", "cluster", cluster_.name, "flexray:CLUSTER-TYPE");
+    pugi::xml_node cluster = put_named(clusters, "fx:CLUSTER", "cluster", cluster_.name, "flexray:CLUSTER-TYPE");
     put(cluster, "fx:SPEED", fibex_value(g, "baudrate"));
     put(cluster, "fx:IS-HIGH-LOW-BIT-ORDER", "true");
     put(cluster, "fx:BIT-COUNTING-POLICY", "SAWTOOTH");
@@ -78,8 +76,7 @@ class Exporter {
     for (const FibexParameter& one : kFibexCluster) {
       put_parameter(cluster, one, g);
       // An eighth of a bit (cSamplesPerBit), in microseconds.
-      if (one.name == "gdNIT")
-        put(cluster, "flexray:SAMPLE-CLOCK-PERIOD", scaled_text(g.gdBit_ps / 8, 1'000'000));
+      if (one.name == "gdNIT") put(cluster, "flexray:SAMPLE-CLOCK-PERIOD", scaled_text(g.gdBit_ps / 8, 1'000'000));
       if (one.name == "gdTSSTransmitter") {
         pugi::xml_node wake_up = cluster.append_child("flexray:WAKE-UP");
         for (const FibexParameter& part : kFibexWakeUp) put_parameter(wake_up, part, g);
@@ -126,12 +123,10 @@ class Exporter {
 
   void put_controller(pugi::xml_node controllers, std::size_t index) {
     const NodeParameters& p = *cluster_.nodes[index].flexray;
-    pugi::xml_node one =
-        put_named(controllers, "fx:CONTROLLER", controller_id(index),
-                  fmt::format("{}_controller", cluster_.nodes[index].name), "flexray:CONTROLLER-TYPE");
+    pugi::xml_node one = put_named(controllers, "fx:CONTROLLER", controller_id(index),
+                                   fmt::format("{}_controller", cluster_.nodes[index].name), "flexray:CONTROLLER-TYPE");
     const std::string key_slot = std::to_string(p.pKeySlotId);
-    if (!p.pKeySlotUsedForSync)
-      put(one.append_child("fx:MANUFACTURER-EXTENSION"), "ttf:KEY-SLOT-ID", key_slot);
+    if (!p.pKeySlotUsedForSync) put(one.append_child("fx:MANUFACTURER-EXTENSION"), "ttf:KEY-SLOT-ID", key_slot);
     pugi::xml_node usage = one.append_child("flexray:KEY-SLOT-USAGE");
     if (p.pKeySlotUsedForSync)
       put(usage, p.pKeySlotUsedForStartup ? "flexray:STARTUP-SYNC" : "flexray:SYNC", key_slot);
@@ -190,8 +185,8 @@ class Exporter {
                                       : fmt::format("{}_{}", cluster_.pdu(frame.pdu).name, frame.fragment);
       pugi::xml_node one = put_named(frames, "fx:FRAME", frame_id(i),
                                      fmt::format("{}_slot_{}_cycle_{}", what, frame.slot, frame.base_cycle));
-      const int words = is_dynamic(cluster_.flexray, frame) ? dynamic_words(cluster_, frame)
-                                                            : cluster_.flexray.gPayloadLengthStatic;
+      const int words =
+          is_dynamic(cluster_.flexray, frame) ? dynamic_words(cluster_, frame) : cluster_.flexray.gPayloadLengthStatic;
       put(one, "fx:BYTE-LENGTH", std::to_string(2 * words));
       put(one, "fx:FRAME-TYPE", status ? "OTHER" : "APPLICATION");
       if (status && !frame.network_management) continue;

@@ -68,8 +68,8 @@ void put_multiplexer(pugi::xml_node multiplexer, const PduLayout& layout, std::s
   put(selector, "fx:BIT-POSITION", std::to_string(position_of(fragment.bit_offset)));
   put(selector, "fx:IS-HIGH-LOW-BYTE-ORDER", "true");
   put(selector, "ho:BIT-LENGTH", std::to_string(fragment.bits));
-  pugi::xml_node dynamic = put_named(multiplexer, "fx:DYNAMIC-PART", fmt::format("dynamic_part_{}", index),
-                                     layout.name + "_fragments");
+  pugi::xml_node dynamic =
+      put_named(multiplexer, "fx:DYNAMIC-PART", fmt::format("dynamic_part_{}", index), layout.name + "_fragments");
   put_segment(dynamic, layout.header_bits, 8 * layout.fragment_bytes - layout.header_bits);
   pugi::xml_node instances = dynamic.append_child("fx:SWITCHED-PDU-INSTANCES");
   for (int f = 0; f < layout.max_fragments(); ++f) {
@@ -78,8 +78,8 @@ void put_multiplexer(pugi::xml_node multiplexer, const PduLayout& layout, std::s
     put_reference(one, "fx:PDU-REF", elements_id(index));
     put(one, "fx:SWITCH-CODE", std::to_string(f));
   }
-  pugi::xml_node fixed = put_named(multiplexer, "fx:STATIC-PART", fmt::format("static_part_{}", index),
-                                   layout.name + "_first_bytes");
+  pugi::xml_node fixed =
+      put_named(multiplexer, "fx:STATIC-PART", fmt::format("static_part_{}", index), layout.name + "_first_bytes");
   put_segment(fixed, 0, layout.header_bits);
   pugi::xml_node instance = fixed.append_child("fx:STATIC-PDU-INSTANCE");
   instance.append_attribute("ID") = fmt::format("static_{}", index).c_str();
@@ -132,8 +132,8 @@ pugi::xml_node put_reference(pugi::xml_node to, std::string_view name, const std
   return child;
 }
 
-pugi::xml_node put_named(pugi::xml_node to, std::string_view name, const std::string& id,
-                         const std::string& short_name, const char* type) {
+pugi::xml_node put_named(pugi::xml_node to, std::string_view name, const std::string& id, const std::string& short_name,
+                         const char* type) {
   pugi::xml_node child = to.append_child(std::string(name).c_str());
   child.append_attribute("ID") = id.c_str();
   if (type != nullptr) child.append_attribute("xsi:type") = type;
@@ -150,18 +150,15 @@ void put_fibex_pdus(pugi::xml_node pdus, const Cluster& cluster) {
                                 .append_child("fx:SIGNAL-INSTANCES");
     for (std::size_t s = 0; s < layout.header.size(); ++s)
       put_instance(header, header_signal_id(i, s), layout.header[s].bit_offset);
-    pugi::xml_node elements = put_pdu(pdus, elements_id(i), layout.name + "_elements",
-                                      layout.fragment_bytes - layout.header_bits / 8)
-                                  .append_child("fx:SIGNAL-INSTANCES");
+    pugi::xml_node elements =
+        put_pdu(pdus, elements_id(i), layout.name + "_elements", layout.fragment_bytes - layout.header_bits / 8)
+            .append_child("fx:SIGNAL-INSTANCES");
     for (int e = 0; e < layout.elements_per_fragment; ++e)
       for (std::size_t s = 0; s < layout.element.size(); ++s)
-        put_instance(elements, element_signal_id(i, s, e),
-                     e * layout.element_bits + layout.element[s].bit_offset);
-    pugi::xml_node list =
-        put_pdu(pdus, fibex_pdu_id(static_cast<PduId>(i)), layout.name, layout.fragment_bytes);
+        put_instance(elements, element_signal_id(i, s, e), e * layout.element_bits + layout.element[s].bit_offset);
+    pugi::xml_node list = put_pdu(pdus, fibex_pdu_id(static_cast<PduId>(i)), layout.name, layout.fragment_bytes);
     put_multiplexer(list.append_child("fx:MULTIPLEXER"), layout, i);
-    put(list.append_child("fx:MANUFACTURER-EXTENSION"), "ttf:MAX-ELEMENTS",
-        std::to_string(layout.max_elements));
+    put(list.append_child("fx:MANUFACTURER-EXTENSION"), "ttf:MAX-ELEMENTS", std::to_string(layout.max_elements));
   }
 }
 
@@ -169,8 +166,8 @@ void put_fibex_signals(pugi::xml_node signals, const Cluster& cluster) {
   for (std::size_t i = 0; i < cluster.pdus.size(); ++i) {
     const PduLayout& layout = cluster.pdus[i];
     for (std::size_t s = 0; s < layout.header.size(); ++s)
-      put_reference(put_named(signals, "fx:SIGNAL", header_signal_id(i, s), layout.header[s].name),
-                    "fx:CODING-REF", coding_id(i, true, s));
+      put_reference(put_named(signals, "fx:SIGNAL", header_signal_id(i, s), layout.header[s].name), "fx:CODING-REF",
+                    coding_id(i, true, s));
     for (int e = 0; e < layout.elements_per_fragment; ++e)
       for (std::size_t s = 0; s < layout.element.size(); ++s)
         put_reference(put_named(signals, "fx:SIGNAL", element_signal_id(i, s, e),
@@ -183,15 +180,15 @@ void put_fibex_codings(pugi::xml_node processing, const Cluster& cluster) {
   const std::vector<std::string> units = units_of(cluster);
   pugi::xml_node unit_list = processing.append_child("ho:UNIT-SPEC").append_child("ho:UNITS");
   for (std::size_t i = 0; i < units.size(); ++i)
-    put(put_named(unit_list, "ho:UNIT", fmt::format("unit_{}", i), fmt::format("unit_{}", i)),
-        "ho:DISPLAY-NAME", units[i]);
+    put(put_named(unit_list, "ho:UNIT", fmt::format("unit_{}", i), fmt::format("unit_{}", i)), "ho:DISPLAY-NAME",
+        units[i]);
   pugi::xml_node codings = processing.append_child("fx:CODINGS");
   for (std::size_t i = 0; i < cluster.pdus.size(); ++i)
     for (const bool header : {true, false}) {
       const std::vector<Signal>& signals = header ? cluster.pdus[i].header : cluster.pdus[i].element;
       for (std::size_t s = 0; s < signals.size(); ++s)
-        put_coding(codings, coding_id(i, header, s),
-                   fmt::format("{}_{}", cluster.pdus[i].name, signals[s].name), signals[s], units);
+        put_coding(codings, coding_id(i, header, s), fmt::format("{}_{}", cluster.pdus[i].name, signals[s].name),
+                   signals[s], units);
     }
 }
 

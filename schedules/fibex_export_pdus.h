@@ -13,8 +13,8 @@ namespace ttf::schedules {
 // Each appends one child and gives it back.
 pugi::xml_node put(pugi::xml_node to, std::string_view name, const std::string& text);
 pugi::xml_node put_reference(pugi::xml_node to, std::string_view name, const std::string& id);
-pugi::xml_node put_named(pugi::xml_node to, std::string_view name, const std::string& id,
-                         const std::string& short_name, const char* type = nullptr);
+pugi::xml_node put_named(pugi::xml_node to, std::string_view name, const std::string& id, const std::string& short_name,
+                         const char* type = nullptr);
 
 std::string fibex_pdu_id(PduId pdu);
 void put_fibex_pdus(pugi::xml_node pdus, const Cluster& cluster);

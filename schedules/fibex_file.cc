@@ -30,8 +30,7 @@ std::string FibexReader::name_of(XmlElement& element) {
   return name;
 }
 
-int FibexReader::integer(XmlElement& element, std::string_view name, int low, int high,
-                         std::optional<int> otherwise) {
+int FibexReader::integer(XmlElement& element, std::string_view name, int low, int high, std::optional<int> otherwise) {
   auto child = element.child(name);
   if (!child) {
     if (!otherwise) fail(element, "", fmt::format("must have a {}", name));
@@ -109,8 +108,8 @@ void read_sample_clock(XmlElement& cluster, const FibexFile& file, FibexReader& 
   if (!has_bit && !has_rate) return;
   const std::int64_t bit = has_bit ? file.global.gdBit_ps : kPsPerUs * 1'000'000 / file.global.baudrate;
   if (*value != bit / 8)
-    reader.leave_out(*period, text, fmt::format("is left out: it is an eighth of the bit time, {}",
-                                                scaled_text(bit / 8, kPsPerUs)));
+    reader.leave_out(*period, text,
+                     fmt::format("is left out: it is an eighth of the bit time, {}", scaled_text(bit / 8, kPsPerUs)));
 }
 
 void read_protocol(XmlElement& cluster, FibexReader& reader) {
@@ -144,7 +143,8 @@ void read_cluster(XmlElement& cluster, FibexFile& out, FibexReader& reader) {
   if (auto extension = cluster.child("fx:MANUFACTURER-EXTENSION")) {
     reader.parameters(*extension, kFibexExtension, out.global, out.given);
     if (const auto topology = extension->text_of("ttf:TOPOLOGY")) {
-      if (*topology != "star" && *topology != "bus") reader.fail(*extension, *topology, "must have a TOPOLOGY bus or star");
+      if (*topology != "star" && *topology != "bus")
+        reader.fail(*extension, *topology, "must have a TOPOLOGY bus or star");
       out.topology = *topology == "star" ? Topology::kStar : Topology::kBus;
     }
     out.guardian = reader.boolean(*extension, "ttf:GUARDIAN", false);
@@ -193,8 +193,7 @@ std::optional<Channel> read_channel(XmlElement& channel, FibexFile& out, FibexRe
     triggering.frame = one.reference("fx:FRAME-REF");
     auto timings = one.children_of("fx:TIMINGS", "fx:ABSOLUTELY-SCHEDULED-TIMING");
     one.finish();
-    if (timings.empty())
-      reader.leave_out(one, triggering.id, "has no ABSOLUTELY-SCHEDULED-TIMING, and is left out");
+    if (timings.empty()) reader.leave_out(one, triggering.id, "has no ABSOLUTELY-SCHEDULED-TIMING, and is left out");
     for (XmlElement& timing : timings) {
       read_timing(timing, triggering, reader);
       out.triggerings.push_back(triggering);
@@ -206,7 +205,8 @@ std::optional<Channel> read_channel(XmlElement& channel, FibexFile& out, FibexRe
 }
 
 bool is_understood(const std::string& version) {
-  const bool digits = std::all_of(version.begin(), version.end(), [](char c) { return c == '.' || (c >= '0' && c <= '9'); });
+  const bool digits =
+      std::all_of(version.begin(), version.end(), [](char c) { return c == '.' || (c >= '0' && c <= '9'); });
   return digits && version.size() > 1 && version[0] >= '2' && version[0] <= '4' && version[1] == '.';
 }
 
@@ -224,7 +224,8 @@ ChannelIds read_channels(XmlElement& elements, FibexFile& out, FibexReader& read
       if (!which) continue;
       for (const auto& [other, same] : channels)
         if (same == *which)
-          reader.fail(channel, id, fmt::format("must be the cluster's only channel {}; {} is one, too", letter(same), other));
+          reader.fail(channel, id,
+                      fmt::format("must be the cluster's only channel {}; {} is one, too", letter(same), other));
       channels[id] = *which;
     }
   }

@@ -66,7 +66,7 @@ struct FibexFrame {
   std::string id, name;
   int bytes = 0;
   std::vector<Place> places;
-  std::optional<int> fragment;     // these three of our own extension
+  std::optional<int> fragment;  // these three of our own extension
   bool network_management = false;
   std::optional<int> message_id = std::nullopt;
   int line = 0;
@@ -93,12 +93,12 @@ struct FibexEcu {
 
 struct FibexFile {
   std::string cluster_name;
-  Topology topology = Topology::kBus;        // these two of our own extension
+  Topology topology = Topology::kBus;  // these two of our own extension
   bool guardian = false;
   GlobalParameters global;
   std::set<std::string, std::less<>> given;  // names of parameters that the file states
   int cluster_line = 0;
-  std::set<std::string> channels;            // ids of CHANNEL-REFS; none: all FlexRay channels of the file are its own
+  std::set<std::string> channels;  // ids of CHANNEL-REFS; none: all FlexRay channels of the file are its own
   std::vector<FibexEcu> ecus;
   std::vector<FibexTriggering> triggerings;  // in the order of the file
   std::vector<FibexFrame> frames;
@@ -117,8 +117,7 @@ class FibexReader {
   // SHORT-NAME, or else the ID; one of them must be there, and printable.
   std::string name_of(XmlElement& element);
   // A whole number in a child; `otherwise` where the child is absent.
-  int integer(XmlElement& element, std::string_view name, int low, int high,
-              std::optional<int> otherwise = {});
+  int integer(XmlElement& element, std::string_view name, int low, int high, std::optional<int> otherwise = {});
   // "true", "false", "1", "0".
   bool boolean(XmlElement& element, std::string_view name, bool otherwise);
   // All children of that name, and the one there should be.

@@ -18,10 +18,7 @@ namespace {
 class Importer {
  public:
   Importer(FibexFile file, std::string name, Findings wrong, Findings left_out)
-      : file_(std::move(file)),
-        name_(std::move(name)),
-        wrong_(std::move(wrong)),
-        left_out_(std::move(left_out)) {}
+      : file_(std::move(file)), name_(std::move(name)), wrong_(std::move(wrong)), left_out_(std::move(left_out)) {}
 
   FibexImport import() {
     wrong_.throw_if_any();
@@ -59,8 +56,7 @@ class Importer {
       fail(0, std::move(key), std::to_string(count), fmt::format("must have at most {} entries", kMostNamed));
   }
 
-  template <class Item>
-  std::map<std::string, const Item*> by_id(const char* key, const std::vector<Item>& items) {
+  template <class Item> std::map<std::string, const Item*> by_id(const char* key, const std::vector<Item>& items) {
     std::map<std::string, const Item*> found;
     for (const Item& item : items)
       if (!found.emplace(item.id, &item).second) fail(item.line, key, item.id, "must have an ID of its own");
@@ -74,8 +70,7 @@ class Importer {
     for (const FibexPdu& pdu : file_.pdus) {
       ListFound found = as_list(pdu, pdus_);
       if (!found.layout) continue;
-      if (!names.emplace(pdu.name, pdu.line).second)
-        fail(pdu.line, "fx:PDU", pdu.name, "must have a name of its own");
+      if (!names.emplace(pdu.name, pdu.line).second) fail(pdu.line, "fx:PDU", pdu.name, "must have a name of its own");
       parts.insert({pdu.id, pdu.multiplexer->static_pdu, pdu.multiplexer->layouts.front().second});
       lists_[pdu.id] = static_cast<PduId>(out_.cluster.pdus.size());
       out_.cluster.pdus.push_back(std::move(*found.layout));
@@ -126,8 +121,7 @@ class Importer {
     if (one.slot > g.gNumberOfStaticSlots + g.gNumberOfMinislots)
       return out(fmt::format("slot {}", one.slot), "is left out: it is neither a static slot nor has it a minislot");
     if ((one.repetition & (one.repetition - 1)) != 0)
-      return out(fmt::format("repetition {}", one.repetition),
-                 "is left out: cycles repeat by a power of two");
+      return out(fmt::format("repetition {}", one.repetition), "is left out: cycles repeat by a power of two");
     if (senders_.count(one.id) == 0) return out(one.id, "is left out: no ECU sends it");
     return true;
   }
@@ -143,8 +137,8 @@ class Importer {
         continue;
       }
       if (!has_a_slot(one)) continue;
-      auto& [channels, line] = slots[{one.slot, one.base_cycle, one.repetition,
-                                      frame->second - file_.frames.data(), senders_.at(one.id)}];
+      auto& [channels, line] =
+          slots[{one.slot, one.base_cycle, one.repetition, frame->second - file_.frames.data(), senders_.at(one.id)}];
       const unsigned channel = 1u << static_cast<unsigned>(one.channel);
       if ((channels & channel) != 0)
         leave_out(one.line, "fx:FRAME-TRIGGERING", one.id, "is left out: it says the same as an earlier one");
@@ -199,7 +193,8 @@ class Importer {
     const int bytes = 2 * dynamic_words(out_.cluster, out);
     if (frame.bytes != bytes)
       leave_out(frame.line, "fx:FRAME", fmt::format("{} bytes", frame.bytes),
-                fmt::format("is left out: in the dynamic segment {} is as long as its fragment, {} bytes", frame.name, bytes));
+                fmt::format("is left out: in the dynamic segment {} is as long as its fragment, {} bytes", frame.name,
+                            bytes));
     if (frame.network_management)
       leave_out(frame.line, "ttf:NETWORK-MANAGEMENT", "true", "is left out: the vector is sent in the static segment");
     return true;
@@ -229,8 +224,7 @@ class Importer {
       if (list != lists_.end() && place.byte == front && frame.places.size() == 1)
         take_fragment(frame, list->second, out);
       else
-        contents +=
-            fmt::format("{}{} at byte {}", contents.empty() ? "" : ", ", pdu->second->name, place.byte);
+        contents += fmt::format("{}{} at byte {}", contents.empty() ? "" : ", ", pdu->second->name, place.byte);
     }
     if (out.pdu == kNoPdu && !contents.empty()) contents = fmt::format("{} carries {}", frame.name, contents);
     return contents;
@@ -242,14 +236,12 @@ class Importer {
     out.pdu = pdu;
     out.fragment = frame.fragment.value_or(0);
     if (out.fragment >= fragments)
-      fail(frame.line, "ttf:FRAGMENT", std::to_string(out.fragment),
-           fmt::format("must be 0..{}", fragments - 1));
+      fail(frame.line, "ttf:FRAGMENT", std::to_string(out.fragment), fmt::format("must be 0..{}", fragments - 1));
     if (frame.fragment || fragments == 1) return;
     int& next = next_fragment_[{index_of(pdu), index_of(out.sender), out.base_cycle, out.repetition}];
     out.fragment = next++ % fragments;
-    leave_out(
-        frame.line, "fx:FRAME", frame.name,
-        fmt::format("does not say which fragment it carries; the order of slots makes it {}", out.fragment));
+    leave_out(frame.line, "fx:FRAME", frame.name,
+              fmt::format("does not say which fragment it carries; the order of slots makes it {}", out.fragment));
   }
 
   void take_receivers() {
@@ -284,8 +276,8 @@ class Importer {
       const int words = longest_dynamic_words(out_.cluster, static_cast<NodeId>(i));
       if (const auto most = ecus_[i]->max_dynamic_words; most && *most != words)
         leave_out(ecus_[i]->controller_line, "flexray:MAX-DYNAMIC-PAYLOAD-LENGTH", std::to_string(*most),
-                  fmt::format("is left out: it is that of the longest frame {} sends in the dynamic segment, {}", node.name,
-                              words));
+                  fmt::format("is left out: it is that of the longest frame {} sends in the dynamic segment, {}",
+                              node.name, words));
       check_derived(*ecus_[i], *node.flexray);
     }
   }

@@ -12,8 +12,7 @@ namespace ttf::schedules {
 namespace {
 
 bool same_meaning(const Signal& a, const Signal& b) {
-  return a.unit == b.unit && a.bits == b.bits && a.low == b.low && a.high == b.high &&
-         a.resolution == b.resolution;
+  return a.unit == b.unit && a.bits == b.bits && a.low == b.low && a.high == b.high && a.resolution == b.resolution;
 }
 
 // Why a cluster file cannot say it, or empty.
@@ -23,8 +22,7 @@ std::string unlike_ours(const FibexSignal& signal) {
   const double top = s.low + (std::ldexp(1.0, s.bits) - 1.0) * s.resolution;
   const bool in_range = s.bits <= kMostSignalBits && s.resolution >= kFinestResolution &&
                         s.resolution <= kCoarsestResolution && std::abs(s.low) <= kLargestLow &&
-                        s.high <= kLargestHigh && s.high > s.low &&
-                        s.high <= top + 0.5 * s.resolution;
+                        s.high <= kLargestHigh && s.high > s.low && s.high <= top + 0.5 * s.resolution;
   return in_range ? "" : fmt::format("{}: its range is not one of a cluster file", signal.name);
 }
 
@@ -34,8 +32,7 @@ std::string take_contiguous(const FibexPdu& pdu, std::vector<Signal>& signals, i
   for (const FibexSignal& signal : pdu.signals) {
     if (std::string reason = unlike_ours(signal); !reason.empty()) return reason;
     if (signal.offset() != bits)
-      return fmt::format("{}: it does not follow the signal before it, most significant bit first",
-                         signal.name);
+      return fmt::format("{}: it does not follow the signal before it, most significant bit first", signal.name);
     signals.push_back(signal.meaning);
     signals.back().bit_offset = bits;
     bits += signal.meaning.bits;
@@ -64,8 +61,8 @@ int take_elements(const std::vector<Signal>& all, std::vector<Signal>& element) 
   for (std::size_t i = 0; i < stems.size() && alike; ++i) {
     const auto index = take_index(stems[i].name);
     if (index == 0 && size == i) ++size;
-    alike = index && size > 0 && *index == static_cast<int>(i / size) &&
-            stems[i].name == stems[i % size].name && same_meaning(stems[i], stems[i % size]);
+    alike = index && size > 0 && *index == static_cast<int>(i / size) && stems[i].name == stems[i % size].name &&
+            same_meaning(stems[i], stems[i % size]);
   }
   if (!alike || stems.size() % size != 0) {
     element = all;
@@ -88,8 +85,7 @@ std::string check_header(const PduLayout& layout, const FibexMultiplexer& multip
     const auto found = find_signal(layout.header, name);
     return found && largest < std::int64_t{1} << layout.header[*found].bits;
   };
-  if (!needs("sequence", 4) || !needs("count", layout.max_elements) ||
-      !needs("fragment", layout.max_fragments() - 1))
+  if (!needs("sequence", 4) || !needs("count", layout.max_elements) || !needs("fragment", layout.max_fragments() - 1))
     return "its static part has no signals sequence, fragment and count, wide enough";
   const Signal& fragment = layout.header[*find_signal(layout.header, "fragment")];
   FibexSignal selector;
@@ -102,8 +98,8 @@ std::string check_header(const PduLayout& layout, const FibexMultiplexer& multip
 }
 
 // The PDU of every fragment; or why there is none.
-std::string find_elements(const FibexMultiplexer& multiplexer,
-                          const std::map<std::string, const FibexPdu*>& by_id, const FibexPdu*& elements) {
+std::string find_elements(const FibexMultiplexer& multiplexer, const std::map<std::string, const FibexPdu*>& by_id,
+                          const FibexPdu*& elements) {
   std::set<std::int64_t> codes;
   for (const auto& [code, id] : multiplexer.layouts) {
     codes.insert(code);
@@ -118,8 +114,7 @@ std::string find_elements(const FibexMultiplexer& multiplexer,
   return "";
 }
 
-std::string take_list(const FibexPdu& pdu, const std::map<std::string, const FibexPdu*>& by_id,
-                      PduLayout& layout) {
+std::string take_list(const FibexPdu& pdu, const std::map<std::string, const FibexPdu*>& by_id, PduLayout& layout) {
   if (!pdu.multiplexer) return "it has no multiplexer, hence no fragments";
   const FibexMultiplexer& multiplexer = *pdu.multiplexer;
   if (!multiplexer.unlike.empty()) return multiplexer.unlike;
@@ -133,8 +128,7 @@ std::string take_list(const FibexPdu& pdu, const std::map<std::string, const Fib
   layout.name = pdu.name;
   layout.line = pdu.line;
   layout.fragment_bytes = pdu.bytes;
-  if (std::string reason = take_contiguous(*header->second, layout.header, layout.header_bits);
-      !reason.empty())
+  if (std::string reason = take_contiguous(*header->second, layout.header, layout.header_bits); !reason.empty())
     return reason;
   layout.header_bits = (layout.header_bits + 7) / 8 * 8;
   if (multiplexer.dynamic_position != layout.header_bits)
@@ -146,8 +140,7 @@ std::string take_list(const FibexPdu& pdu, const std::map<std::string, const Fib
   layout.element_bits = bits / layout.elements_per_fragment;
   if (layout.fragment_bytes > kMostFragmentBytes || layout.header_bits + bits > 8 * layout.fragment_bytes)
     return "its signals do not fit its length";
-  if (!names_differ(layout.header) || !names_differ(layout.element))
-    return "two of its signals have the same name";
+  if (!names_differ(layout.header) || !names_differ(layout.element)) return "two of its signals have the same name";
   const int fragments = static_cast<int>(multiplexer.layouts.size());
   layout.max_elements = pdu.max_elements.value_or(fragments * layout.elements_per_fragment);
   if (layout.max_elements > 65535 || layout.max_fragments() != fragments)

@@ -13,8 +13,7 @@ namespace {
 
 constexpr std::int64_t kPicosecondsPerMicrosecond = 1'000'000;
 
-template <class Struct>
-struct Tables {
+template <class Struct> struct Tables {
   std::span<const IntegerParameter<Struct>> integers;
   std::span<const ScaledParameter<Struct>> scaled;
   std::span<const FlagParameter<Struct>> flags;
@@ -26,8 +25,7 @@ Tables<Local> tables_of(const Local&) { return {kNodeIntegers, kNodeScaled, kNod
 // FIBEX knows times in microseconds only.
 std::int64_t fibex_scale(std::string_view unit) { return unit == "bit/s" ? 1 : kPicosecondsPerMicrosecond; }
 
-template <class Struct>
-std::string value_text(const Struct& parameters, std::string_view name, bool fibex) {
+template <class Struct> std::string value_text(const Struct& parameters, std::string_view name, bool fibex) {
   const auto tables = tables_of(parameters);
   for (const auto& p : tables.integers)
     if (p.name == name) return std::to_string(parameters.*p.member);
@@ -54,9 +52,8 @@ std::optional<std::string> set_value(Struct& parameters, std::string_view name, 
     const std::int64_t scale = fibex_scale(p.unit);
     const auto value = parse_scaled(text, scale);
     if (!value || *value < p.low || *value > p.high)
-      return fmt::format("must be {}..{} {}, exact to {}", scaled_text(p.low, scale),
-                         scaled_text(p.high, scale), scale == 1 ? "bit/s" : "us",
-                         scale == 1 ? "1 bit/s" : "1 ps");
+      return fmt::format("must be {}..{} {}, exact to {}", scaled_text(p.low, scale), scaled_text(p.high, scale),
+                         scale == 1 ? "bit/s" : "us", scale == 1 ? "1 bit/s" : "1 ps");
     parameters.*p.member = *value;
     return std::nullopt;
   }
@@ -83,12 +80,10 @@ std::string yaml_value(const GlobalParameters& parameters, std::string_view name
 std::string yaml_value(const NodeParameters& parameters, std::string_view name) {
   return value_text(parameters, name, false);
 }
-std::optional<std::string> set_fibex_value(GlobalParameters& parameters, std::string_view name,
-                                           std::string_view text) {
+std::optional<std::string> set_fibex_value(GlobalParameters& parameters, std::string_view name, std::string_view text) {
   return set_value(parameters, name, text);
 }
-std::optional<std::string> set_fibex_value(NodeParameters& parameters, std::string_view name,
-                                           std::string_view text) {
+std::optional<std::string> set_fibex_value(NodeParameters& parameters, std::string_view name, std::string_view text) {
   return set_value(parameters, name, text);
 }
 

@@ -94,10 +94,8 @@ std::string fibex_value(const GlobalParameters& parameters, std::string_view nam
 std::string fibex_value(const NodeParameters& parameters, std::string_view name);
 
 // Sets it from FIBEX's text; or says what is expected instead ("must be 2..31"), and leaves it as it was.
-std::optional<std::string> set_fibex_value(GlobalParameters& parameters, std::string_view name,
-                                           std::string_view text);
-std::optional<std::string> set_fibex_value(NodeParameters& parameters, std::string_view name,
-                                           std::string_view text);
+std::optional<std::string> set_fibex_value(GlobalParameters& parameters, std::string_view name, std::string_view text);
+std::optional<std::string> set_fibex_value(NodeParameters& parameters, std::string_view name, std::string_view text);
 
 // The same in the words of a cluster file, whose units differ (pdMicrotick: ns there, us here).
 std::string yaml_value(const GlobalParameters& parameters, std::string_view name);

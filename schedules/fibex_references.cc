@@ -15,10 +15,14 @@ struct ReferenceKind {
   std::string_view reference, target;
 };
 constexpr ReferenceKind kReferenceKinds[] = {
-    {"fx:CHANNEL-REF", "fx:CHANNEL"},       {"fx:CODING-REF", "fx:CODING"},
-    {"fx:CONTROLLER-REF", "fx:CONTROLLER"}, {"fx:FRAME-REF", "fx:FRAME"},
-    {"fx:PDU-REF", "fx:PDU"},               {"fx:FRAME-TRIGGERING-REF", "fx:FRAME-TRIGGERING"},
-    {"fx:SIGNAL-REF", "fx:SIGNAL"},         {"ho:UNIT-REF", "ho:UNIT"},
+    {"fx:CHANNEL-REF", "fx:CHANNEL"},
+    {"fx:CODING-REF", "fx:CODING"},
+    {"fx:CONTROLLER-REF", "fx:CONTROLLER"},
+    {"fx:FRAME-REF", "fx:FRAME"},
+    {"fx:PDU-REF", "fx:PDU"},
+    {"fx:FRAME-TRIGGERING-REF", "fx:FRAME-TRIGGERING"},
+    {"fx:SIGNAL-REF", "fx:SIGNAL"},
+    {"ho:UNIT-REF", "ho:UNIT"},
 };
 
 struct Target {
@@ -57,8 +61,8 @@ void check_reference(const XmlFile& file, XmlElement& element, const Targets& ta
     wrong.add(finding_at(file, element, id, "must be the ID of an element of this file"));
   else if (known && target->second.name != kind->target)
     wrong.add(finding_at(file, element, id,
-                      fmt::format("must be the ID of a {}, not of the {} in line {}", kind->target,
-                                  target->second.name, target->second.line)));
+                         fmt::format("must be the ID of a {}, not of the {} in line {}", kind->target,
+                                     target->second.name, target->second.line)));
 }
 
 }  // namespace
@@ -72,9 +76,9 @@ void check_references(const XmlFile& file, Findings& wrong) {
     if (id.empty()) continue;
     const auto [first, fresh] = targets.try_emplace(id, Target{element.name(), element.line()});
     if (!fresh)
-      wrong.add(finding_at(file, element, id,
-                        fmt::format("must have an ID of its own; the {} in line {} has it", first->second.name,
-                                    first->second.line)));
+      wrong.add(finding_at(
+          file, element, id,
+          fmt::format("must have an ID of its own; the {} in line {} has it", first->second.name, first->second.line)));
   }
   for (XmlElement& element : elements) check_reference(file, element, targets, wrong);
 }

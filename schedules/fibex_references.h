@@ -1,6 +1,6 @@
-// What holds of a whole FIBEX file, whoever reads which part of it: an ID names one element, and a reference leads to one.
-// The parts are read as far as they are understood (schedules/fibex_file.h); a reference that nobody follows would else be
-// passed over in silence, and with it what hangs on it.
+// What holds of a whole FIBEX file, whoever reads which part of it: an ID names one element, and a reference leads to
+// one. The parts are read as far as they are understood (schedules/fibex_file.h); a reference that nobody follows would
+// else be passed over in silence, and with it what hangs on it.
 #pragma once
 
 #include "core/errors.h"

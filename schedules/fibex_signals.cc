@@ -69,9 +69,9 @@ void read_limits(XmlElement& method, FibexCoding& coding, FibexReader& reader) {
     const auto lower = reader.number(range, "ho:LOWER-LIMIT"), upper = reader.number(range, "ho:UPPER-LIMIT");
     range.finish();
     if (lower && *lower != coding.meaning.low)
-      reader.leave_out(range, fmt::format("{}", *lower),
-                       fmt::format("has a lower limit other than {}, the value of raw 0; it is left out",
-                                   coding.meaning.low));
+      reader.leave_out(
+          range, fmt::format("{}", *lower),
+          fmt::format("has a lower limit other than {}, the value of raw 0; it is left out", coding.meaning.low));
     if (upper) coding.meaning.high = *upper;
   }
 }
@@ -272,8 +272,7 @@ std::vector<FibexPdu> read_pdus(XmlElement& elements, const std::map<std::string
     std::stable_sort(pdu.signals.begin(), pdu.signals.end(), [](const FibexSignal& a, const FibexSignal& b) {
       return a.offset().value_or(a.position) < b.offset().value_or(b.position);
     });
-    if (auto multiplexer = element.child("fx:MULTIPLEXER"))
-      pdu.multiplexer = read_multiplexer(*multiplexer, reader);
+    if (auto multiplexer = element.child("fx:MULTIPLEXER")) pdu.multiplexer = read_multiplexer(*multiplexer, reader);
     if (auto extension = element.child("fx:MANUFACTURER-EXTENSION")) {
       if (extension->has("ttf:MAX-ELEMENTS"))
         pdu.max_elements = reader.integer(*extension, "ttf:MAX-ELEMENTS", 1, 65535);
@@ -295,16 +294,15 @@ std::vector<FibexFrame> read_frames(XmlElement& elements, FibexReader& reader) {
     frame.bytes = reader.integer(element, "fx:BYTE-LENGTH", 0, kMostFragmentBytes);
     element.ignore("fx:FRAME-TYPE");
     for (XmlElement& instance : element.children_of("fx:PDU-INSTANCES", "fx:PDU-INSTANCE")) {
-      frame.places.push_back({instance.reference("fx:PDU-REF"),
-                              reader.integer(instance, "fx:BIT-POSITION", 0, kMostBits - 1) / 8});
+      frame.places.push_back(
+          {instance.reference("fx:PDU-REF"), reader.integer(instance, "fx:BIT-POSITION", 0, kMostBits - 1) / 8});
       instance.ignore("fx:IS-HIGH-LOW-BYTE-ORDER");  // PDUs begin at whole bytes in either
       instance.finish();
     }
     if (auto extension = element.child("fx:MANUFACTURER-EXTENSION")) {
       if (extension->has("ttf:FRAGMENT")) frame.fragment = reader.integer(*extension, "ttf:FRAGMENT", 0, 255);
       frame.network_management = reader.boolean(*extension, "ttf:NETWORK-MANAGEMENT", false);
-      if (extension->has("ttf:MESSAGE-ID"))
-        frame.message_id = reader.integer(*extension, "ttf:MESSAGE-ID", 0, 65535);
+      if (extension->has("ttf:MESSAGE-ID")) frame.message_id = reader.integer(*extension, "ttf:MESSAGE-ID", 0, 65535);
       extension->finish();
     }
     element.finish();

@@ -24,8 +24,7 @@ std::string scalar(const std::string& text) {
                                                  "False", "FALSE", "yes",  "no",   "on",   "off"};
   const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
   const auto plain = [&](char c) { return letter(c) || c == '/' || (c >= '0' && c <= '9'); };
-  if (!text.empty() && letter(text[0]) && std::all_of(text.begin(), text.end(), plain) &&
-      kMeaningful.count(text) == 0)
+  if (!text.empty() && letter(text[0]) && std::all_of(text.begin(), text.end(), plain) && kMeaningful.count(text) == 0)
     return text;
   std::string quoted = "\"";
   for (const char c : text) {
@@ -84,9 +83,9 @@ class Writer {
   void line(const std::string& text) { text_ += text + '\n'; }
 
   void write_head() {
-    line(comment(fmt::format(
-        "# From the FIBEX file {}: the timing of the cluster, its controllers, slots, PDUs and signals.",
-        cluster_.file)));
+    line(comment(
+        fmt::format("# From the FIBEX file {}: the timing of the cluster, its controllers, slots, PDUs and signals.",
+                    cluster_.file)));
     line(
         "# What FIBEX does not say, and is to be added before this cluster can run: the tasks of each node "
         "and what they read and");
@@ -115,8 +114,8 @@ class Writer {
       values.push_back({name, yaml_value(*node.flexray, name), assumed(name), unit});
     };
     values.push_back({"pChannels", std::string(channels_text(node.flexray->pChannels)), assumed("pChannels"), {}});
-    values.push_back({"pWakeupChannel", node.flexray->pWakeupChannel == Channel::kA ? "A" : "B",
-                      assumed("pWakeupChannel"), {}});
+    values.push_back(
+        {"pWakeupChannel", node.flexray->pWakeupChannel == Channel::kA ? "A" : "B", assumed("pWakeupChannel"), {}});
     for (const auto& p : kNodeScaled) add(p.name, p.unit);
     for (const auto& p : kNodeIntegers) add(p.name);
     for (const auto& p : kNodeFlags) add(p.name);
@@ -163,16 +162,15 @@ class Writer {
   void write_multiplexer(const FibexMultiplexer& multiplexer) {
     if (!multiplexer.static_pdu.empty()) line(comment("#   always: " + pdu_named(multiplexer.static_pdu)));
     for (const auto& [code, id] : multiplexer.layouts)
-      line(comment(fmt::format("#   from bit {}, where the {} bits at bit {} are {}: {}",
-                               multiplexer.dynamic_position, multiplexer.switch_bits,
-                               multiplexer.switch_position, code, pdu_named(id))));
+      line(comment(fmt::format("#   from bit {}, where the {} bits at bit {} are {}: {}", multiplexer.dynamic_position,
+                               multiplexer.switch_bits, multiplexer.switch_position, code, pdu_named(id))));
   }
 
   void write_pdus() {
     line("");
     for (const ForeignPdu& foreign : in_.foreign) {
-      line(comment(fmt::format("# {}: {} bytes, no list of a cluster file, for {}", foreign.pdu.name,
-                               foreign.pdu.bytes, foreign.reason)));
+      line(comment(fmt::format("# {}: {} bytes, no list of a cluster file, for {}", foreign.pdu.name, foreign.pdu.bytes,
+                               foreign.reason)));
       for (const FibexSignal& signal : foreign.pdu.signals)
         line(comment(fmt::format("#   bit {}, {} first: {}{}", signal.position,
                                  signal.high_low ? "high byte" : "low byte", signal_text(signal.meaning),
@@ -198,10 +196,9 @@ class Writer {
       const FrameSlot& first = cluster_.frames[i];
       std::size_t end = i + 1;
       while (end < cluster_.frames.size() && continues(cluster_.frames[end - 1], cluster_.frames[end])) ++end;
-      std::string text =
-          fmt::format("  - {{slot: {}, channels: {}, sender: {}, base_cycle: {}, repetition: {}", first.slot,
-                      channels_text(first.channels), scalar(cluster_.node(first.sender).name),
-                      first.base_cycle, first.repetition);
+      std::string text = fmt::format("  - {{slot: {}, channels: {}, sender: {}, base_cycle: {}, repetition: {}",
+                                     first.slot, channels_text(first.channels),
+                                     scalar(cluster_.node(first.sender).name), first.base_cycle, first.repetition);
       if (first.pdu != kNoPdu) {
         text += fmt::format(", pdu: {}, fragments: {}", scalar(cluster_.pdu(first.pdu).name), end - i);
         if (first.fragment != 0) text += fmt::format(", first_fragment: {}", first.fragment);

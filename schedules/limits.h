@@ -6,13 +6,13 @@
 
 namespace ttf::schedules {
 
-inline constexpr std::size_t kMostNamed = 200;        // nodes, sensors, PDUs: ids are bytes, one value means none
-inline constexpr std::size_t kMostCans = 127;         // a record's bus is a signed byte, below zero for FlexRay
-inline constexpr std::size_t kMostTasks = 16;         // of a node
-inline constexpr int kLastStaticSlot = 1023;          // cStaticSlotIDMax
-inline constexpr int kLastSlot = 2047;                // cSlotIDMax
-inline constexpr int kMostFragments = 256;            // a fragment's number is a byte in records
-inline constexpr int kMostFragmentBytes = 254;        // cPayloadLengthMax, in two-byte words: 127
+inline constexpr std::size_t kMostNamed = 200;  // nodes, sensors, PDUs: ids are bytes, one value means none
+inline constexpr std::size_t kMostCans = 127;   // a record's bus is a signed byte, below zero for FlexRay
+inline constexpr std::size_t kMostTasks = 16;   // of a node
+inline constexpr int kLastStaticSlot = 1023;    // cStaticSlotIDMax
+inline constexpr int kLastSlot = 2047;          // cSlotIDMax
+inline constexpr int kMostFragments = 256;      // a fragment's number is a byte in records
+inline constexpr int kMostFragmentBytes = 254;  // cPayloadLengthMax, in two-byte words: 127
 
 // Of a CAN, in bit/s: ISO 11898-1 and -2.
 inline constexpr int kSlowestCan = 10'000, kFastestNominal = 1'000'000, kFastestData = 8'000'000;
@@ -20,6 +20,6 @@ inline constexpr int kSlowestCan = 10'000, kFastestNominal = 1'000'000, kFastest
 // Of a signal, in its own unit.
 inline constexpr int kMostSignalBits = 32;
 inline constexpr double kFinestResolution = 1e-9, kCoarsestResolution = 1e9;
-inline constexpr double kLargestLow = 1e9, kLargestHigh = 1e10;   // magnitudes
+inline constexpr double kLargestLow = 1e9, kLargestHigh = 1e10;  // magnitudes
 
 }  // namespace ttf::schedules

@@ -17,7 +17,7 @@ namespace ttf::schedules {
 namespace {
 
 constexpr Duration kLongest = Duration::milliseconds(10'000);
-constexpr Duration kWidestArrival = Duration::milliseconds(1'000);   // before or after an action point
+constexpr Duration kWidestArrival = Duration::milliseconds(1'000);  // before or after an action point
 constexpr Range<Duration> kExecution{Duration::microseconds(1), kLongest};
 
 const Choices<Channels> kChannels{{"A", Channels::kA}, {"B", Channels::kB}, {"AB", Channels::kAB}};
@@ -32,7 +32,8 @@ class Loader {
   Cluster load() {
     cluster_.name = root_.text("name");
     cluster_.synchronisation = root_.boolean("synchronisation");
-    cluster_.topology = root_.choice_or("topology", Topology::kBus, {{"bus", Topology::kBus}, {"star", Topology::kStar}});
+    cluster_.topology =
+        root_.choice_or("topology", Topology::kBus, {{"bus", Topology::kBus}, {"star", Topology::kStar}});
     cluster_.guardian = root_.boolean_or("guardian", false);
     for (const char* key : {"topology", "guardian", "real_time"}) remember(root_, key);
     if (auto window = root_.map_if("real_time")) load_arrival_window(*window);
@@ -71,8 +72,7 @@ class Loader {
     if (count > most) root_.fail(key, fmt::format("must have at most {} entries; it has {}", most, count));
   }
 
-  template <class Id>
-  Id reference(YamlMap& map, std::string_view key, std::optional<Id> found, std::string_view what) {
+  template <class Id> Id reference(YamlMap& map, std::string_view key, std::optional<Id> found, std::string_view what) {
     if (found) return *found;
     if (map.has(key)) map.fail(key, fmt::format("is not the name of a {} in this file", what));
     return Id{};
@@ -80,9 +80,7 @@ class Loader {
   NodeId node(YamlMap& map, std::string_view key) {
     return reference(map, key, cluster_.find_node(map.text(key)), "node");
   }
-  PduId pdu(YamlMap& map, std::string_view key) {
-    return reference(map, key, cluster_.find_pdu(map.text(key)), "PDU");
-  }
+  PduId pdu(YamlMap& map, std::string_view key) { return reference(map, key, cluster_.find_pdu(map.text(key)), "PDU"); }
   SensorId sensor(YamlMap& map, std::string_view key) {
     return reference(map, key, cluster_.find_sensor(map.text(key)), "sensor");
   }
@@ -110,14 +108,15 @@ class Loader {
   }
 
   void remember(const YamlMap& map, std::string_view key) {
-    cluster_.parameter_lines[map.path().empty() ? std::string(key) : fmt::format("{}.{}", map.path(), key)] = map.line(key);
+    cluster_.parameter_lines[map.path().empty() ? std::string(key) : fmt::format("{}.{}", map.path(), key)] =
+        map.line(key);
   }
 
   // A node's own value, or else the one shared by all nodes.
   NodeParameters load_node_parameters(YamlMap& own, YamlMap& shared) {
     NodeParameters local;
     const auto from = [&](std::string_view key) -> YamlMap& {
-      const bool in_shared = shared.has(key);   // asked in any case: it is a known key there
+      const bool in_shared = shared.has(key);  // asked in any case: it is a known key there
       YamlMap& map = own.has(key) || !in_shared ? own : shared;
       cluster_.parameter_lines[fmt::format("{}.{}", own.path(), key)] = map.line(key);
       return map;
@@ -127,12 +126,11 @@ class Loader {
       local.*p.member = static_cast<int>(p.otherwise ? map.integer_or(p.name, *p.otherwise, {p.low, p.high}, p.unit)
                                                      : map.integer(p.name, {p.low, p.high}, p.unit));
     }
-    for (const auto& p : kNodeScaled)
-      local.*p.member = from(p.name).scaled(p.name, p.scale, {p.low, p.high}, p.unit);
+    for (const auto& p : kNodeScaled) local.*p.member = from(p.name).scaled(p.name, p.scale, {p.low, p.high}, p.unit);
     local.pChannels = from("pChannels").choice_or("pChannels", local.pChannels, kChannels);
-    local.pWakeupChannel = from("pWakeupChannel")
-                               .choice_or("pWakeupChannel", default_wakeup(local.pChannels),
-                                          {{"A", Channel::kA}, {"B", Channel::kB}});
+    local.pWakeupChannel =
+        from("pWakeupChannel")
+            .choice_or("pWakeupChannel", default_wakeup(local.pChannels), {{"A", Channel::kA}, {"B", Channel::kB}});
     for (const auto& p : kNodeFlags) local.*p.member = from(p.name).boolean(p.name);
     own.finish();
     return local;
@@ -189,8 +187,8 @@ class Loader {
     needs("count", layout.max_elements);
     const int bits = layout.header_bits + layout.elements_per_fragment * layout.element_bits;
     if (bits > 8 * layout.fragment_bytes)
-      map.fail("fragment_bytes", fmt::format("must be at least {}: header and {} elements take {} bits",
-                                             (bits + 7) / 8, layout.elements_per_fragment, bits));
+      map.fail("fragment_bytes", fmt::format("must be at least {}: header and {} elements take {} bits", (bits + 7) / 8,
+                                             layout.elements_per_fragment, bits));
     map.finish();
   }
 
@@ -223,9 +221,9 @@ class Loader {
     item.device = node(map, "device");
     item.host = node(map, "host");
     enum class Measures : std::uint8_t { kFreely, kScheduled, kFollowing };
-    const auto when = map.choice<Measures>("measurement", {{"free", Measures::kFreely},
-                                                           {"scheduled", Measures::kScheduled},
-                                                           {"completion", Measures::kFollowing}});
+    const auto when = map.choice<Measures>(
+        "measurement",
+        {{"free", Measures::kFreely}, {"scheduled", Measures::kScheduled}, {"completion", Measures::kFollowing}});
     item.scheduled = when == Measures::kScheduled;
     if (item.scheduled) {
       item.at = load_instant(map);
@@ -278,8 +276,7 @@ class Loader {
       const std::string medium = on == std::string::npos ? "" : text.substr(on + 4);
       const auto bus = std::find_if(cluster_.can_buses.begin(), cluster_.can_buses.end(),
                                     [&](const CanBus& candidate) { return candidate.name == medium; });
-      if (bus != cluster_.can_buses.end())
-        binding.can_bus = static_cast<std::size_t>(bus - cluster_.can_buses.begin());
+      if (bus != cluster_.can_buses.end()) binding.can_bus = static_cast<std::size_t>(bus - cluster_.can_buses.begin());
       if (!found || (medium != "flexray" && bus == cluster_.can_buses.end())) {
         lines.fail(port, "must be PDU on flexray or PDU on CAN, with the names of a PDU and a CAN of this file");
         continue;
@@ -314,8 +311,8 @@ class Loader {
     task.best_case = map.duration("best_case", kExecution);
     task.worst_case = map.duration("worst_case", kExecution);
     if (task.worst_case < task.best_case) map.fail("worst_case", "must not be below best_case");
-    task.draw = map.choice<ExecutionDraw>(
-        "draw", {{"uniform", ExecutionDraw::kUniform}, {"worst", ExecutionDraw::kWorst}});
+    task.draw =
+        map.choice<ExecutionDraw>("draw", {{"uniform", ExecutionDraw::kUniform}, {"worst", ExecutionDraw::kWorst}});
     task.deadline = map.duration("deadline", kExecution);
     task.reads = load_ports(map, "reads");
     task.writes = load_ports(map, "writes");
@@ -331,7 +328,7 @@ class Loader {
     } else {
       item.microtick_ps = map.scaled("microtick", 1'000, {2'000, 1'000'000}, "ns");
     }
-    constexpr std::int64_t kMostDrift = 1'500'000;   // cClockDeviationMax
+    constexpr std::int64_t kMostDrift = 1'500'000;  // cClockDeviationMax
     item.max_drift_ppb = map.scaled("max_drift_ppm", 1'000, {0, kMostDrift}, "ppm");
     if (map.has("drift_ppm")) item.drift_ppb = map.scaled("drift_ppm", 1'000, {-kMostDrift, kMostDrift}, "ppm");
     remember(map, "drift_ppm");

@@ -8,12 +8,12 @@
 namespace ttf::schedules {
 namespace {
 
-constexpr int kShortestDts = 1;   // gdBit
+constexpr int kShortestDts = 1;  // gdBit
 
 // What the slots before `frame` on `channel` take at worst. Cluster::frames are ordered by slot.
 std::int64_t before(const Cluster& cluster, const FrameSlot& frame, Channel channel) {
   const GlobalParameters& g = cluster.flexray;
-  std::int64_t minislots = frame.slot - g.gNumberOfStaticSlots - 1;   // one each
+  std::int64_t minislots = frame.slot - g.gNumberOfStaticSlots - 1;  // one each
   std::int64_t longest = 1;
   int slot = 0;
   for (const FrameSlot& other : cluster.frames) {
@@ -36,8 +36,8 @@ Macroticks minislot_start(const GlobalParameters& g, std::int64_t minislot) {
 }
 
 int dynamic_words(const Cluster& cluster, const FrameSlot& frame) {
-  return frame.pdu == kNoPdu
-             ? 0 : (preamble_bytes(cluster.flexray, frame) + cluster.pdu(frame.pdu).fragment_bytes + 1) / 2;
+  return frame.pdu == kNoPdu ? 0
+                             : (preamble_bytes(cluster.flexray, frame) + cluster.pdu(frame.pdu).fragment_bytes + 1) / 2;
 }
 
 int longest_dynamic_words(const Cluster& cluster, NodeId sender) {
@@ -49,12 +49,14 @@ int longest_dynamic_words(const Cluster& cluster, NodeId sender) {
 }
 
 std::int64_t minislots_of(const GlobalParameters& g, int words) {
-  const std::int64_t whole = ceil_div(longest_bits(g, frame_bits(g, words) + kShortestDts),
-                                      shortest_macroticks(g, g.gdMinislot));
+  const std::int64_t whole =
+      ceil_div(longest_bits(g, frame_bits(g, words) + kShortestDts), shortest_macroticks(g, g.gdMinislot));
   return whole + 1 + g.gdDynamicSlotIdlePhase;
 }
 
-std::int64_t last_start(const GlobalParameters& g, int words) { return g.gNumberOfMinislots - minislots_of(g, words) + 1; }
+std::int64_t last_start(const GlobalParameters& g, int words) {
+  return g.gNumberOfMinislots - minislots_of(g, words) + 1;
+}
 
 int earliest_turn(const GlobalParameters& g, const FrameSlot& frame) { return frame.slot - g.gNumberOfStaticSlots; }
 

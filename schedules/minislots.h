@@ -1,20 +1,21 @@
-// The dynamic segment as a schedule sees it: how many minislots a frame takes, and when its turn comes at the earliest and
-// at the latest (FlexRay 2.1A, chapter 5.1.3; bus/dynamic_segment.h counts them as they pass).
+// The dynamic segment as a schedule sees it: how many minislots a frame takes, and when its turn comes at the earliest
+// and at the latest (FlexRay 2.1A, chapter 5.1.3; bus/dynamic_segment.h counts them as they pass).
 //
-// A transmission begins at the action point of a minislot m. Its trailing sequence (DTS, at least one bit) ends at the first
-// action point that leaves room for the frame, in minislot m + k,
+// A transmission begins at the action point of a minislot m. Its trailing sequence (DTS, at least one bit) ends at the
+// first action point that leaves room for the frame, in minislot m + k,
 //   k = ceil((frame bits + 1) gdBitMax / (gdMinislot gdMacrotick (1 - cClockDeviationMax)))
-// with gdBitMax = gdBit (1 + cClockDeviationMax): bits at their longest, macroticks at their shortest. gdDynamicSlotIdlePhase
-// minislots of silence follow, so that the slot takes
+// with gdBitMax = gdBit (1 + cClockDeviationMax): bits at their longest, macroticks at their shortest.
+// gdDynamicSlotIdlePhase minislots of silence follow, so that the slot takes
 //   aMinislotPerDynamicFrame = k + 1 + gdDynamicSlotIdlePhase
 // and begun no later than in minislot pLatestTx it is over within the segment if
 //   pLatestTx <= gNumberOfMinislots - aMinislotPerDynamicFrame + 1
-// (the specification's constraint on pLatestTx in annex B, with the longest frame the node sends; the derivation above is
-// from chapter 5.1.3, where the controller's rule stands). A slot in which nothing is sent takes one minislot.
+// (the specification's constraint on pLatestTx in annex B, with the longest frame the node sends; the derivation above
+// is from chapter 5.1.3, where the controller's rule stands). A slot in which nothing is sent takes one minislot.
 //
-// The turn of slot s on a channel comes at the earliest in minislot s - gNumberOfStaticSlots, when all slots before it are
-// silent, and at the latest when every slot before it that may be used in one of its cycles is, with its longest frame. If
-// that is no later than pLatestTx, the frame is sent in every cycle it has something to send in: its delay has a bound.
+// The turn of slot s on a channel comes at the earliest in minislot s - gNumberOfStaticSlots, when all slots before it
+// are silent, and at the latest when every slot before it that may be used in one of its cycles is, with its longest
+// frame. If that is no later than pLatestTx, the frame is sent in every cycle it has something to send in: its delay
+// has a bound.
 #pragma once
 
 #include <cstdint>

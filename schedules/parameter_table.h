@@ -10,31 +10,28 @@
 
 namespace ttf::schedules {
 
-template <class Struct>
-struct IntegerParameter {
+template <class Struct> struct IntegerParameter {
   std::string_view name;
   int low;
   int high;
   std::string_view unit;
-  int Struct::* member;
-  std::optional<int> otherwise = std::nullopt;   // where a file does not give it; else it has to
+  int Struct::*member;
+  std::optional<int> otherwise = std::nullopt;  // where a file does not give it; else it has to
 };
 
 // Given as a decimal number of `unit`, kept as a whole number of picoseconds (or bit/s).
-template <class Struct>
-struct ScaledParameter {
+template <class Struct> struct ScaledParameter {
   std::string_view name;
   std::int64_t scale;
   std::int64_t low;
   std::int64_t high;
   std::string_view unit;
-  std::int64_t Struct::* member;
+  std::int64_t Struct::*member;
 };
 
-template <class Struct>
-struct FlagParameter {
+template <class Struct> struct FlagParameter {
   std::string_view name;
-  bool Struct::* member;
+  bool Struct::*member;
 };
 
 using Global = GlobalParameters;
@@ -99,8 +96,8 @@ inline constexpr IntegerParameter<Local> kNodeIntegers[] = {
     {"pLatestTx", 0, 7980, "minislots", &Local::pLatestTx},
     {"pAllowPassiveToActive", 0, 31, "pairs of cycles", &Local::pAllowPassiveToActive},
     {"pWakeupPattern", 2, 63, "", &Local::pWakeupPattern},
-    {"pExternOffsetCorrection", 0, 7, "microticks", &Local::pExternOffsetCorrection, 0},   // GTUC11.EOC
-    {"pExternRateCorrection", 0, 7, "microticks", &Local::pExternRateCorrection, 0},       // GTUC11.ERC
+    {"pExternOffsetCorrection", 0, 7, "microticks", &Local::pExternOffsetCorrection, 0},  // GTUC11.EOC
+    {"pExternRateCorrection", 0, 7, "microticks", &Local::pExternRateCorrection, 0},      // GTUC11.ERC
 };
 
 inline constexpr ScaledParameter<Local> kNodeScaled[] = {

@@ -23,24 +23,24 @@ namespace ttf::schedules {
 struct Signal {
   std::string name;
   std::string unit;
-  int bits = 0;              // 1..32
+  int bits = 0;  // 1..32
   double low = 0.0;
   double high = 0.0;
   double resolution = 1.0;
-  int bit_offset = 0;        // from the start of the header or of the element (derived)
+  int bit_offset = 0;  // from the start of the header or of the element (derived)
 };
 
 struct PduLayout {
   std::string name;
-  SensorId sensor = kNoSensor;   // whose measurement the list descends from, if any
+  SensorId sensor = kNoSensor;  // whose measurement the list descends from, if any
   int fragment_bytes = 0;
   int max_elements = 0;
   int elements_per_fragment = 0;
-  std::vector<Signal> header;    // must contain "sequence" and "fragment" and "count" (elements in the whole list)
+  std::vector<Signal> header;  // must contain "sequence" and "fragment" and "count" (elements in the whole list)
   std::vector<Signal> element;
-  int header_bits = 0;           // derived, rounded up to whole bytes
-  int element_bits = 0;          // derived
-  int line = 0;                  // where it stands in the cluster file
+  int header_bits = 0;   // derived, rounded up to whole bytes
+  int element_bits = 0;  // derived
+  int line = 0;          // where it stands in the cluster file
 
   // Fragments of a list of n elements (at least one: an empty list is a message too).
   int fragments_of(int n) const {

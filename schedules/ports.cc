@@ -11,10 +11,10 @@ namespace ttf::schedules {
 namespace {
 
 struct Direction {
-  std::string_view key;                          // "reads" or "writes"
+  std::string_view key;  // "reads" or "writes"
   const std::vector<PortBinding>& bound;
   const std::vector<std::string_view>& needed;
-  bool any;                                      // sensors' names are ports too
+  bool any;  // sensors' names are ports too
 };
 
 void bind_direction(const Cluster& cluster, const std::string& path, const Task& task, const Direction& direction,
@@ -25,8 +25,8 @@ void bind_direction(const Cluster& cluster, const std::string& path, const Task&
       findings.add({cluster.file, task.line, fmt::format("{}.{}", path, direction.key), "",
                     fmt::format("must bind the port {}: step {} needs it", port, task.step)});
   for (const PortBinding& binding : direction.bound) {
-    const bool known = std::find(direction.needed.begin(), direction.needed.end(), binding.port) !=
-                       direction.needed.end();
+    const bool known =
+        std::find(direction.needed.begin(), direction.needed.end(), binding.port) != direction.needed.end();
     const auto sensor = direction.any ? cluster.find_sensor(binding.port) : std::nullopt;
     const std::string key = fmt::format("{}.{}.{}", path, direction.key, binding.port);
     if (sensor && !known && cluster.pdu(binding.pdu).sensor != *sensor)
@@ -34,8 +34,7 @@ void bind_direction(const Cluster& cluster, const std::string& path, const Task&
                     fmt::format("must be a PDU of the sensor {}, as its port is called", binding.port)});
     if (known || sensor) continue;
     findings.add({cluster.file, binding.line, key, "",
-                  fmt::format("is not a port of step {} (ports: {}{})", task.step,
-                              fmt::join(direction.needed, ", "),
+                  fmt::format("is not a port of step {} (ports: {}{})", task.step, fmt::join(direction.needed, ", "),
                               direction.any ? std::string("the sensors' names") : std::string())});
   }
   if (direction.any && direction.bound.empty())

@@ -15,8 +15,8 @@ struct StepPorts {
   std::string_view step;
   std::vector<std::string_view> reads;
   std::vector<std::string_view> writes;
-  bool any_reads = false;   // besides `reads`, one port per sensor may be read, called like the sensor whose PDU it
-                            // leads to; at least one
+  bool any_reads = false;  // besides `reads`, one port per sensor may be read, called like the sensor whose PDU it
+                           // leads to; at least one
 };
 
 // Throws InputError with every mismatch.

@@ -38,16 +38,13 @@ void check_window(const Cluster& cluster, std::int64_t time_scale_ppm, ClusterFi
         "real_time.late", us_text(window.late),
         fmt::format("must be at most {} at time scale {}, from the action point of slot {}, the last one in "
                     "use, to the end of the static segment{}",
-                    us_text(room), time_scale_text(time_scale_ppm), last_static_slot(cluster),
-                    remedy(cluster)));
-  if (scaled_ps(window.early + window.late) >=
-      static_cast<Int128>(cluster.flexray.cycle_ps()) * time_scale_ppm)
-    findings.parameter(
-        "real_time.early", us_text(window.early),
-        fmt::format("must be less than a cycle together with late ({}), {} at time scale {}: else the "
-                    "windows of a slot in two cycles overlap{}",
-                    us_text(window.late), us_text(stretched(cluster.cycle(), time_scale_ppm)),
-                    time_scale_text(time_scale_ppm), remedy(cluster)));
+                    us_text(room), time_scale_text(time_scale_ppm), last_static_slot(cluster), remedy(cluster)));
+  if (scaled_ps(window.early + window.late) >= static_cast<Int128>(cluster.flexray.cycle_ps()) * time_scale_ppm)
+    findings.parameter("real_time.early", us_text(window.early),
+                       fmt::format("must be less than a cycle together with late ({}), {} at time scale {}: else the "
+                                   "windows of a slot in two cycles overlap{}",
+                                   us_text(window.late), us_text(stretched(cluster.cycle(), time_scale_ppm)),
+                                   time_scale_text(time_scale_ppm), remedy(cluster)));
 }
 
 void check_sensor_lines(const Cluster& cluster, ClusterFindings& findings) {
@@ -78,9 +75,7 @@ void check_sensor_lines(const Cluster& cluster, ClusterFindings& findings) {
 
 }  // namespace
 
-std::string time_scale_text(std::int64_t time_scale_ppm) {
-  return scaled_text(time_scale_ppm, kTimeScaleOne);
-}
+std::string time_scale_text(std::int64_t time_scale_ppm) { return scaled_text(time_scale_ppm, kTimeScaleOne); }
 
 Duration stretched(Duration scheduled, std::int64_t time_scale_ppm) {
   return {static_cast<std::int64_t>(static_cast<Int128>(scheduled.ns) * time_scale_ppm / kTimeScaleOne)};
@@ -94,8 +89,7 @@ int last_static_slot(const Cluster& cluster) {
 }
 
 Duration arrival_room(const Cluster& cluster, std::int64_t time_scale_ppm) {
-  return {static_cast<std::int64_t>(static_cast<Int128>(room_ps(cluster)) * time_scale_ppm /
-                                    (1'000 * kTimeScaleOne))};
+  return {static_cast<std::int64_t>(static_cast<Int128>(room_ps(cluster)) * time_scale_ppm / (1'000 * kTimeScaleOne))};
 }
 
 std::int64_t smallest_time_scale(const Cluster& cluster, const ArrivalWindow& window) {
@@ -108,25 +102,22 @@ std::int64_t smallest_time_scale(const Cluster& cluster, const ArrivalWindow& wi
 std::vector<Finding> check_real_time(const Cluster& cluster, std::int64_t time_scale_ppm) {
   ClusterFindings findings(cluster);
   if (!cluster.arrival_window)
-    findings.parameter(
-        "real_time", "",
-        "is missing: without an arrival window {early, late} a cluster is for virtual time only");
+    findings.parameter("real_time", "",
+                       "is missing: without an arrival window {early, late} a cluster is for virtual time only");
   else
     check_window(cluster, time_scale_ppm, findings);
-  const auto dynamic = std::ranges::find_if(
-      cluster.frames, [&](const FrameSlot& frame) { return is_dynamic(cluster.flexray, frame); });
+  const auto dynamic =
+      std::ranges::find_if(cluster.frames, [&](const FrameSlot& frame) { return is_dynamic(cluster.flexray, frame); });
   if (dynamic != cluster.frames.end())
     findings.at(
         dynamic->line, fmt::format("frames.slot {}", dynamic->slot), cluster.node(dynamic->sender).name,
-        fmt::format(
-            "must be a static slot, 1..{}, in real time: frames of the dynamic segment are for virtual time "
-            "only, as its minislots of {} pass between two wake-ups",
-            cluster.flexray.gNumberOfStaticSlots,
-            us_text({cluster.flexray.gdMinislot * cluster.flexray.gdMacrotick_ps / 1'000})));
+        fmt::format("must be a static slot, 1..{}, in real time: frames of the dynamic segment are for virtual time "
+                    "only, as its minislots of {} pass between two wake-ups",
+                    cluster.flexray.gNumberOfStaticSlots,
+                    us_text({cluster.flexray.gdMinislot * cluster.flexray.gdMacrotick_ps / 1'000})));
   if (cluster.topology != Topology::kBus)
-    findings.parameter(
-        "topology", "star",
-        "must be bus in real time: stars, and guardians in them, are simulated in virtual time only");
+    findings.parameter("topology", "star",
+                       "must be bus in real time: stars, and guardians in them, are simulated in virtual time only");
   check_sensor_lines(cluster, findings);
   return findings.take();
 }

@@ -10,13 +10,13 @@
 namespace ttf::schedules {
 namespace {
 
-constexpr std::int64_t kLongest_ns = 20'000'000'000;         // twice the longest deadline a file can ask for
+constexpr std::int64_t kLongest_ns = 20'000'000'000;  // twice the longest deadline a file can ask for
 constexpr int kMostRounds = 10'000;
 
 // How a sensor that waits for the task's end activates it.
 struct Following {
-  std::int64_t best = 0, worst = 0;   // execution
-  std::int64_t pause = 0;             // from its end to the next activation at the least
+  std::int64_t best = 0, worst = 0;  // execution
+  std::int64_t pause = 0;            // from its end to the next activation at the least
   std::int64_t round() const { return best + pause; }
   // The longest executions of activations before the last in a closed window.
   std::int64_t before_last(std::int64_t window) const {
@@ -64,7 +64,7 @@ class NodeTasks {
 
   std::optional<std::vector<TaskResponse>> responses() {
     for (std::size_t t = 0; t < before_.size(); ++t)
-      if (before_[root(t)]) return std::nullopt;   // round and round
+      if (before_[root(t)]) return std::nullopt;  // round and round
     const auto busy = busy_time();
     if (!busy) return std::nullopt;
     find_steps(*busy);
@@ -124,14 +124,15 @@ class NodeTasks {
     return false;
   }
 
-  // A distance of global time in the node's own: every cycle may be shorter by the rate correction, every second one by an
-  // offset correction, external terms included.
+  // A distance of global time in the node's own: every cycle may be shorter by the rate correction, every second one by
+  // an offset correction, external terms included.
   std::int64_t shrunk(std::int64_t global_ns) const {
     if (global_ns == 0 || !node_.flexray) return global_ns;
     const NodeParameters& p = *node_.flexray;
-    const std::int64_t rate = static_cast<std::int64_t>(static_cast<Int128>(global_ns) *
-                                                        (p.pRateCorrectionOut + p.pExternRateCorrection) /
-                                                        std::max(p.pMicroPerCycle, 1)) + 1;
+    const std::int64_t rate =
+        static_cast<std::int64_t>(static_cast<Int128>(global_ns) * (p.pRateCorrectionOut + p.pExternRateCorrection) /
+                                  std::max(p.pMicroPerCycle, 1)) +
+        1;
     const std::int64_t offset = (p.pOffsetCorrectionOut + p.pExternOffsetCorrection) * p.pdMicrotick_ps / 1000 + 1;
     const std::int64_t corrections = global_ns / (2 * std::max<std::int64_t>(1, cluster_.cycle().ns)) + 1;
     return std::max<std::int64_t>(0, global_ns - rate - offset * corrections - kGranularity_ns);
@@ -143,8 +144,8 @@ class NodeTasks {
     const std::size_t rounds = k / count, rest = k % count;
     const std::size_t to = forward ? (from + rest) % count : (from + count - rest) % count;
     const bool wrapped = forward ? to < from : to > from;
-    const std::int64_t apart = forward ? instants_[to].first - instants_[from].first
-                                       : instants_[from].first - instants_[to].first;
+    const std::int64_t apart =
+        forward ? instants_[to].first - instants_[from].first : instants_[from].first - instants_[to].first;
     return {apart + round_ * (static_cast<std::int64_t>(rounds) + (wrapped ? 1 : 0)), instants_[to].second};
   }
 
@@ -268,7 +269,7 @@ class NodeTasks {
     if (!by_time(first) || !by_time(other)) return true;
     for (std::size_t i = 0; i < instants_.size(); ++i) {
       if (instants_[i].second != first) continue;
-      for (const bool forward : {true, false})   // backward for what time has at the same instant
+      for (const bool forward : {true, false})  // backward for what time has at the same instant
         for (std::size_t k = 0;; ++k) {
           const auto [apart, at] = neighbour(i, k, forward);
           if (shrunk(apart) > (forward ? ended(*before_[task]) : 0)) break;
@@ -280,14 +281,14 @@ class NodeTasks {
 
   const Cluster& cluster_;
   const Node& node_;
-  std::vector<std::optional<std::size_t>> before_;     // the task whose end activates it
-  std::vector<std::int64_t> ahead_;                    // how long ago its newest activation was, at least
-  std::vector<std::int64_t> whole_;                    // of a chain, at its first task
-  std::vector<ArrivalBounds> arrivals_;                // of first tasks that messages and sensors activate
-  std::vector<std::optional<Following>> following_;    // of first tasks that a sensor waits for
-  std::vector<std::pair<std::int64_t, std::size_t>> instants_;   // of 64 cycles, in global time, and the task
+  std::vector<std::optional<std::size_t>> before_;              // the task whose end activates it
+  std::vector<std::int64_t> ahead_;                             // how long ago its newest activation was, at least
+  std::vector<std::int64_t> whole_;                             // of a chain, at its first task
+  std::vector<ArrivalBounds> arrivals_;                         // of first tasks that messages and sensors activate
+  std::vector<std::optional<Following>> following_;             // of first tasks that a sensor waits for
+  std::vector<std::pair<std::int64_t, std::size_t>> instants_;  // of 64 cycles, in global time, and the task
   std::int64_t round_ = 0;
-  std::vector<std::int64_t> steps_;                    // see find_steps()
+  std::vector<std::int64_t> steps_;  // see find_steps()
   std::vector<TaskResponse> result_;
 };
 

@@ -45,7 +45,8 @@ std::optional<SensorLoop> loop_of(const Cluster& cluster, SensorId id) {
   const Sensor& sensor = cluster.sensor(id);
   if (!sensor.follows()) return std::nullopt;
   for (const Task& task : cluster.node(sensor.host).tasks)
-    if (task.activation.kind == ActivationKind::kCompletion && task.activation.after == sensor.after) return std::nullopt;
+    if (task.activation.kind == ActivationKind::kCompletion && task.activation.after == sensor.after)
+      return std::nullopt;
   for (const Task& measuring : cluster.node(sensor.device).tasks) {
     if (measuring.activation.kind != ActivationKind::kSensor || measuring.activation.sensor != id) continue;
     for (const Task& after : cluster.node(sensor.host).tasks) {

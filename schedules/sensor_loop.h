@@ -3,8 +3,8 @@
 //   device:  measuring ==> raw list =(CAN)=> host:  after =====> trigger -> device, not before `period` is over
 //
 // The ends of a loop are the device's measuring task and the task `after` that its raw list activates on the host, and
-// that no other task follows; a host triggers where that task ends and no newer list waits for it already, so that there
-// is one list in the loop. In it a measurement comes at least
+// that no other task follows; a host triggers where that task ends and no newer list waits for it already, so that
+// there is one list in the loop. In it a measurement comes at least
 //   best(measuring) + shortest transfer + best(after)
 // after the one before, however fast the device could, and the host's task never meets its own next activation: that is
 // the shortest transfer and measuring away from its end. The loop at its slowest must be no longer than `longest`, or
@@ -38,8 +38,8 @@ inline Duration shortest_execution(const Task& task) {
 
 // From the end of `after` to its next activation at the least, on any clock.
 Duration shortest_return(const Cluster& cluster, const SensorLoop& loop);
-// From one measurement to the next at the least, on any clock, `period` left out; and at the most, all included: nothing where
-// nodes or media may be busy without end.
+// From one measurement to the next at the least, on any clock, `period` left out; and at the most, all included:
+// nothing where nodes or media may be busy without end.
 Duration shortest_round(const Cluster& cluster, const SensorLoop& loop);
 std::optional<Duration> longest_round(const Cluster& cluster, const SensorLoop& loop);
 

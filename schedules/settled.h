@@ -1,5 +1,6 @@
-// What has arrived at a fusion instant for certain: the schedule's promise that lets a fusion node stop waiting for a list
-// that is missing, at the first fusion instant at which it must be there if it is ever to come, and at none before.
+// What has arrived at a fusion instant for certain: the schedule's promise that lets a fusion node stop waiting for a
+// list that is missing, at the first fusion instant at which it must be there if it is ever to come, and at none
+// before.
 //
 // A list measured at m enters the first stage of its path that is on the cycle's grid (its slots, or the fusing task
 // itself) at m + W at the latest, W the sum of the worst cases before it. From there on the latest way is a step
@@ -29,13 +30,13 @@ struct Settled {
 };
 
 struct SettledRound {
-  std::vector<Settled> instants;   // strictly increasing in both; fusion instants that settle nothing new are left out
-  Duration round{};                // after which they repeat: 64 cycles, or as many more as make whole nanoseconds
+  std::vector<Settled> instants;  // strictly increasing in both; fusion instants that settle nothing new are left out
+  Duration round{};               // after which they repeat: 64 cycles, or as many more as make whole nanoseconds
   bool operator==(const SettledRound&) const = default;
 };
 
-// Nothing for a sensor whose lists reach no fusing task, or one that time does not activate. The cluster must have passed
-// check().
+// Nothing for a sensor whose lists reach no fusing task, or one that time does not activate. The cluster must have
+// passed check().
 std::optional<SettledRound> settled_round(const Cluster& cluster, SensorId sensor);
 
 }  // namespace ttf::schedules

@@ -21,9 +21,8 @@ std::string cycles_text(int base_cycle, int repetition) {
   return fmt::format("cycles {} + n*{}", base_cycle, repetition);
 }
 
-
-// The cycle to scale: S static slots in use, s free ones, D what dynamic frames can take at most, d the rest of their segment,
-// w symbol window (a column at least), n network idle time.
+// The cycle to scale: S static slots in use, s free ones, D what dynamic frames can take at most, d the rest of their
+// segment, w symbol window (a column at least), n network idle time.
 std::string bar(const Cluster& cluster) {
   constexpr int kWidth = 96;
   const GlobalParameters& g = cluster.flexray;
@@ -50,9 +49,10 @@ std::string bar(const Cluster& cluster) {
   return text;
 }
 
-// From the beginning of its slot to the end of the last of a row; of a dynamic one, at the earliest and at the latest, but
-// never beyond the segment.
-std::pair<std::int64_t, std::int64_t> macroticks(const Cluster& cluster, const FrameSlot& first, const FrameSlot& last) {
+// From the beginning of its slot to the end of the last of a row; of a dynamic one, at the earliest and at the latest,
+// but never beyond the segment.
+std::pair<std::int64_t, std::int64_t> macroticks(const Cluster& cluster, const FrameSlot& first,
+                                                 const FrameSlot& last) {
   const GlobalParameters& g = cluster.flexray;
   if (!is_dynamic(g, first)) return {slot_start(g, first.slot).value, slot_start(g, last.slot + 1).value};
   const std::int64_t over = latest_turn(cluster, last) + minislots_of(g, dynamic_words(cluster, last));
@@ -98,7 +98,8 @@ FrameRun run_from(const Cluster& cluster, std::size_t first, std::vector<char>& 
 
 void show_slots(const Cluster& cluster, std::string& text) {
   const GlobalParameters& g = cluster.flexray;
-  text += fmt::format("{:>9}  {:>15}  {:<2}  {:<12}{:<34}{}\n", "slot", "macroticks", "ch", "sender", "frame", "cycles");
+  text +=
+      fmt::format("{:>9}  {:>15}  {:<2}  {:<12}{:<34}{}\n", "slot", "macroticks", "ch", "sender", "frame", "cycles");
   std::vector<char> shown(cluster.frames.size());
   for (std::size_t i = 0; i < cluster.frames.size(); ++i) {
     if (shown[i]) continue;
@@ -113,17 +114,19 @@ void show_slots(const Cluster& cluster, std::string& text) {
                           alone ? "" : fmt::format("-{}", last.fragment), run.step == 2 ? ", every other" : "");
     const NodeParameters* sender = cluster.node(first.sender).flexray ? &*cluster.node(first.sender).flexray : nullptr;
     if (sender != nullptr && sender->pKeySlotId == first.slot)
-      frame += sender->pKeySlotUsedForSync ? (sender->pKeySlotUsedForStartup ? " (sync, startup)" : " (sync)") : " (key)";
+      frame +=
+          sender->pKeySlotUsedForSync ? (sender->pKeySlotUsedForStartup ? " (sync, startup)" : " (sync)") : " (key)";
     if (first.network_management) frame += " + vector";
     if (is_dynamic(g, first)) frame += " (dynamic)";
     const auto [begin, over] = macroticks(cluster, first, last);
-    text += fmt::format("{:>9}  {:>7}-{:<7}  {:<2}  {:<12}{:<34}{}\n", slots, begin, over, channels_text(first.channels),
-                        cluster.node(first.sender).name, frame, cycles_text(first.base_cycle, first.repetition));
+    text +=
+        fmt::format("{:>9}  {:>7}-{:<7}  {:<2}  {:<12}{:<34}{}\n", slots, begin, over, channels_text(first.channels),
+                    cluster.node(first.sender).name, frame, cycles_text(first.base_cycle, first.repetition));
   }
   if (g.gdSymbolWindow > 0) {
     const int idle = g.gMacroPerCycle - g.gdNIT;
-    text += fmt::format("{:>9}  {:>7}-{:<7}  {:<2}  {:<12}{:<34}{}\n", "", idle - g.gdSymbolWindow, idle, "AB", "", "symbol window",
-                        cycles_text(0, 1));
+    text += fmt::format("{:>9}  {:>7}-{:<7}  {:<2}  {:<12}{:<34}{}\n", "", idle - g.gdSymbolWindow, idle, "AB", "",
+                        "symbol window", cycles_text(0, 1));
   }
 }
 
@@ -143,8 +146,9 @@ void show_objects(const Cluster& cluster, std::string& text) {
   if (ceiling.lists.empty()) return;
   text += "\nobjects\n";
   for (const ListRoom& room : ceiling.lists)
-    text += fmt::format("  {:<16}{:>4} in {} slots, {} to a slot; its header counts to {}\n", cluster.pdu(room.pdu).name,
-                        room.objects, room.slots, cluster.pdu(room.pdu).elements_per_fragment, room.countable);
+    text +=
+        fmt::format("  {:<16}{:>4} in {} slots, {} to a slot; its header counts to {}\n", cluster.pdu(room.pdu).name,
+                    room.objects, room.slots, cluster.pdu(room.pdu).elements_per_fragment, room.countable);
   text += fmt::format("  {} objects in every list; {} if all {} static slots without status frames were shared out\n",
                       ceiling.carried, ceiling.with_all_static_slots, ceiling.free_for_lists);
 }
@@ -168,8 +172,9 @@ std::string show_text(const Cluster& cluster) {
   for (const Sensor& sensor : cluster.sensors) {
     std::string when = fmt::format("runs freely, every {:g} ms", in_ms(sensor.period));
     if (sensor.scheduled)
-      when = fmt::format("at {:.3f} ms + n*{:g} ms",
-                         in_ms(time_of(g, sensor.at.base_cycle, sensor.at.offset) - GlobalTime{}), in_ms(sensor.period));
+      when =
+          fmt::format("at {:.3f} ms + n*{:g} ms",
+                      in_ms(time_of(g, sensor.at.base_cycle, sensor.at.offset) - GlobalTime{}), in_ms(sensor.period));
     if (sensor.follows())
       when = fmt::format("when {} ends, {:g} to {:g} ms after the last time", sensor.after, in_ms(sensor.period),
                          in_ms(sensor.longest));
@@ -179,9 +184,9 @@ std::string show_text(const Cluster& cluster) {
   text += "\ntasks\n";
   for (const Node& node : cluster.nodes)
     for (const Task& task : node.tasks)
-      text += fmt::format("  {:<12}{:<16}{:g}-{:g} ms, deadline {:g} ms, {}\n", node.name, task.name,
-                          in_ms(task.best_case), in_ms(task.worst_case), in_ms(task.deadline),
-                          activation_text(cluster, task));
+      text +=
+          fmt::format("  {:<12}{:<16}{:g}-{:g} ms, deadline {:g} ms, {}\n", node.name, task.name, in_ms(task.best_case),
+                      in_ms(task.worst_case), in_ms(task.deadline), activation_text(cluster, task));
   text += "\nCAN, worst-case load\n";
   for (const CanBus& bus : cluster.can_buses)
     text += fmt::format("  {:<20}{:>5.1f} %\n", bus.name, 100.0 * can_worst_load(cluster, bus));

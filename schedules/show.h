@@ -7,8 +7,8 @@
 
 namespace ttf::schedules {
 
-// Several lines, at most about 100 columns. Consecutive slots with the fragments of one list share a line. The cluster must
-// have passed check().
+// Several lines, at most about 100 columns. Consecutive slots with the fragments of one list share a line. The cluster
+// must have passed check().
 std::string show_text(const Cluster& cluster);
 
 }  // namespace ttf::schedules

@@ -1,5 +1,5 @@
-// Times on the wire at their longest against macroticks at their shortest: what the constraints of FlexRay 2.1A, annex B,
-// are made of. Integers: picoseconds, scaled so that cClockDeviationMax is whole.
+// Times on the wire at their longest against macroticks at their shortest: what the constraints of FlexRay 2.1A, annex
+// B, are made of. Integers: picoseconds, scaled so that cClockDeviationMax is whole.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +29,8 @@ constexpr Int128 shortest_macroticks(const GlobalParameters& flexray, std::int64
 // adActionPointDifference: the dynamic segment's first action point lies no earlier in it than a static slot's does.
 constexpr int action_point_difference(const GlobalParameters& flexray) {
   return flexray.gNumberOfMinislots == 0
-             ? 0 : std::max(0, flexray.gdActionPointOffset - flexray.gdMinislotActionPointOffset);
+             ? 0
+             : std::max(0, flexray.gdActionPointOffset - flexray.gdMinislotActionPointOffset);
 }
 
 }  // namespace ttf::schedules

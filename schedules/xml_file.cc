@@ -21,8 +21,7 @@ struct XmlElement::Content {
   }
   std::string canonical(std::string_view name) const {
     const auto colon = name.find(':');
-    const std::string_view prefix =
-        colon == std::string_view::npos ? std::string_view{} : name.substr(0, colon);
+    const std::string_view prefix = colon == std::string_view::npos ? std::string_view{} : name.substr(0, colon);
     const std::string_view local = colon == std::string_view::npos ? name : name.substr(colon + 1);
     const auto found = prefixes.find(prefix);
     return found == prefixes.end() ? std::string(name) : fmt::format("{}:{}", found->second, local);
@@ -43,9 +42,7 @@ std::string trimmed(std::string_view text) {
   return std::string(text.substr(first, text.find_last_not_of(kSpace) - first + 1));
 }
 
-bool is_text(const pugi::xml_node& node) {
-  return node.type() == pugi::node_pcdata || node.type() == pugi::node_cdata;
-}
+bool is_text(const pugi::xml_node& node) { return node.type() == pugi::node_pcdata || node.type() == pugi::node_cdata; }
 
 // Where it begins to be more than space.
 std::ptrdiff_t text_offset(const pugi::xml_node& node) {
@@ -79,8 +76,7 @@ std::size_t first_bad_character(std::string_view text) {
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t length = character_length(text.substr(at));
     const auto code = static_cast<unsigned char>(text[at]);
-    if (length == 0 || code == 0x7f || (code < 0x20 && kSpace.find(text[at]) == std::string_view::npos))
-      return at;
+    if (length == 0 || code == 0x7f || (code < 0x20 && kSpace.find(text[at]) == std::string_view::npos)) return at;
     at += length;
   }
   return std::string_view::npos;
@@ -107,10 +103,8 @@ XmlFile XmlFile::parse(std::string text, std::string name) {
   if (!result) throw damaged(result.offset, fmt::format("is no well-formed XML: {}", result.description()));
   pugi::xml_node root;
   for (const pugi::xml_node& node : content->document.children()) {
-    if (node.type() == pugi::node_doctype)
-      throw damaged(node.offset_debug(), "has a document type; FIBEX has none");
-    if (is_text(node))
-      throw damaged(text_offset(node), "is no well-formed XML: text outside the root element");
+    if (node.type() == pugi::node_doctype) throw damaged(node.offset_debug(), "has a document type; FIBEX has none");
+    if (is_text(node)) throw damaged(text_offset(node), "is no well-formed XML: text outside the root element");
     if (node.type() != pugi::node_element) continue;
     if (root) throw damaged(node.offset_debug(), "is no well-formed XML: a second root element");
     root = node;
@@ -213,8 +207,7 @@ std::string XmlElement::text() {
 
 std::string XmlElement::attribute(std::string_view wanted) {
   // Some tools leave the prefix of an attribute out.
-  const std::string_view local =
-      wanted.substr(wanted.find(':') == std::string_view::npos ? 0 : wanted.find(':') + 1);
+  const std::string_view local = wanted.substr(wanted.find(':') == std::string_view::npos ? 0 : wanted.find(':') + 1);
   for (const std::string_view name : {wanted, local}) asked_.push_back(fmt::format("@{}", name));
   for (const pugi::xml_attribute& attribute : node_.attributes()) {
     const std::string name = content_->attribute_name(attribute.name());
@@ -242,8 +235,7 @@ void XmlElement::finish() {
   for (const pugi::xml_node& node : node_.children()) {
     const bool element = node.type() == pugi::node_element;
     if (element && !is_asked(content_->canonical(node.name())))
-      leave_out(fmt::format("{}/{}", path(), content_->canonical(node.name())),
-                content_->line_at(node.offset_debug()));
+      leave_out(fmt::format("{}/{}", path(), content_->canonical(node.name())), content_->line_at(node.offset_debug()));
     if (is_text(node) && !text_asked_ && !trimmed(node.value()).empty())
       leave_out(path() + "/text()", content_->line_at(text_offset(node)));
   }

@@ -30,8 +30,8 @@ BusSimulation::BusSimulation(const schedules::Cluster& cluster, std::vector<BusN
 BusSimulation::~BusSimulation() = default;
 
 void BusSimulation::make_controller(std::size_t node) {
-  controllers_[node] = std::make_unique<bus::FlexRayController>(*views_[node], static_cast<NodeId>(node), *ports_[node],
-                                                                *events_[node]);
+  controllers_[node] =
+      std::make_unique<bus::FlexRayController>(*views_[node], static_cast<NodeId>(node), *ports_[node], *events_[node]);
 }
 
 void BusSimulation::make_guardians(const std::vector<BusNode>& nodes,
@@ -70,8 +70,7 @@ void BusSimulation::happen(const MediumEvent& event) {
 Duration BusSimulation::precision(NodeId first) const {
   ClockSpread spread(cluster_);
   for (std::size_t n = index_of(first); n < controllers_.size(); ++n)
-    if (is_powered(n) && controllers_[n]->synchronised())
-      spread.add(controllers_[n]->clock()->global_time(ticks(n)));
+    if (is_powered(n) && controllers_[n]->synchronised()) spread.add(controllers_[n]->clock()->global_time(ticks(n)));
   return spread.width();
 }
 

@@ -1,5 +1,5 @@
-// FlexRay controllers without hosts on the simulated bus: what start-up, clock synchronisation and faults do to a cluster,
-// thousands of times over. Single-threaded, and a pure function of its configuration.
+// FlexRay controllers without hosts on the simulated bus: what start-up, clock synchronisation and faults do to a
+// cluster, thousands of times over. Single-threaded, and a pure function of its configuration.
 #pragma once
 
 #include <cstdint>
@@ -36,8 +36,8 @@ class BusSimulation final : public Crank {
 
   // Of a node without supply: in default config.
   bus::FlexRayController& controller(NodeId node) { return *controllers_[index_of(node)]; }
-  // The largest difference between the global times of the nodes that are synchronised, now, from node `first` on. Their
-  // cycle numbers may differ by whole rounds of the cycle counter; only the rest counts.
+  // The largest difference between the global times of the nodes that are synchronised, now, from node `first` on.
+  // Their cycle numbers may differ by whole rounds of the cycle counter; only the rest counts.
   Duration precision(NodeId first = NodeId{0}) const;
 
  private:
@@ -47,7 +47,9 @@ class BusSimulation final : public Crank {
   void advance(std::size_t node, Microticks now) override;
   void receive(std::size_t node, const bus::Reception& reception) override;
   bool receive_on_both(std::size_t node, const bus::Reception& reception) override;
-  bool knows(std::size_t node, const bus::Reception& reception) override { return controllers_[node]->knows(reception); }
+  bool knows(std::size_t node, const bus::Reception& reception) override {
+    return controllers_[node]->knows(reception);
+  }
   void hear_known(std::size_t node, const bus::Reception& reception) override {
     controllers_[node]->hear_known(reception);
   }
@@ -55,7 +57,7 @@ class BusSimulation final : public Crank {
   void make_controller(std::size_t node);
   void make_guardians(const std::vector<BusNode>& nodes, const std::vector<timebase::Oscillator>& oscillators);
 
-  std::vector<const schedules::Cluster*> views_;                           // these all by NodeId
+  std::vector<const schedules::Cluster*> views_;  // these all by NodeId
   std::vector<bus::ControllerEvents*> events_;
   std::vector<std::unique_ptr<CrankPort>> ports_;
   std::vector<std::unique_ptr<bus::FlexRayController>> controllers_;

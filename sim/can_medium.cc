@@ -18,7 +18,7 @@ CanMedium::CanMedium(const schedules::Cluster& cluster, std::size_t bus, std::sp
   const schedules::CanBus& can = cluster.can_buses[bus];
   if (can.other_load <= 0.0) return;
   other_length_ = schedules::can_worst_case(can, can.flexible_data_rate ? 64 : 8);
-  constexpr double kSeldom_ns = 1e15;   // eleven days
+  constexpr double kSeldom_ns = 1e15;  // eleven days
   const double period = std::ceil(static_cast<double>(other_length_.ns) / can.other_load);
   other_period_ = {static_cast<std::int64_t>(std::min(period, kSeldom_ns))};
   RandomStream phase({seed, replication, Purpose::kOtherTraffic, static_cast<std::uint16_t>(bus), 0});
@@ -48,8 +48,8 @@ void CanMedium::send(NodeId sender, TrueTime now, const bus::CanFrame& frame) {
             cluster_.can_buses[bus_].name);
   const int receivers = static_cast<int>(nodes_.size()) - 1;
   // One use more than there are receivers: the medium itself, until the frame has been sent.
-  pending_.push_back({sender, next_order_++, frame.identifier, frame.flexible_data_rate,
-                      pool_.put(frame.data, receivers + 1)});
+  pending_.push_back(
+      {sender, next_order_++, frame.identifier, frame.flexible_data_rate, pool_.put(frame.data, receivers + 1)});
   if (arbitration_due_) return;
   pass_others(now);
   arbitrate_at(std::max(now, idle_from_));

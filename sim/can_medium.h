@@ -1,9 +1,9 @@
-// A simulated private CAN in virtual time: arbitration by identifier whenever the bus falls idle, durations with the exact
-// stuff bits of the data.
+// A simulated private CAN in virtual time: arbitration by identifier whenever the bus falls idle, durations with the
+// exact stuff bits of the data.
 //
 // Other traffic (CanBus::other_load) is as bad as the checker takes it to be: the longest frames there are, at equal
-// distances, so that they take that share, from a drawn instant on, each before all that the cluster sends. It is for no
-// node, and no record tells of its frames; they count as time in which the bus is busy.
+// distances, so that they take that share, from a drawn instant on, each before all that the cluster sends. It is for
+// no node, and no record tells of its frames; they count as time in which the bus is busy.
 #pragma once
 
 #include <cstdint>
@@ -33,8 +33,8 @@ class CanMedium {
   void power_off(NodeId node);
   // The bus is idle: the pending frame that wins is sent.
   void arbitrate(TrueTime now);
-  // How long the bus has carried frames, the one on it included to its end; of other traffic what had begun when a frame here
-  // was last queued or begun.
+  // How long the bus has carried frames, the one on it included to its end; of other traffic what had begun when a
+  // frame here was last queued or begun.
   Duration busy() const { return busy_; }
 
  private:
@@ -58,8 +58,8 @@ class CanMedium {
   std::vector<Pending> pending_;
   std::uint64_t next_order_ = 0;
   TrueTime idle_from_{};
-  Duration other_length_{}, other_period_{};   // of other traffic's frames; zero: there is none
-  TrueTime next_other_{};                      // not on the bus yet
+  Duration other_length_{}, other_period_{};  // of other traffic's frames; zero: there is none
+  TrueTime next_other_{};                     // not on the bus yet
   bool arbitration_due_ = false;
   Duration busy_{};
 };

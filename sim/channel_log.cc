@@ -22,9 +22,7 @@ std::uint8_t crc_state(const wire::FrameCrcs& crcs) {
 }  // namespace
 
 ChannelLog::ChannelLog(const schedules::GlobalParameters& flexray, std::size_t room, records::Sink& sink)
-    : bit_ps_(flexray.gdBit_ps),
-      bits_before_bytes_(flexray.gdTSSTransmitter + kFrameStartBits),
-      sink_(sink) {
+    : bit_ps_(flexray.gdBit_ps), bits_before_bytes_(flexray.gdTSSTransmitter + kFrameStartBits), sink_(sink) {
   add_ways(room);
 }
 

@@ -29,7 +29,7 @@ namespace ttf::sim {
 class ChannelLog {
  public:
   using Id = std::uint16_t;
-  static constexpr Id kNone = std::numeric_limits<Id>::max();   // of what has no way here: told of, it is ignored
+  static constexpr Id kNone = std::numeric_limits<Id>::max();  // of what has no way here: told of, it is ignored
 
   // `room`: for signals on their way at once. Where there are more, it takes more; they are fewer than kNone.
   ChannelLog(const schedules::GlobalParameters& flexray, std::size_t room, records::Sink& sink);
@@ -63,15 +63,15 @@ class ChannelLog {
     void set(std::span<const std::byte> bytes);
   };
   struct Way {
-    records::ChannelFrame record;   // without state and bytes
-    Bytes bytes;                    // as it left
-    Bytes other;                    // as receivers had it, where `changed` > 0
-    TrueTime breaks_off{};          // at or after its end: it does not
+    records::ChannelFrame record;  // without state and bytes
+    Bytes bytes;                   // as it left
+    Bytes other;                   // as receivers had it, where `changed` > 0
+    TrueTime breaks_off{};         // at or after its end: it does not
     int receivers = 0, lost = 0, changed = 0;
     bool used = false;
-    bool frame = false;             // a decodable one, so far
-    bool altered = false;           // not as it was sent
-    bool unlike = false;            // receivers have different bytes
+    bool frame = false;    // a decodable one, so far
+    bool altered = false;  // not as it was sent
+    bool unlike = false;   // receivers have different bytes
   };
   void add_ways(std::size_t count);
   Way& take(Id& id);
@@ -79,7 +79,7 @@ class ChannelLog {
   std::size_t bytes_until_break(const Way& way) const;
 
   const std::int64_t bit_ps_;
-  const std::int64_t bits_before_bytes_;   // the transmission and frame start sequences
+  const std::int64_t bits_before_bytes_;  // the transmission and frame start sequences
   records::Sink& sink_;
   std::vector<Way> ways_;
   std::vector<Id> free_;

@@ -10,7 +10,7 @@
 namespace ttf::sim {
 namespace {
 
-constexpr std::size_t kPendingEvents = 4096;   // on the private CANs, beside observations and strobes
+constexpr std::size_t kPendingEvents = 4096;  // on the private CANs, beside observations and strobes
 
 std::uint8_t signal_of(bus::Signal signal) {
   switch (signal) {
@@ -78,15 +78,15 @@ struct ClusterSimulation::CanTap final : bus::CanPort {
   }
 };
 
-// The medium says that a frame began; its sender reports it when it has left. Both instants are looked up on the sender's
-// clocks when they come: nobody knows beforehand what a clock will show after its next correction.
+// The medium says that a frame began; its sender reports it when it has left. Both instants are looked up on the
+// sender's clocks when they come: nobody knows beforehand what a clock will show after its next correction.
 struct ClusterSimulation::CanLog final : records::Sink {
   struct InFlight {
     records::CanFrameSent frame;
     std::array<std::byte, 64> bytes{};
   };
   ClusterSimulation& simulation;
-  std::vector<InFlight> in_flight;   // by bus
+  std::vector<InFlight> in_flight;  // by bus
   CanLog(ClusterSimulation& s, std::size_t buses) : simulation(s), in_flight(buses) {}
 
   using records::Sink::on;
@@ -111,15 +111,10 @@ struct ClusterSimulation::CanLog final : records::Sink {
 };
 
 ClusterSimulation::ClusterSimulation(const SimulationConfig& config, records::Sink& sink)
-    : Crank(*config.cluster, kPendingEvents),
-      config_(config),
-      others_(config.others),
-      sink_(sink),
+    : Crank(*config.cluster, kPendingEvents), config_(config), others_(config.others), sink_(sink),
       can_ports_(cluster_.nodes.size(), std::vector<bus::CanPort*>(cluster_.can_buses.size())),
-      can_log_(std::make_unique<CanLog>(*this, cluster_.can_buses.size())),
-      nodes_(cluster_.nodes.size()),
-      watches_(cluster_.nodes.size()),
-      no_spread_(cluster_) {
+      can_log_(std::make_unique<CanLog>(*this, cluster_.can_buses.size())), nodes_(cluster_.nodes.size()),
+      watches_(cluster_.nodes.size()), no_spread_(cluster_) {
   if (sink.wants_frames())
     medium_.set_log(&channel_log_.emplace(cluster_.flexray, FlexRayMedium::kMostLogged, sink));
   else
@@ -128,8 +123,8 @@ ClusterSimulation::ClusterSimulation(const SimulationConfig& config, records::Si
     std::vector<NodeId> members;
     for (std::size_t n = 0; n < cluster_.nodes.size(); ++n)
       if (is_on_can(cluster_.nodes[n], b)) members.push_back(static_cast<NodeId>(n));
-    cans_.push_back(std::make_unique<CanMedium>(cluster_, b, members, queue_, pool_, *can_log_, config_.seed,
-                                                config_.replication));
+    cans_.push_back(
+        std::make_unique<CanMedium>(cluster_, b, members, queue_, pool_, *can_log_, config_.seed, config_.replication));
   }
   for (std::size_t n = 0; n < cluster_.nodes.size(); ++n) {
     const schedules::Node& node = cluster_.nodes[n];
@@ -146,8 +141,9 @@ ClusterSimulation::ClusterSimulation(const SimulationConfig& config, records::Si
     if (power_on) continue;
     if (others_ != nullptr) others_->outlook(n).begins(crystal.ticks_at(TrueTime{}));
     if (is_here(n))
-      make_node(n, node.flexray ? std::optional(nodes::integrated_clock(crystal, cluster_, node, kFirstCycle)) : std::nullopt,
-                crystal.ticks_at(kFirstCycle), {});
+      make_node(
+          n, node.flexray ? std::optional(nodes::integrated_clock(crystal, cluster_, node, kFirstCycle)) : std::nullopt,
+          crystal.ticks_at(kFirstCycle), {});
     refresh(n);
   }
   for (const schedules::Channel channel : {schedules::Channel::kA, schedules::Channel::kB})
@@ -172,8 +168,15 @@ void ClusterSimulation::make_node(std::size_t node, std::optional<bus::InitialCl
                                   const nodes::NodeStart& cold) {
   const auto id = static_cast<NodeId>(node);
   const schedules::Cluster* view = config_.view ? config_.view(id) : nullptr;
-  const nodes::ExecutiveConfig executive{view != nullptr ? view : &cluster_, id, oscillator(id), clock, config_.seed,
-                                         config_.replication, power_on, cold.how, cold.after};
+  const nodes::ExecutiveConfig executive{view != nullptr ? view : &cluster_,
+                                         id,
+                                         oscillator(id),
+                                         clock,
+                                         config_.seed,
+                                         config_.replication,
+                                         power_on,
+                                         cold.how,
+                                         cold.after};
   nodes_[node] = std::make_unique<nodes::Executive>(executive, config_.make_steps(id), flexray_taps_[node].get(),
                                                     can_ports_[node], static_cast<nodes::SensorLines&>(*this), sink_);
   watches_[node] = {nodes_[node]->controller(), &oscillator(id)};
@@ -307,7 +310,7 @@ void ClusterSimulation::observe() {
     const timebase::CycleClock* clock = watch.clock();
     if (clock == nullptr) continue;
     const Microticks at = watch.crystal->ticks_at(now());
-    if (at < clock->cycle_start()) return;   // before this node's first cycle
+    if (at < clock->cycle_start()) return;  // before this node's first cycle
     spread.add(clock->global_time(at));
     newest = std::max(newest, clock->cycle());
     oldest = std::min(oldest, clock->cycle());

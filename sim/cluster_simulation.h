@@ -5,8 +5,8 @@
 // steps made anew. A CAN frame whose sender or receiver was without supply at any time since it began does not arrive;
 // the bus is taken to its end all the same.
 //
-// Or one node of it, the others being simulated by processes of their own (sim/turn_taking.h): then the others' executives
-// are not here, and of what they record nothing is.
+// Or one node of it, the others being simulated by processes of their own (sim/turn_taking.h): then the others'
+// executives are not here, and of what they record nothing is.
 #pragma once
 
 #include <algorithm>
@@ -60,14 +60,15 @@ class ClusterSimulation final : public Crank, private nodes::SensorLines {
 
   // The achieved precision so far: the largest difference between any two nodes' global times at one true instant, but
   // for whole rounds of the cycle counter (sim/precision.h). The difference is piecewise linear with corners at the
-  // nodes' cycle starts and correction starts; it is taken there. Zero, and never recorded, where there is but one node.
+  // nodes' cycle starts and correction starts; it is taken there. Zero, and never recorded, where there is but one
+  // node.
   Duration precision() const { return precision_; }
   // Of a node with supply, simulated here.
   const nodes::Executive& node(NodeId id) const;
   // Summed over the nodes simulated here, those that have lost their supply included.
   nodes::ExecutiveCounts counts() const;
   Duration can_busy(std::size_t bus) const { return cans_[bus]->busy(); }
-  std::uint64_t frames_sent() const { return frames_sent_; }   // on FlexRay, each channel's
+  std::uint64_t frames_sent() const { return frames_sent_; }  // on FlexRay, each channel's
   // How long the busier channel has been taken.
   Duration flexray_busy() const {
     return std::max(medium_.busy(schedules::Channel::kA), medium_.busy(schedules::Channel::kB));
@@ -76,9 +77,9 @@ class ClusterSimulation final : public Crank, private nodes::SensorLines {
  private:
   // What observations look at, of one node.
   struct Watch {
-    const bus::FlexRayController* controller = nullptr;   // null where the node is none, or off FlexRay
+    const bus::FlexRayController* controller = nullptr;  // null where the node is none, or off FlexRay
     const timebase::Oscillator* crystal = nullptr;
-    std::int64_t cycle = -1;                              // whose corners are being observed
+    std::int64_t cycle = -1;  // whose corners are being observed
 
     // Null while it has none.
     const timebase::CycleClock* clock() const { return controller ? controller->synchronised_clock() : nullptr; }
@@ -118,16 +119,16 @@ class ClusterSimulation final : public Crank, private nodes::SensorLines {
   const SimulationConfig config_;
   TurnTaking* const others_;
   records::Sink& sink_;
-  std::optional<ChannelLog> channel_log_;                      // where somebody wants frames
+  std::optional<ChannelLog> channel_log_;  // where somebody wants frames
   std::vector<std::unique_ptr<CanMedium>> cans_;
-  std::vector<std::unique_ptr<FlexRayTap>> flexray_taps_;      // by NodeId, null off FlexRay
+  std::vector<std::unique_ptr<FlexRayTap>> flexray_taps_;  // by NodeId, null off FlexRay
   std::vector<std::unique_ptr<CanTap>> can_taps_;
-  std::vector<std::vector<bus::CanPort*>> can_ports_;          // by NodeId and CAN, null where it is not on it
+  std::vector<std::vector<bus::CanPort*>> can_ports_;  // by NodeId and CAN, null where it is not on it
   std::unique_ptr<CanLog> can_log_;
-  std::vector<std::unique_ptr<nodes::Executive>> nodes_;       // by NodeId, null without supply or elsewhere
-  std::vector<Watch> watches_;                                 // by NodeId
+  std::vector<std::unique_ptr<nodes::Executive>> nodes_;  // by NodeId, null without supply or elsewhere
+  std::vector<Watch> watches_;                            // by NodeId
   const ClockSpread no_spread_;
-  nodes::ExecutiveCounts gone_;                                // counted by executives that are no more
+  nodes::ExecutiveCounts gone_;  // counted by executives that are no more
   Duration precision_{};
   Duration precision_of_pair_{};
   std::int64_t reported_pair_ = 0;

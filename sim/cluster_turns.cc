@@ -1,5 +1,5 @@
-// A cluster of which one node is simulated here, and what leaves the nodes beside the buses: the wires between sensors and
-// their hosts.
+// A cluster of which one node is simulated here, and what leaves the nodes beside the buses: the wires between sensors
+// and their hosts.
 #include <fmt/format.h>
 
 #include <stdexcept>
@@ -32,8 +32,8 @@ void ClusterSimulation::act(std::size_t node, const Act& act) {
     transmit(node, *sent);
   } else if (const auto* can = std::get_if<CanAct>(&act)) {
     if (can_ports_[node][can->bus] == nullptr)
-      throw std::runtime_error(fmt::format("{} sends on {}, which it is not on", cluster_.node(id).name,
-                                           cluster_.can_buses[can->bus].name));
+      throw std::runtime_error(
+          fmt::format("{} sends on {}, which it is not on", cluster_.node(id).name, cluster_.can_buses[can->bus].name));
     send_can(can->bus, id, can->frame);
   } else if (const auto* trigger = std::get_if<TriggerAct>(&act)) {
     pull_trigger(trigger->sensor);

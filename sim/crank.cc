@@ -14,9 +14,7 @@ constexpr Microticks kUnknown{std::numeric_limits<std::int64_t>::min()};
 }  // namespace
 
 Crank::Crank(const schedules::Cluster& cluster, std::size_t others)
-    : cluster_(cluster),
-      queue_(FlexRayMedium::kMostPending + others),
-      pool_(FlexRayMedium::kMostPending + others),
+    : cluster_(cluster), queue_(FlexRayMedium::kMostPending + others), pool_(FlexRayMedium::kMostPending + others),
       medium_(cluster, queue_, pool_) {
   seats_.reserve(cluster.nodes.size());
   next_.reserve(cluster.nodes.size());
@@ -235,7 +233,7 @@ void Crank::transmit_on_both(NodeId sender, const bus::Transmission& transmissio
 bool Crank::is_known(NodeId sender, bus::Reception& reception, TrueTime start, TrueTime end) {
   if (start != now_ || !medium_.is_clear()) return false;
   const std::span<const FlexRayMedium::Leg> way = medium_.way_from(sender);
-  if (way.empty() || end + way.back().delay > until_) return false;   // the last leg is the longest
+  if (way.empty() || end + way.back().delay > until_) return false;  // the last leg is the longest
   for (const FlexRayMedium::Leg& leg : way) {
     const std::size_t node = index_of(leg.receiver);
     Seat& seat = seats_[node];

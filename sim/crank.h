@@ -64,8 +64,8 @@ class Crank : public Plant {
   Microticks ticks(std::size_t node) const { return seats_[node].oscillator.ticks_at(now_); }
 
   // What a node is made of. Never asked of a node without supply, but for start().
-  virtual void start(std::size_t node, Microticks now) = 0;    // a cold one
-  virtual void stop(std::size_t node) = 0;                     // nothing of it is left
+  virtual void start(std::size_t node, Microticks now) = 0;  // a cold one
+  virtual void stop(std::size_t node) = 0;                   // nothing of it is left
   virtual Microticks next_event(std::size_t node) const = 0;
   virtual void advance(std::size_t node, Microticks now) = 0;
   virtual void receive(std::size_t node, const bus::Reception& reception) = 0;
@@ -74,7 +74,7 @@ class Crank : public Plant {
   // bus/controller.h
   virtual bool knows(std::size_t node, const bus::Reception& reception) = 0;
   virtual void hear_known(std::size_t node, const bus::Reception& reception) = 0;
-  virtual void drifts(std::size_t node) { (void)node; }        // its oscillator is another one now
+  virtual void drifts(std::size_t node) { (void)node; }  // its oscillator is another one now
   // What is no arrival on FlexRay.
   virtual void happen(const MediumEvent& event) = 0;
 
@@ -87,8 +87,8 @@ class Crank : public Plant {
   struct Seat {
     timebase::Oscillator oscillator;
     bool powered = false;
-    TrueTime since{};                  // it is with or without supply
-    Microticks next{};                 // its next own event, when it was asked last
+    TrueTime since{};   // it is with or without supply
+    Microticks next{};  // its next own event, when it was asked last
     // What it received last, on the one and on the other clock: the other channel's frame comes at the same instants.
     TrueTime started{}, ended{};
     Microticks start{}, end{};
@@ -111,12 +111,12 @@ class Crank : public Plant {
     return {next_[earliest_], Phase::kNode, static_cast<std::uint8_t>(earliest_), 0, 0};
   }
 
-  std::array<std::unique_ptr<StarCoupler>, 2> couplers_;   // by channel
-  std::vector<Seat> seats_;            // by NodeId
-  std::vector<TrueTime> next_;         // by NodeId, its next own event; without supply its power-on
-  std::size_t earliest_ = 0;           // in next_
+  std::array<std::unique_ptr<StarCoupler>, 2> couplers_;  // by channel
+  std::vector<Seat> seats_;                               // by NodeId
+  std::vector<TrueTime> next_;                            // by NodeId, its next own event; without supply its power-on
+  std::size_t earliest_ = 0;                              // in next_
   Disturbance* disturbance_ = nullptr;
-  TrueTime now_{}, until_{};           // until_: of the run_until() that is going on
+  TrueTime now_{}, until_{};  // until_: of the run_until() that is going on
 };
 
 // The port of a node's controller on the simulated FlexRay.

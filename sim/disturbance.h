@@ -1,5 +1,5 @@
-// What may go wrong on the simulated FlexRay, seen from the medium: at the sender, towards one receiver, and out of nothing. The
-// nodes know nothing of it. All instants are true times.
+// What may go wrong on the simulated FlexRay, seen from the medium: at the sender, towards one receiver, and out of
+// nothing. The nodes know nothing of it. All instants are true times.
 #pragma once
 
 #include <cstddef>
@@ -18,8 +18,8 @@ struct Leaving {
   schedules::Channel channel{};
   bus::Signal signal{};
   TrueTime start{}, end{};
-  std::span<const std::byte> bytes;     // may be pointed elsewhere; used before the call returns to the sender
-  bool emitted = false;                 // no controller sent it, but a fault (FlexRayMedium::emit())
+  std::span<const std::byte> bytes;  // may be pointed elsewhere; used before the call returns to the sender
+  bool emitted = false;              // no controller sent it, but a fault (FlexRayMedium::emit())
 };
 
 // The same on its last metre. Through a guardian it has two: first to the coupler (receiver kNoNode), then from there
@@ -30,9 +30,9 @@ struct Arriving {
   schedules::Channel channel{};
   bus::Signal signal{};
   TrueTime start{}, end{};
-  bool regenerated = false;             // by the coupler: no fault of the sender can make receivers disagree about it
-  std::span<const std::byte> bytes;     // of a frame: may be pointed elsewhere, as above
-  bool emitted = false;                 // as above, on either leg through a coupler
+  bool regenerated = false;          // by the coupler: no fault of the sender can make receivers disagree about it
+  std::span<const std::byte> bytes;  // of a frame: may be pointed elsewhere, as above
+  bool emitted = false;              // as above, on either leg through a coupler
 };
 
 class Disturbance {

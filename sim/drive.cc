@@ -43,9 +43,8 @@ TrueTime drive_start(const schedules::Cluster& cluster) {
   if (!nodes::is_recorded(cluster)) return kFirstCycle;
   // Row 0 of the recording is the first measurement of the first sensor.
   const schedules::Sensor& sensor = cluster.sensors.front();
-  const GlobalTime first = sensor.scheduled
-                               ? schedules::next_occurrence(cluster.flexray, sensor.at, GlobalTime{}).time
-                               : GlobalTime{} + sensor.phase.value_or(Duration{});
+  const GlobalTime first = sensor.scheduled ? schedules::next_occurrence(cluster.flexray, sensor.at, GlobalTime{}).time
+                                            : GlobalTime{} + sensor.phase.value_or(Duration{});
   return kFirstCycle + (first - GlobalTime{});
 }
 
@@ -70,7 +69,7 @@ void check_recording(const nodes::Scenario& scenario, const schedules::Cluster& 
 
 void check_late(const nodes::Scenario& scenario, const schedules::Cluster& cluster, fusion::StrategyKind strategy) {
   const fusion::oosm::Kind late = scenario.tracker.late;
-  if (late == fusion::oosm::Kind::kRewind) return;   // always possible; sensors' timing takes a while
+  if (late == fusion::oosm::Kind::kRewind) return;  // always possible; sensors' timing takes a while
   const bool only_positions =
       std::none_of(cluster.sensors.begin(), cluster.sensors.end(),
                    [](const schedules::Sensor& sensor) { return sensor.kind == schedules::SensorKind::kRadar; });
@@ -86,8 +85,9 @@ void check_fusion(const schedules::Cluster& cluster, fusion::StrategyKind strate
   for (const schedules::Node& node : cluster.nodes)
     for (const schedules::Task& task : node.tasks)
       if (task.step == "fusion" && task.activation.kind != schedules::ActivationKind::kTime)
-        throw InputError({cluster.file, task.line, "nodes." + node.name + ".tasks." + task.name + ".activation", "",
-                          "must be of kind time with strategy tt, which relies on fusion instants that the schedule knows"});
+        throw InputError(
+            {cluster.file, task.line, "nodes." + node.name + ".tasks." + task.name + ".activation", "",
+             "must be of kind time with strategy tt, which relies on fusion instants that the schedule knows"});
 }
 
 void check_fits(const nodes::Scenario& scenario, const schedules::Cluster& cluster, fusion::StrategyKind strategy,
@@ -115,8 +115,8 @@ DriveOutcome run_drive(const DriveConfig& config, records::Sink& out) {
   around.show(observer, scenario, cluster);
   records::Tee tee({&sink, &observer});
 
-  const nodes::NodeSetConfig nodes{&scenario, &cluster, config.strategy, config.seed, config.replication, around.scene,
-                                   config.recorded};
+  const nodes::NodeSetConfig nodes{&scenario,          &cluster,     config.strategy, config.seed,
+                                   config.replication, around.scene, config.recorded};
   SimulationConfig simulation_config;
   simulation_config.cluster = &cluster;
   simulation_config.seed = config.seed;

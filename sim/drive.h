@@ -34,12 +34,12 @@ struct DriveConfig {
 
 // What only the whole run knows; of one node among others, that node's counts and no precision.
 struct DriveOutcome {
-  Duration precision{};               // where the clocks were compared
+  Duration precision{};  // where the clocks were compared
   nodes::ExecutiveCounts counts;
-  double flexray_load = 0.0;          // share of the time in which the busier channel is taken
-  std::vector<double> can_load;       // by Cluster::can_buses
+  double flexray_load = 0.0;     // share of the time in which the busier channel is taken
+  std::vector<double> can_load;  // by Cluster::can_buses
   std::uint64_t frames_sent = 0;
-  std::vector<Injector::Activation> faults;   // by Scenario::faults
+  std::vector<Injector::Activation> faults;  // by Scenario::faults
 };
 
 // Whether scenario and cluster take what they are given: a cluster with recorded sources needs a recording and nodes
@@ -64,9 +64,9 @@ DriveOutcome run_drive(const DriveConfig& config, records::Sink& out);
 // moves while the nodes start up: it starts when the first supply may come.
 TrueTime drive_start(const schedules::Cluster& cluster);
 
-// From `evaluation_start` to `drive_end` the drive is judged and drawn: both the scenario's evaluate_from and its duration
-// count from the start of cycle 0, whenever a recording begins; in a cold drive, whose cycles begin later, from the
-// same instant.
+// From `evaluation_start` to `drive_end` the drive is judged and drawn: both the scenario's evaluate_from and its
+// duration count from the start of cycle 0, whenever a recording begins; in a cold drive, whose cycles begin later,
+// from the same instant.
 TrueTime evaluation_start(const nodes::Scenario& scenario);
 TrueTime drive_end(const nodes::Scenario& scenario);
 

@@ -1,5 +1,5 @@
-// What is to happen in virtual time, in one total order: (true time, phase, node, rank, sequence). Never addresses, hash order
-// or thread arrival. The order is written here and nowhere else.
+// What is to happen in virtual time, in one total order: (true time, phase, node, rank, sequence). Never addresses,
+// hash order or thread arrival. The order is written here and nowhere else.
 #pragma once
 
 #include <cstddef>
@@ -17,9 +17,9 @@ enum class Phase : std::uint8_t { kArrival = 0, kNode = 1, kArbitration = 2, kOb
 struct EventOrder {
   TrueTime time{};
   Phase phase{};
-  std::uint8_t node = 0;           // receiver, or bus
-  std::uint16_t rank = 0;          // among the arrivals at one receiver: channel, then sender
-  std::uint64_t sequence = 0;      // order of being scheduled
+  std::uint8_t node = 0;       // receiver, or bus
+  std::uint16_t rank = 0;      // among the arrivals at one receiver: channel, then sender
+  std::uint64_t sequence = 0;  // order of being scheduled
   bool operator==(const EventOrder&) const = default;
   friend bool operator<(const EventOrder& a, const EventOrder& b) {
     if (a.time != b.time) return a.time < b.time;
@@ -33,8 +33,7 @@ struct EventOrder {
   }
 };
 
-template <class Payload>
-class EventQueue {
+template <class Payload> class EventQueue {
  public:
   // The queue takes room for `capacity` pending events once.
   explicit EventQueue(std::size_t capacity) { pending_.reserve(capacity); }
@@ -70,7 +69,7 @@ class EventQueue {
     pending_[at] = event;
   }
 
-  std::vector<Event> pending_;           // the first at the end
+  std::vector<Event> pending_;  // the first at the end
   std::uint64_t next_sequence_ = 0;
 };
 

@@ -10,8 +10,7 @@ using schedules::Channel;
 Channel other(Channel channel) { return channel == Channel::kA ? Channel::kB : Channel::kA; }
 
 // The first leg from `leg` on that leads to a receiver.
-template <class Leg>
-const Leg* receiving(const Leg* leg, const Leg* last, NodeId passed_over) {
+template <class Leg> const Leg* receiving(const Leg* leg, const Leg* last, NodeId passed_over) {
   while (leg != last && leg->receiver == passed_over) ++leg;
   return leg;
 }

@@ -68,14 +68,14 @@ void FlexRayMedium::put(Flight& flight, NodeId receiver, const Arrival& arrival)
     release(other.arrival);
     release(made.arrival);
     if (log_ != nullptr) log_->lost(made.arrival.logged), log_->lost(other.arrival.logged);
-    if (other.arrival.end >= made.arrival.end) made.id = other.id;   // else the other's stop will find nothing
+    if (other.arrival.end >= made.arrival.end) made.id = other.id;  // else the other's stop will find nothing
     made.arrival.logged = ChannelLog::kNone;
     made.arrival.signal = cas ? Signal::kCas : Signal::kUndecodable;
     made.arrival.start = std::min(made.arrival.start, other.arrival.start);
     made.arrival.end = std::max(made.arrival.end, other.arrival.end);
     made.merged = true;
     pending.take_out(i);
-    i = 0;   // grown, it may reach what it did not reach before
+    i = 0;  // grown, it may reach what it did not reach before
   }
   pending.add(made);
   if (made.id == own.id) stops_of(flight)[flight.size++] = own;

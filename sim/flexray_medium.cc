@@ -14,15 +14,9 @@ using schedules::Channel;
 }  // namespace
 
 FlexRayMedium::FlexRayMedium(const schedules::Cluster& cluster, MediumQueue& queue, FramePool& pool)
-    : queue_(queue),
-      pool_(pool),
-      position_(cluster.nodes.size(), -1),
-      lanes_(2 * cluster.nodes.size()),
-      ways_(cluster.nodes.size()),
-      sent_until_(2 * cluster.nodes.size()),
-      spoken_(2 * cluster.nodes.size()),
-      min_delay_ps_(cluster.flexray.gdMinPropagationDelay_ps),
-      max_delay_ps_(cluster.flexray.gdMaxPropagationDelay_ps),
+    : queue_(queue), pool_(pool), position_(cluster.nodes.size(), -1), lanes_(2 * cluster.nodes.size()),
+      ways_(cluster.nodes.size()), sent_until_(2 * cluster.nodes.size()), spoken_(2 * cluster.nodes.size()),
+      min_delay_ps_(cluster.flexray.gdMinPropagationDelay_ps), max_delay_ps_(cluster.flexray.gdMaxPropagationDelay_ps),
       star_(cluster.topology == schedules::Topology::kStar) {
   int on_bus = 0;
   for (std::size_t n = 0; n < cluster.nodes.size(); ++n) {
@@ -55,7 +49,7 @@ FlexRayMedium::Way FlexRayMedium::make_way(Channel channel, std::optional<NodeId
 }
 
 std::int64_t FlexRayMedium::branch_ps(NodeId node) const {
-  const int steps = ends_ - 1;   // to the two longest
+  const int steps = ends_ - 1;  // to the two longest
   const std::int64_t range = max_delay_ps_ - min_delay_ps_;
   const std::int64_t longer = steps <= 0 ? range : range * std::min(position_[index_of(node)], steps) / steps;
   return (min_delay_ps_ + longer) / 2;
@@ -100,8 +94,8 @@ void FlexRayMedium::emit(const Leaving& signal, std::optional<NodeId> source) {
   spread(made, source, false, logged);
 }
 
-void FlexRayMedium::spread(const Leaving& signal, std::optional<NodeId> sender, bool regenerated,
-                           ChannelLog::Id logged, const wire::DecodedFrame* content) {
+void FlexRayMedium::spread(const Leaving& signal, std::optional<NodeId> sender, bool regenerated, ChannelLog::Id logged,
+                           const wire::DecodedFrame* content) {
   const auto c = index_of(signal.channel);
   const Ways& ways = regenerated ? from_coupler_ : sender ? ways_[index_of(*sender)] : from_nowhere_;
   const Way& way = ways[c];
@@ -129,8 +123,8 @@ void FlexRayMedium::spread(const Leaving& signal, std::optional<NodeId> sender, 
   }
   for (const Leg& leg : way) {
     if (leg.receiver == sender) continue;
-    Arriving last{signal.sender, leg.receiver, signal.channel, signal.signal, signal.start + leg.delay,
-                  signal.end + leg.delay, regenerated, signal.bytes, signal.emitted};
+    Arriving last{signal.sender,          leg.receiver, signal.channel, signal.signal, signal.start + leg.delay,
+                  signal.end + leg.delay, regenerated,  signal.bytes,   signal.emitted};
     const bool arrives = disturbance_ == nullptr || disturbance_->arriving(last);
     const bool same_bytes = last.bytes.data() == signal.bytes.data();
     if (flight == nullptr) {
@@ -154,8 +148,8 @@ void FlexRayMedium::spread(const Leaving& signal, std::optional<NodeId> sender, 
 
 void FlexRayMedium::to_coupler(const Leaving& signal, NodeId sender, TrueTime now, ChannelLog::Id logged) {
   const Duration on_the_way = branch(sender);
-  Arriving last{sender, kNoNode, signal.channel, signal.signal, signal.start + on_the_way, signal.end + on_the_way,
-                false, signal.bytes, signal.emitted};
+  Arriving last{sender, kNoNode,      signal.channel, signal.signal, signal.start + on_the_way, signal.end + on_the_way,
+                false,  signal.bytes, signal.emitted};
   if (disturbance_ != nullptr && !disturbance_->arriving(last)) {
     if (log_ != nullptr) log_->withheld(logged);
     return;
@@ -176,8 +170,8 @@ void FlexRayMedium::to_coupler(const Leaving& signal, NodeId sender, TrueTime no
 }
 
 void FlexRayMedium::at_coupler(const MediumEvent& event) {
-  const auto found = std::find_if(to_coupler_.begin(), to_coupler_.end(),
-                                  [&](const Pending& one) { return one.id == event.frame; });
+  const auto found =
+      std::find_if(to_coupler_.begin(), to_coupler_.end(), [&](const Pending& one) { return one.id == event.frame; });
   TTF_CHECK(found != to_coupler_.end(), "nothing on its way to the coupler is {}", event.frame);
   const auto [arrived, id, sender, merged, emitted] = *found;
   *found = to_coupler_.back();
@@ -265,7 +259,7 @@ void FlexRayMedium::power_off(NodeId node, TrueTime now) {
     Lane& incoming = lane(node, channel);
     for (const Pending& one : incoming) release(one.arrival);
     incoming.clear();
-    Flight* left = nullptr;   // what is left of it
+    Flight* left = nullptr;  // what is left of it
     TrueTime& until = sent_until_[lane_of(node, channel)];
     if (until > now) busy_[index_of(channel)] += now - until;
     until = std::min(until, now);

@@ -1,8 +1,9 @@
 // The simulated FlexRay: two channels in virtual time, obeying the laws of bus/flexray_port.h.
 //
 // A linear bus with the nodes equally spaced along it; the propagation delay between two nodes grows from
-// gdMinPropagationDelay (neighbours at no distance) to gdMaxPropagationDelay (the two ends). What leaves reaches everybody who
-// is attached to the channel; what overlaps at a receiver arrives there as one signal that nobody can make out.
+// gdMinPropagationDelay (neighbours at no distance) to gdMaxPropagationDelay (the two ends). What leaves reaches
+// everybody who is attached to the channel; what overlaps at a receiver arrives there as one signal that nobody can
+// make out.
 //
 // Bit-true, it carries frames as bytes, which every frame is encoded to and decoded from, CRCs and all. Transparent, it
 // carries what they say, and bytes only where a disturbance or a coupler may look at them: all that anybody receives is
@@ -93,10 +94,10 @@ class FlexRayMedium {
   // coupler. The frame stays valid until release() is called with the same arrival.
   struct Arrival {
     TrueTime start{}, end{};
-    std::uint32_t frame = 0;          // in the pool, of a frame
+    std::uint32_t frame = 0;  // in the pool, of a frame
     schedules::Channel channel{};
     bus::Signal signal{};
-    ChannelLog::Id logged = ChannelLog::kNone;   // while its receiver may still make it out
+    ChannelLog::Id logged = ChannelLog::kNone;  // while its receiver may still make it out
   };
   std::optional<Arrival> arrive(const MediumEvent& event, TrueTime now);
   // The same for who goes along with a signal from receiver to receiver: what it brings where it is, and whether it
@@ -111,8 +112,8 @@ class FlexRayMedium {
     return clear ? stop_over_clear(flights_[event.frame], now) : stop_over_noted(event, now);
   }
   EventOrder next_arrival(MediumEvent& event) const;
-  // Whether it is one frame that stops on A and on B at once wherever it still goes; and when it will have done so. Then
-  // pass_on_both() is both stops at the receiver that is next; the frame stays valid until it is released on both.
+  // Whether it is one frame that stops on A and on B at once wherever it still goes; and when it will have done so.
+  // Then pass_on_both() is both stops at the receiver that is next; the frame stays valid until it is released on both.
   bool passes_on_both(const MediumEvent& event) const {
     const Flight& flight = flights_[event.frame];
     return !event.at_coupler && flight.ways != nullptr && flight.both_channels &&
@@ -136,10 +137,10 @@ class FlexRayMedium {
   // What is on its way to one node on one channel.
   struct Pending {
     Arrival arrival;
-    std::uint32_t id = 0;             // a stop of a flight has it
+    std::uint32_t id = 0;  // a stop of a flight has it
     NodeId sender{};
-    bool merged = false;              // of several signals
-    bool emitted = false;             // on its way to a coupler: by a fault
+    bool merged = false;   // of several signals
+    bool emitted = false;  // on its way to a coupler: by a fault
   };
   // Those on their way to one node on one channel, in no order, no two of them at once: hardly ever more than one, but
   // for what a fault makes late.
@@ -163,8 +164,8 @@ class FlexRayMedium {
    private:
     std::vector<Pending> room_;
   };
-  using Way = std::vector<Leg>;       // from a sender, or from the coupler of a star, to all; by (delay, receiver)
-  using Ways = std::array<Way, 2>;    // by channel
+  using Way = std::vector<Leg>;     // from a sender, or from the coupler of a star, to all; by (delay, receiver)
+  using Ways = std::array<Way, 2>;  // by channel
   // One signal on its way to all its receivers: a single event of the queue, which goes on from one stop to the next.
   struct Stop {
     TrueTime end{};
@@ -175,19 +176,19 @@ class FlexRayMedium {
   // leads, and no lane knows of it. What leaves on both channels at once and is clear on both, for the same receivers,
   // is one flight, which stops on A and then on B.
   struct Flight {
-    std::size_t size = 0, next = 0;   // stops, by (end, receiver) once it has departed; none of a clear flight
-    Stop last_heard;                  // the end of what it brings, wherever that is drawn into
-    std::uint64_t sequence = 0;       // in the queue
+    std::size_t size = 0, next = 0;  // stops, by (end, receiver) once it has departed; none of a clear flight
+    Stop last_heard;                 // the end of what it brings, wherever that is drawn into
+    std::uint64_t sequence = 0;      // in the queue
     ChannelLog::Id logged = ChannelLog::kNone;
     NodeId sender{};
-    schedules::Channel channel{};     // of the next stop
+    schedules::Channel channel{};  // of the next stop
     // Of a clear flight:
-    const Ways* ways = nullptr;       // null: it is none
-    const Leg* leg = nullptr;         // to the next stop; on both channels the legs are the same
-    const Leg* last = nullptr;        // behind the last one
-    NodeId passed_over = kNoNode;     // on its way, but no receiver
+    const Ways* ways = nullptr;    // null: it is none
+    const Leg* leg = nullptr;      // to the next stop; on both channels the legs are the same
+    const Leg* last = nullptr;     // behind the last one
+    NodeId passed_over = kNoNode;  // on its way, but no receiver
     bool both_channels = false;
-    std::array<Arrival, 2> left{};    // as it left, by channel
+    std::array<Arrival, 2> left{};  // as it left, by channel
   };
   // When a node sent last, for the log.
   struct Spoken {
@@ -229,8 +230,8 @@ class FlexRayMedium {
   static const Leg* first_leg(const Flight& flight);
   static EventOrder order_of(const Flight& flight, schedules::Channel channel, const Leg& leg) {
     const auto rank = static_cast<std::uint16_t>((index_of(channel) << 8) | index_of(flight.sender));
-    return {flight.left[index_of(channel)].end + leg.delay, Phase::kArrival, static_cast<std::uint8_t>(leg.receiver), rank,
-            flight.sequence};
+    return {flight.left[index_of(channel)].end + leg.delay, Phase::kArrival, static_cast<std::uint8_t>(leg.receiver),
+            rank, flight.sequence};
   }
   static Arrival after(const Arrival& left, Duration delay) {
     return {left.start + delay, left.end + delay, left.frame, left.channel, left.signal, left.logged};
@@ -247,27 +248,27 @@ class FlexRayMedium {
 
   MediumQueue& queue_;
   FramePool& pool_;
-  std::array<std::vector<NodeId>, 2> attached_;   // by channel
-  std::vector<int> position_;                     // by NodeId, -1 off the bus
-  std::vector<Lane> lanes_;                       // by NodeId and channel
-  bool same_receivers_;                           // whoever is attached is so to both channels
-  std::vector<Ways> ways_;                        // by sender
+  std::array<std::vector<NodeId>, 2> attached_;  // by channel
+  std::vector<int> position_;                    // by NodeId, -1 off the bus
+  std::vector<Lane> lanes_;                      // by NodeId and channel
+  bool same_receivers_;                          // whoever is attached is so to both channels
+  std::vector<Ways> ways_;                       // by sender
   Ways from_nowhere_, from_coupler_;
-  std::vector<Stop> stops_;                       // most_stops_ for each flight
-  std::size_t most_stops_ = 0;                    // a node each
+  std::vector<Stop> stops_;     // most_stops_ for each flight
+  std::size_t most_stops_ = 0;  // a node each
   std::vector<Flight> flights_;
   std::vector<std::uint32_t> free_flights_;
-  std::array<Flight*, 2> clear_{};                // by channel; null where there is none
-  std::array<int, 2> aloft_{};                    // flights, by channel; none beside a clear one
-  std::array<Duration, 2> busy_{};                // by channel
-  std::vector<TrueTime> sent_until_;              // by NodeId and channel
-  std::vector<Spoken> spoken_;                    // by NodeId and channel
-  int ends_ = 0;                                  // hops between the two ends of the line
+  std::array<Flight*, 2> clear_{};    // by channel; null where there is none
+  std::array<int, 2> aloft_{};        // flights, by channel; none beside a clear one
+  std::array<Duration, 2> busy_{};    // by channel
+  std::vector<TrueTime> sent_until_;  // by NodeId and channel
+  std::vector<Spoken> spoken_;        // by NodeId and channel
+  int ends_ = 0;                      // hops between the two ends of the line
   std::int64_t min_delay_ps_, max_delay_ps_;
   std::uint32_t next_id_ = 0;
   bool star_;
-  std::array<Coupler*, 2> coupler_{};             // by channel
-  std::vector<Pending> to_coupler_;               // signals that have not begun there yet
+  std::array<Coupler*, 2> coupler_{};  // by channel
+  std::vector<Pending> to_coupler_;    // signals that have not begun there yet
   Disturbance* disturbance_ = nullptr;
   ChannelLog* log_ = nullptr;
   bool transparent_ = false;

@@ -16,7 +16,7 @@ namespace ttf::sim {
 
 class FramePool {
  public:
-  static constexpr std::size_t kMaxBytes = 264;   // the longest FlexRay frame is 262
+  static constexpr std::size_t kMaxBytes = 264;  // the longest FlexRay frame is 262
 
   // Room for `capacity` frames, which is taken but not touched: most of it never is.
   explicit FramePool(std::size_t capacity) {
@@ -57,7 +57,9 @@ class FramePool {
     frame.uses = uses;
     return index;
   }
-  std::span<const std::byte> bytes(std::uint32_t index) const { return {frames_[index].bytes.data(), frames_[index].size}; }
+  std::span<const std::byte> bytes(std::uint32_t index) const {
+    return {frames_[index].bytes.data(), frames_[index].size};
+  }
   void release(std::uint32_t index, int uses = 1) {
     if ((frames_[index].uses -= uses) == 0) free_.push_back(index);
   }
@@ -67,7 +69,7 @@ class FramePool {
     std::array<std::byte, kMaxBytes> bytes;
     std::size_t size = 0;
     int uses = 0;
-    wire::DecodedFrame decoded;   // of a FlexRay frame
+    wire::DecodedFrame decoded;  // of a FlexRay frame
   };
   std::vector<Frame> frames_;
   std::vector<std::uint32_t> free_;

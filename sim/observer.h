@@ -44,7 +44,7 @@ class Observer final : public records::Sink {
   bool integrated_ = true;
   std::uint32_t next_fix_ = 0;
   std::vector<world::ObjectState> states_;
-  std::vector<std::optional<TrueTime>> last_truth_;   // by NodeId
+  std::vector<std::optional<TrueTime>> last_truth_;  // by NodeId
 };
 
 }  // namespace ttf::sim

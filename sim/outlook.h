@@ -1,5 +1,5 @@
-// A node as the others see it: when its next turn is. All who see the same arrivals at it and hear the same promises come
-// to the same answer, the node itself included.
+// A node as the others see it: when its next turn is. All who see the same arrivals at it and hear the same promises
+// come to the same answer, the node itself included.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // What one process of several writes down, where each simulates one node and all of them the media: of what belongs to
 // no executive - signals' ways on the channels, guardians' interventions, faults - each process hears everything. It
-// keeps what is of its own node, and one of them, that of the first node, what is of none; together they keep each once.
+// keeps what is of its own node, and one of them, that of the first node, what is of none; together they keep each
+// once.
 #pragma once
 
 #include <type_traits>
@@ -13,8 +14,7 @@ namespace ttf::sim {
 class Share final : public records::Every<Share> {
  public:
   Share(NodeId self, records::Sink& out) : self_(self), out_(out) {}
-  template <class Record>
-  void each(const Record& record) {
+  template <class Record> void each(const Record& record) {
     if constexpr (std::is_same_v<Record, records::FaultActivity>) {
       if (!is_mine(record.node)) return;
     } else if constexpr (std::is_same_v<Record, records::GuardianIntervention>) {

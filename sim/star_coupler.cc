@@ -54,12 +54,9 @@ std::int64_t StarCoupler::microtick_ps(const schedules::Cluster& cluster, schedu
 
 StarCoupler::StarCoupler(const schedules::Cluster& cluster, schedules::Channel channel,
                          const timebase::Oscillator& oscillator, TrueTime on)
-    : cluster_(bus::guardian_cluster(cluster, channel)),
-      channel_(channel),
-      oscillator_(oscillator),
+    : cluster_(bus::guardian_cluster(cluster, channel)), channel_(channel), oscillator_(oscillator),
       guardian_(cluster_, channel, *cluster_.nodes.back().flexray),
-      turns_(cluster_, channel, *cluster_.nodes.back().flexray),
-      watch_(std::make_unique<Watch>(*this)),
+      turns_(cluster_, channel, *cluster_.nodes.back().flexray), watch_(std::make_unique<Watch>(*this)),
       controller_(std::make_unique<bus::FlexRayController>(cluster_, guardian_of(cluster_), *watch_, *watch_)),
       dynamic_(cluster_.flexray) {
   TTF_CHECK(oscillator.nominal_period_ps() == cluster_.nodes.back().microtick_ps, "microticks of {} and {} ps",
@@ -81,7 +78,7 @@ void StarCoupler::power_on(Microticks now) {
 }
 
 void StarCoupler::start_integrated(TrueTime first, Duration cycle) {
-  constexpr int kCycles = 1000;   // so that rounding to one microtick per cycle is all that is lost
+  constexpr int kCycles = 1000;  // so that rounding to one microtick per cycle is all that is lost
   const Microticks begin = oscillator_.ticks_at(first);
   const std::int64_t ticks = (oscillator_.ticks_at(first + cycle * kCycles) - begin).value;
   const std::int64_t per_cycle = (ticks + kCycles / 2) / kCycles;
@@ -103,8 +100,8 @@ void StarCoupler::advance(Microticks to) {
 }
 
 void StarCoupler::deliver(const Hearing& heard) {
-  bus::Reception reception{channel_, heard.signal, oscillator_.ticks_at(heard.start), oscillator_.ticks_at(heard.end),
-                           {}};
+  bus::Reception reception{
+      channel_, heard.signal, oscillator_.ticks_at(heard.start), oscillator_.ticks_at(heard.end), {}};
   if (heard.signal == Signal::kFrame) {
     reception.frame = heard.frame;
     reception.frame.payload = std::span(heard.bytes).subspan(wire::kHeaderBytes, heard.frame.payload.size());
@@ -165,7 +162,7 @@ bus::GuardianAnswer StarCoupler::judge(const bus::GuardianSignal& signal) const 
 // To the instant where the guardian leaves it alone.
 TrueTime StarCoupler::end_of(TrueTime start, TrueTime end, Microticks until) const {
   const auto& clock = controller_->clock();
-  const Microticks sent = oscillator_.ticks_at(end - Duration{1}) + Microticks{1};   // the first at or after `end`
+  const Microticks sent = oscillator_.ticks_at(end - Duration{1}) + Microticks{1};  // the first at or after `end`
   const Microticks ends =
       clock ? guardian_.end_of(*clock, oscillator_.ticks_at(start), sent, until) : std::min(sent, until);
   return ends == sent ? end : oscillator_.time_of(ends);

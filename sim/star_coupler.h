@@ -27,8 +27,8 @@ class StarCoupler final : public Coupler {
   // Faults of its own.
   enum class Failure : std::uint8_t {
     kNone,
-    kSilent,      // nothing goes through
-    kStuckOpen,   // everything does: a star without a guardian
+    kSilent,     // nothing goes through
+    kStuckOpen,  // everything does: a star without a guardian
   };
   // What the guardian kept from the others, wholly, or from `until` on.
   struct Intervention {
@@ -36,7 +36,7 @@ class StarCoupler final : public Coupler {
     NodeId branch{};
     schedules::Channel channel{};
     bus::Signal signal{};
-    bus::GuardianReason reason{};          // kForwarded: cut
+    bus::GuardianReason reason{};  // kForwarded: cut
     TrueTime until{};
   };
 
@@ -61,11 +61,11 @@ class StarCoupler final : public Coupler {
   void disturbed(const Leaving& signal) override;
   TrueTime fell_silent(NodeId branch, TrueTime at) override;
 
-  std::uint64_t forwarded() const { return count_[0]; }                       // also what was cut
+  std::uint64_t forwarded() const { return count_[0]; }  // also what was cut
   std::uint64_t blocked(bus::GuardianReason reason) const { return count_[static_cast<std::size_t>(reason)]; }
-  std::uint64_t blocked() const;                                              // for any reason
+  std::uint64_t blocked() const;  // for any reason
   std::uint64_t cut() const { return cut_; }
-  std::uint64_t held() const { return held_; }                                // to a minislot action point
+  std::uint64_t held() const { return held_; }  // to a minislot action point
   // As of the last signal, or of catch_up().
   const bus::PocState& state() const { return controller_->state(); }
   const std::optional<timebase::CycleClock>& clock() const { return controller_->clock(); }
@@ -76,10 +76,10 @@ class StarCoupler final : public Coupler {
   struct Watch;
   // On its way into the guardian's own controller.
   struct Hearing {
-    NodeId branch = kNoNode;                             // kNoNode: of none, or of several
+    NodeId branch = kNoNode;  // kNoNode: of none, or of several
     TrueTime start{}, end{};
     bus::Signal signal{};
-    wire::DecodedFrame frame;                            // its payload in `bytes`
+    wire::DecodedFrame frame;  // its payload in `bytes`
     std::array<std::byte, wire::kMaxFrameBytes> bytes{};
   };
 
@@ -91,7 +91,7 @@ class StarCoupler final : public Coupler {
   void hear(NodeId branch, const Leaving& signal, const wire::DecodedFrame* frame);
   void lead_begins();
 
-  const schedules::Cluster cluster_;     // with the guardian as a node
+  const schedules::Cluster cluster_;  // with the guardian as a node
   const schedules::Channel channel_;
   const timebase::Oscillator oscillator_;
   const bus::Guardian guardian_;
@@ -99,8 +99,8 @@ class StarCoupler final : public Coupler {
   std::unique_ptr<Watch> watch_;
   std::unique_ptr<bus::FlexRayController> controller_;
   bus::DynamicSlotCounter dynamic_;
-  std::int64_t counted_cycle_ = -1;      // dynamic_ is of
-  TrueTime taken_until_{};               // by what is being forwarded
+  std::int64_t counted_cycle_ = -1;  // dynamic_ is of
+  TrueTime taken_until_{};           // by what is being forwarded
   std::vector<Hearing> hearing_;
   Failure failure_ = Failure::kNone;
   std::array<std::uint64_t, bus::kAllGuardianReasons.size()> count_{};

@@ -18,13 +18,14 @@ enum class ActKind : std::uint8_t { kSignal = 1, kCanFrame = 2, kTrigger = 3, kS
 constexpr std::size_t kHeaderSize = 1 + 4 + 5 * 8 + 2;
 constexpr std::size_t kUsualSize = 4096;
 constexpr std::size_t kMostCanBytes = 64;
-constexpr std::int64_t kMostAhead = std::int64_t{1} << 40;   // [uT] hours: nothing in a turn is about what is further off
+constexpr std::int64_t kMostAhead = std::int64_t{1}
+                                    << 40;  // [uT] hours: nothing in a turn is about what is further off
 constexpr std::int64_t kLastTick = std::int64_t{1} << 60;
 
-template <class Integer>
-void put(std::vector<std::byte>& bytes, Integer value) {
+template <class Integer> void put(std::vector<std::byte>& bytes, Integer value) {
   auto bits = static_cast<std::make_unsigned_t<Integer>>(value);
-  for (std::size_t i = 0; i < sizeof(Integer); ++i, bits = static_cast<decltype(bits)>(static_cast<std::uint64_t>(bits) >> 8))
+  for (std::size_t i = 0; i < sizeof(Integer);
+       ++i, bits = static_cast<decltype(bits)>(static_cast<std::uint64_t>(bits) >> 8))
     bytes.push_back(static_cast<std::byte>(bits & 0xFF));
 }
 void put(std::vector<std::byte>& bytes, ActKind kind) { bytes.push_back(static_cast<std::byte>(kind)); }
@@ -33,26 +34,27 @@ class TurnBytes {
  public:
   explicit TurnBytes(std::span<const std::byte> bytes) : left_(bytes) {}
 
-  template <class Integer>
-  Integer take(std::uint64_t most, const char* what) {
+  template <class Integer> Integer take(std::uint64_t most, const char* what) {
     const std::span<const std::byte> field = take_bytes(sizeof(Integer), what);
     std::uint64_t value = 0;
     for (std::size_t i = field.size(); i-- > 0;) value = value << 8 | static_cast<std::uint64_t>(field[i]);
-    if (value > most) throw std::runtime_error(fmt::format("a turn with {} {}, which must be at most {}", what, value, most));
+    if (value > most)
+      throw std::runtime_error(fmt::format("a turn with {} {}, which must be at most {}", what, value, most));
     return static_cast<Integer>(value);
   }
   // Below zero, too: a node's first tick comes within a tick of the start of the run.
   Microticks instant(Microticks from, std::int64_t most, const char* what) {
     const auto value = static_cast<std::int64_t>(take<std::uint64_t>(~std::uint64_t{0}, what));
     if (value < from.value || value > from.value + most)
-      throw std::runtime_error(fmt::format("a turn with {} {}, which must be {}..{}", what, value, from.value,
-                                           from.value + most));
+      throw std::runtime_error(
+          fmt::format("a turn with {} {}, which must be {}..{}", what, value, from.value, from.value + most));
     return {value};
   }
   // Either may be never.
   Microticks instant_or_never(Microticks from, std::int64_t most, const char* what) {
     TurnBytes ahead = *this;
-    if (ahead.take<std::uint64_t>(~std::uint64_t{0}, what) == static_cast<std::uint64_t>(nodes::Promise::kNever.value)) {
+    if (ahead.take<std::uint64_t>(~std::uint64_t{0}, what) ==
+        static_cast<std::uint64_t>(nodes::Promise::kNever.value)) {
       *this = ahead;
       return nodes::Promise::kNever;
     }
@@ -74,8 +76,8 @@ class TurnBytes {
 bus::Transmission read_signal(TurnBytes& in, const TurnHeader& turn) {
   bus::Transmission sent;
   sent.channel = static_cast<schedules::Channel>(in.take<std::uint8_t>(1, "channel"));
-  sent.signal = static_cast<bus::Signal>(
-      in.take<std::uint8_t>(static_cast<std::uint64_t>(bus::Signal::kUndecodable), "signal"));
+  sent.signal =
+      static_cast<bus::Signal>(in.take<std::uint8_t>(static_cast<std::uint64_t>(bus::Signal::kUndecodable), "signal"));
   sent.start = in.instant(turn.at, kMostAhead, "start of a signal");
   sent.end = in.instant(sent.start, kMostAhead, "end of a signal");
   sent.slot = in.take<std::uint16_t>(static_cast<std::uint64_t>(schedules::kLastSlot), "slot");

@@ -1,18 +1,19 @@
-// How the processes of one cluster go through virtual time together, one node in each, with nothing but messages between
-// them: the schedule is the synchroniser.
+// How the processes of one cluster go through virtual time together, one node in each, with nothing but messages
+// between them: the schedule is the synchroniser.
 //
 // Every process simulates all media, and its own node. Of the others it knows what they do from what they say in their
 // turns, and when those are from what they promised: at each turn a node says what it does that others can notice,
-// until when it will be silent, and how soon an arrival may make it speak sooner (nodes/promise.h). As everybody knows all
-// arrivals, everybody knows when whose next turn is (sim/outlook.h), and goes on until there without waiting. So
+// until when it will be silent, and how soon an arrival may make it speak sooner (nodes/promise.h). As everybody knows
+// all arrivals, everybody knows when whose next turn is (sim/outlook.h), and goes on until there without waiting. So
 //
 //   T1  all processes see the same acts and turns in the same order, which is that of sim/event_queue.h: what a node
 //       records is what it records where one process simulates them all
 //   T2  somebody can always go on: the node whose turn is first waits for nobody
-//   T3  a node that is gone (bus/exchange.h) is without supply from the turn on that it did not take, for all others alike
+//   T3  a node that is gone (bus/exchange.h) is without supply from the turn on that it did not take, for all others
+//   alike
 //
-// A static schedule makes turns rare: a frame in an own slot, the end of a task. Where nodes start up, or have frames in
-// the dynamic segment, every arrival may be answered, and there is a turn for each.
+// A static schedule makes turns rare: a frame in an own slot, the end of a task. Where nodes start up, or have frames
+// in the dynamic segment, every arrival may be answered, and there is a turn for each.
 #pragma once
 
 #include <cstddef>
@@ -56,7 +57,7 @@ class TurnTaking {
   struct Member {
     Outlook outlook;
     std::uint32_t turns = 0;
-    std::deque<std::vector<std::byte>> unheard;   // turns to come, in their order
+    std::deque<std::vector<std::byte>> unheard;  // turns to come, in their order
     bool gone = false;
   };
   void receive();
@@ -64,9 +65,9 @@ class TurnTaking {
   const schedules::Cluster& cluster_;
   NodeId self_;
   bus::Exchange& exchange_;
-  std::vector<Member> members_;                   // by NodeId
-  std::vector<std::vector<std::byte>> spare_;     // rooms for turns, to be used again
-  std::vector<std::byte> heard_;                  // the turn that acts_ refers into
+  std::vector<Member> members_;                // by NodeId
+  std::vector<std::vector<std::byte>> spare_;  // rooms for turns, to be used again
+  std::vector<std::byte> heard_;               // the turn that acts_ refers into
   std::vector<Act> acts_;
   TurnWriter own_;
 };

@@ -20,8 +20,8 @@ inline constexpr int kMaxSyncNodes = 15;
 std::optional<int> fault_tolerant_midpoint(std::span<int> deviations);
 
 struct Correction {
-  int value = 0;             // microticks, within the limit
-  bool missing = false;      // no value was measured: the previous term stays (rate) or is zero (offset)
+  int value = 0;         // microticks, within the limit
+  bool missing = false;  // no value was measured: the previous term stays (rate) or is zero (offset)
   bool limit_reached = false;
 };
 

@@ -10,7 +10,7 @@ namespace ttf::timebase {
 namespace {
 
 constexpr std::int64_t kPicosecondsPerNanosecond = 1000;
-constexpr std::int64_t kMost = std::int64_t{1} << 62;   // [ps] may be added to one another
+constexpr std::int64_t kMost = std::int64_t{1} << 62;  // [ps] may be added to one another
 
 const CycleGeometry& checked(const CycleGeometry& geometry) {
   TTF_CHECK(geometry.macro_per_cycle > 0 && geometry.micro_per_cycle > 2 * geometry.macro_per_cycle,
@@ -23,15 +23,11 @@ const CycleGeometry& checked(const CycleGeometry& geometry) {
 }  // namespace
 
 CycleClock::CycleClock(CycleGeometry geometry, Microticks start, int rate, std::int64_t first)
-    : geometry_(checked(geometry)),
-      macroticks_(geometry.macro_per_cycle),
+    : geometry_(checked(geometry)), macroticks_(geometry.macro_per_cycle),
       late_macroticks_(geometry.macro_per_cycle - geometry.offset_correction_start),
       cycle_ps_(geometry.macro_per_cycle * geometry.macrotick_ps),
       late_ps_((geometry.macro_per_cycle - geometry.offset_correction_start) * geometry.macrotick_ps),
-      most_cycles_(kMost / cycle_ps_),
-      first_(first),
-      cycle_(first),
-      start_(start) {
+      most_cycles_(kMost / cycle_ps_), first_(first), cycle_(first), start_(start) {
   early_.slope = cycle_ps_;
   early_.overflow = static_cast<std::uint64_t>(kMost / cycle_ps_);
   late_.slope = late_ps_;
@@ -100,7 +96,7 @@ GlobalTime CycleClock::exact_global_time(Microticks t) const {
   Int128 elapsed_ps = 0;
   if (into <= before_) {
     elapsed_ps = floor_div(static_cast<Int128>(into) * cycle_ps_, length_);
-    if (elapsed_ps > at_correction) elapsed_ps = at_correction;   // `before_` is rounded up
+    if (elapsed_ps > at_correction) elapsed_ps = at_correction;  // `before_` is rounded up
   } else {
     elapsed_ps = at_correction + floor_div(static_cast<Int128>(into - before_) * late_ps_, correction_phase());
   }

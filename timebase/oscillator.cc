@@ -62,8 +62,7 @@ void Oscillator::change_drift(TrueTime now, std::int64_t drift_ppb) {
 }
 
 Oscillator::Line::Line(std::int64_t period_as, Int128 phase_as)
-    : period_as_(period_as),
-      phase_as_(phase_as),
+    : period_as_(period_as), phase_as_(phase_as),
       phase_ns_(static_cast<std::int64_t>(floor_div(phase_as, kAttosecondsPerNanosecond))),
       period_ns_(period_as / kAttosecondsPerNanosecond),
       phase_rest_(fraction(rest_of(phase_as, phase_ns_), kAttosecondsPerNanosecond)),

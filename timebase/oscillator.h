@@ -39,7 +39,7 @@ class Oscillator {
   Microticks ticks_at(TrueTime t) const { return (t <= changed_ ? before_ : line_).ticks_at(t); }
   // First nanosecond at or after tick k.
   TrueTime time_of(Microticks k) const { return (k <= changed_tick_ ? before_ : line_).time_of(k); }
-  LocalTime local_time(Microticks k) const;   // k nominal periods, rounded down to whole nanoseconds
+  LocalTime local_time(Microticks k) const;  // k nominal periods, rounded down to whole nanoseconds
   std::int64_t nominal_period_ps() const { return nominal_period_ps_; }
 
  private:
@@ -77,9 +77,9 @@ class Oscillator {
     std::int64_t period_as() const { return period_as_; }
 
    private:
-    Microticks ticks_before(TrueTime t) const;   // the phase, rounded down to a nanosecond
-    TrueTime time_before(Microticks k) const;    // tick 0
-    TrueTime time_from(TrueTime t, Microticks k) const;   // where it is t or little later
+    Microticks ticks_before(TrueTime t) const;           // the phase, rounded down to a nanosecond
+    TrueTime time_before(Microticks k) const;            // tick 0
+    TrueTime time_from(TrueTime t, Microticks k) const;  // where it is t or little later
     // t - (phase + k * period) where that is little: 64 bits hold it, whatever is lost above them.
     std::int64_t lateness(Microticks k, TrueTime t) const {
       return static_cast<std::int64_t>(static_cast<std::uint64_t>(t.ns) * kAttosecondsPerNanosecond -
@@ -89,16 +89,16 @@ class Oscillator {
 
     std::int64_t period_as_ = 0;
     Int128 phase_as_ = 0;
-    std::int64_t phase_ns_ = 0, period_ns_ = 0;        // rounded down
-    std::uint64_t phase_rest_ = 0, period_rest_ = 0;   // their rests, in units of 2^-64 ns, rounded down
-    std::uint64_t frequency_ = 0;                      // ticks per ns, in units of 2^-64, rounded down
-    std::uint64_t phase_ticks_ = 0;                    // the phase's rest, in units of 2^-64 ticks, rounded up
+    std::int64_t phase_ns_ = 0, period_ns_ = 0;       // rounded down
+    std::uint64_t phase_rest_ = 0, period_rest_ = 0;  // their rests, in units of 2^-64 ns, rounded down
+    std::uint64_t frequency_ = 0;                     // ticks per ns, in units of 2^-64, rounded down
+    std::uint64_t phase_ticks_ = 0;                   // the phase's rest, in units of 2^-64 ticks, rounded up
   };
 
   std::int64_t nominal_period_ps_;
-  Line line_, before_;                 // `before_` counts up to and including `changed_`
+  Line line_, before_;  // `before_` counts up to and including `changed_`
   TrueTime changed_;
-  Microticks changed_tick_;            // before_.ticks_at(changed_)
+  Microticks changed_tick_;  // before_.ticks_at(changed_)
 };
 
 }  // namespace ttf::timebase

@@ -15,12 +15,12 @@ bus::HostTime ArrivalInstant::of(NodeId sender, std::uint64_t host, std::int64_t
 }
 
 ArrivalInstant::Host& ArrivalInstant::find(std::uint64_t identity) {
-  const auto found = std::find_if(hosts_.begin(), hosts_.end(),
-                                  [identity](const Host& host) { return host.identity == identity; });
+  const auto found =
+      std::find_if(hosts_.begin(), hosts_.end(), [identity](const Host& host) { return host.identity == identity; });
   if (found != hosts_.end()) return *found;
   if (hosts_.size() < most_hosts_) return hosts_.emplace_back(Host{identity, {}, {}});
-  const auto silent = std::min_element(hosts_.begin(), hosts_.end(),
-                                       [](const Host& a, const Host& b) { return a.heard < b.heard; });
+  const auto silent =
+      std::min_element(hosts_.begin(), hosts_.end(), [](const Host& a, const Host& b) { return a.heard < b.heard; });
   return *silent = Host{identity, {}, {}};
 }
 

@@ -35,8 +35,8 @@ class ArrivalInstant {
   Host& find(std::uint64_t identity);
 
   std::size_t most_hosts_ = 0;
-  std::vector<Host> hosts_;                    // those heard so far
-  std::array<bus::HostTime, 256> last_{};      // by sender
+  std::vector<Host> hosts_;                // those heard so far
+  std::array<bus::HostTime, 256> last_{};  // by sender
 };
 
 }  // namespace ttf::dds

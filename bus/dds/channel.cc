@@ -15,8 +15,8 @@
 namespace ttf::dds {
 namespace {
 
-constexpr std::size_t kBatch = 64;          // samples taken at a time
-constexpr std::int32_t kHistory = 256;      // kept for who comes back
+constexpr std::size_t kBatch = 64;      // samples taken at a time
+constexpr std::int32_t kHistory = 256;  // kept for who comes back
 constexpr std::uint32_t kConnections = DDS_SUBSCRIPTION_MATCHED_STATUS | DDS_LIVELINESS_CHANGED_STATUS;
 
 Qos qualities() {
@@ -25,8 +25,8 @@ Qos qualities() {
   dds_qset_history(qos.get(), DDS_HISTORY_KEEP_ALL, 0);
   dds_qset_resource_limits(qos.get(), DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
   dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);
-  dds_qset_durability_service(qos.get(), 0, DDS_HISTORY_KEEP_LAST, kHistory, DDS_LENGTH_UNLIMITED,
-                              DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
+  dds_qset_durability_service(qos.get(), 0, DDS_HISTORY_KEEP_LAST, kHistory, DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED,
+                              DDS_LENGTH_UNLIMITED);
   dds_qset_writer_data_lifecycle(qos.get(), false);
   dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
   return qos;
@@ -36,9 +36,15 @@ Said said_in(const ttf_ExchangeSample& sample) {
   if (sample.kind >= kKinds || sample.inner >= kKinds)
     throw std::runtime_error(fmt::format("exchange: node {} says what is not known here (kind {}): another version?",
                                          sample.sender, sample.kind));
-  return {.sender = NodeId{sample.sender}, .kind = Kind{sample.kind}, .about = NodeId{sample.about},
-          .holder = NodeId{sample.holder}, .inner = Kind{sample.inner}, .round = sample.round,
-          .number = sample.number, .first = sample.first, .end = sample.end,
+  return {.sender = NodeId{sample.sender},
+          .kind = Kind{sample.kind},
+          .about = NodeId{sample.about},
+          .holder = NodeId{sample.holder},
+          .inner = Kind{sample.inner},
+          .round = sample.round,
+          .number = sample.number,
+          .first = sample.first,
+          .end = sample.end,
           .bytes = std::as_bytes(std::span(sample.bytes._buffer, sample.bytes._length))};
 }
 
@@ -58,7 +64,7 @@ Channel::Channel(const Participant& participant, const std::string& topic, const
   writer_ = checked(dds_create_writer(publisher, topic_, qos.get(), nullptr), "cannot make a writer of " + topic);
 }
 
-Channel::~Channel() = default;   // the participant takes all of it along
+Channel::~Channel() = default;  // the participant takes all of it along
 
 void Channel::say(Said said) {
   ttf_ExchangeSample sample{};
@@ -86,7 +92,7 @@ bool Channel::take(const std::function<void(const Said&)>& visit) {
   const auto give_back = [this, count](void** loan) { dds_return_loan(reader_, loan, count); };
   const std::unique_ptr<void*, decltype(give_back)> loan(samples.data(), give_back);
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-    if (!infos[i].valid_data) continue;   // that a writer has come or gone
+    if (!infos[i].valid_data) continue;  // that a writer has come or gone
     const Said said = said_in(*static_cast<const ttf_ExchangeSample*>(samples[i]));
     auto& writer = writers_[index_of(said.sender)];
     if (writer != infos[i].publication_handle) changed_ = true;
@@ -110,8 +116,8 @@ bool Channel::lost(NodeId sender) const {
   const std::uint64_t writer = writers_[index_of(sender)];
   if (writer == 0) return false;
   std::vector<dds_instance_handle_t> matched(256);
-  const auto count = checked(dds_get_matched_publications(reader_, matched.data(), matched.size()),
-                             "cannot ask who is there");
+  const auto count =
+      checked(dds_get_matched_publications(reader_, matched.data(), matched.size()), "cannot ask who is there");
   matched.resize(std::min<std::size_t>(matched.size(), static_cast<std::size_t>(count)));
   return std::find(matched.begin(), matched.end(), writer) == matched.end();
 }

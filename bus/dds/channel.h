@@ -46,9 +46,9 @@ class Channel {
   Handle topic_ = 0;
   Handle writer_ = 0;
   Handle reader_ = 0;
-  Handle reading_ = 0;   // the condition that something has come
+  Handle reading_ = 0;  // the condition that something has come
   std::uint64_t next_number_ = 0;
-  std::array<std::uint64_t, 256> writers_{};   // by sender: DDS' number of the writer last heard; 0: none
+  std::array<std::uint64_t, 256> writers_{};  // by sender: DDS' number of the writer last heard; 0: none
   bool changed_ = true;
 };
 

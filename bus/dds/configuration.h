@@ -12,7 +12,7 @@ namespace ttf::dds {
 // Participants of one domain on one machine: more would reach into the next domain's UDP ports, which are
 // 7400 + 250 domain + 10 + 2 index and the one after (DDSI-RTPS 2.3, 9.6.1).
 inline constexpr int kMaxParticipants = 120;
-inline constexpr std::uint32_t kMaxDomain = 231;   // the last whose ports are all below 65536
+inline constexpr std::uint32_t kMaxDomain = 231;  // the last whose ports are all below 65536
 
 // A writer that has so much unacknowledged waits. Survivors of a dead reader reach it only if they say more than
 // this before its lease runs out.

@@ -20,9 +20,9 @@ namespace ttf::dds {
 class Departure {
  public:
   struct Order {
-    Kind kind{};               // kFence or kClose
+    Kind kind{};  // kFence or kClose
     std::uint32_t round = 0;
-    NodeId holder = kNoNode;   // of kClose: who says again samples [first, end); kNoNode: nobody lacks any
+    NodeId holder = kNoNode;  // of kClose: who says again samples [first, end); kNoNode: nobody lacks any
     std::uint64_t first = 0;
     std::uint64_t end = 0;
   };
@@ -34,7 +34,7 @@ class Departure {
   Order begin();
   std::optional<Order> report(NodeId survivor, std::uint32_t round, std::uint64_t end);
   void closed(NodeId survivor, std::uint32_t round);
-  std::optional<Order> without(NodeId survivor);   // it has gone, too, or left
+  std::optional<Order> without(NodeId survivor);  // it has gone, too, or left
 
   // Every survivor has heard all of it.
   bool done() const { return closing_ && closed_.size() == survivors_.size(); }
@@ -47,8 +47,8 @@ class Departure {
   std::set<NodeId> survivors_;
   std::uint32_t round_ = 0;
   bool closing_ = false;
-  std::map<NodeId, std::uint64_t> reports_;   // of this round
-  std::set<NodeId> closed_;                   // in this round
+  std::map<NodeId, std::uint64_t> reports_;  // of this round
+  std::set<NodeId> closed_;                  // in this round
   NodeId holder_ = kNoNode;
   std::uint64_t end_ = 0;
 };

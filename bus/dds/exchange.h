@@ -17,8 +17,8 @@
 #include <memory>
 #include <span>
 
-#include "bus/exchange.h"
 #include "bus/dds/session.h"
+#include "bus/exchange.h"
 #include "core/ids.h"
 
 namespace ttf::dds {

@@ -14,7 +14,7 @@
 
 namespace ttf::dds {
 
-using HeardCounts = std::map<NodeId, std::uint64_t>;   // samples heard, by their sender
+using HeardCounts = std::map<NodeId, std::uint64_t>;  // samples heard, by their sender
 
 std::vector<std::byte> encode(const HeardCounts& heard);
 // Throws std::runtime_error on what encode() does not make.
@@ -26,8 +26,8 @@ class HeardTable {
   // `others`: all members but oneself.
   explicit HeardTable(const std::vector<NodeId>& others);
 
-  void note(NodeId by, HeardCounts heard);   // it never grows less; what `by` does not mention it has not heard
-  void without(NodeId gone);           // it will not need to be told anything again
+  void note(NodeId by, HeardCounts heard);  // it never grows less; what `by` does not mention it has not heard
+  void without(NodeId gone);                // it will not need to be told anything again
   // How many samples of `sender` every other that is still there has heard.
   std::uint64_t by_all(NodeId sender) const;
 

@@ -10,8 +10,7 @@ constexpr std::int64_t kSecond = 1'000'000'000;
 
 }  // namespace
 
-template <std::size_t kBins>
-void LeastDelay::Minima<kBins>::add(const Frame& frame) {
+template <std::size_t kBins> void LeastDelay::Minima<kBins>::add(const Frame& frame) {
   last_ = std::max(last_, frame.received.ns / width_.ns);
   Bin& now = bins_[static_cast<std::size_t>(last_) % kBins];
   if (now.number != last_ || frame.delay < now.least.delay) now = {last_, frame};
@@ -19,7 +18,7 @@ void LeastDelay::Minima<kBins>::add(const Frame& frame) {
 
 template <std::size_t kBins>
 const typename LeastDelay::Minima<kBins>::Bin* LeastDelay::Minima<kBins>::bin(std::size_t back) const {
-  if (last_ < static_cast<std::int64_t>(back)) return nullptr;   // nothing yet, too
+  if (last_ < static_cast<std::int64_t>(back)) return nullptr;  // nothing yet, too
   const std::int64_t number = last_ - static_cast<std::int64_t>(back);
   const Bin& found = bins_[static_cast<std::size_t>(number) % kBins];
   return found.number == number ? &found : nullptr;

@@ -37,7 +37,7 @@ class LeastDelay {
   static constexpr Duration kWindow = Duration::milliseconds(1000);
   // Drift [ns/s]: either clock 100 ppm off, and what minima err by.
   static constexpr std::int64_t kFastest = 300'000;
-  static constexpr Duration kBend = Duration::microseconds(50);   // off the line
+  static constexpr Duration kBend = Duration::microseconds(50);  // off the line
 
   // The least delay as a frame is there that was in hand at `received`, and by its sender's stamp took `delay`.
   // `received` does not decrease. Delays may have either sign, and differ by less than 2^63 ns.
@@ -49,8 +49,7 @@ class LeastDelay {
     Duration delay{};
   };
   // The least delayed frame in each of the last kBins intervals.
-  template <std::size_t kBins>
-  class Minima {
+  template <std::size_t kBins> class Minima {
    public:
     explicit Minima(Duration width) : width_(width) {}
     void add(const Frame& frame);
@@ -70,7 +69,7 @@ class LeastDelay {
   };
   static constexpr std::size_t kShort = 32, kThird = 5;
 
-  std::int64_t drift() const;   // [ns/s]
+  std::int64_t drift() const;  // [ns/s]
 
   Minima<kShort> short_{Duration::nanoseconds(kWindow.ns / static_cast<std::int64_t>(kShort))};
   Minima<3 * kThird> long_{Duration::milliseconds(1000)};

@@ -16,7 +16,7 @@ namespace ttf::dds {
 namespace {
 
 constexpr std::size_t kBoxes = 16;           // samples taken at a time
-constexpr std::size_t kMostEndpoints = 256;   // on one line
+constexpr std::size_t kMostEndpoints = 256;  // on one line
 
 // Instants and lengths of time beyond these (a century, eleven days) are no clock's.
 constexpr std::int64_t kLatest = 4'000'000'000'000'000'000, kLongest = 1'000'000'000'000'000;
@@ -26,12 +26,12 @@ constexpr std::uint8_t kClassicCan = 4, kFastCan = 5;
 
 Qos live_qualities(Delivery delivery, NodeId self) {
   Qos qos = new_qos();
-  dds_qset_reliability(
-      qos.get(), delivery == Delivery::kReliable ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT, 0);
+  dds_qset_reliability(qos.get(),
+                       delivery == Delivery::kReliable ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT, 0);
   dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, LiveLine::kHistory);
   dds_qset_durability(qos.get(), DDS_DURABILITY_VOLATILE);
   dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
-  dds_qset_userdata(qos.get(), &self, sizeof self);   // so that who is missing has a name
+  dds_qset_userdata(qos.get(), &self, sizeof self);  // so that who is missing has a name
   return qos;
 }
 
@@ -66,7 +66,7 @@ std::vector<NodeId> owners(Handle entity, const std::vector<dds_instance_handle_
   std::vector<NodeId> nodes;
   for (const dds_instance_handle_t handle : matched) {
     dds_builtintopic_endpoint_t* const endpoint = data(entity, handle);
-    if (endpoint == nullptr) continue;   // it has just gone
+    if (endpoint == nullptr) continue;  // it has just gone
     void* said = nullptr;
     std::size_t size = 0;
     if (dds_qget_userdata(endpoint->qos, &said, &size) && size == sizeof(NodeId))
@@ -116,8 +116,8 @@ LiveLine::LiveLine(const Participant& participant, const std::string& session, N
   const std::unique_ptr<dds_listener_t, decltype(&dds_delete_listener)> listener(dds_create_listener(this),
                                                                                  dds_delete_listener);
   dds_lset_data_available(listener.get(), &LiveLine::on_data);
-  reader_ = checked(dds_create_reader(subscriber, topic, qos.get(), listener.get()),
-                    "cannot make a reader of " + topic_);
+  reader_ =
+      checked(dds_create_reader(subscriber, topic, qos.get(), listener.get()), "cannot make a reader of " + topic_);
 }
 
 // Once the reader is gone nobody calls any more; the participant takes the rest along.
@@ -133,7 +133,7 @@ void LiveLine::take(Handle reader) {
     if (count < 0) return take_error_.store(count);
     const bus::HostTime now = bus::host_now();
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i)
-      if (boxes_->infos[i].valid_data) accept(i, now);   // else that a writer has come or gone
+      if (boxes_->infos[i].valid_data) accept(i, now);  // else that a writer has come or gone
     more = static_cast<std::size_t>(count) == kBoxes;
   }
 }
@@ -160,7 +160,7 @@ void LiveLine::accept(std::size_t box, bus::HostTime now) {
   bus::LiveArrival& arrival = item->arrival = {};
   arrival.received = now;
   if (host_ == 0 || sample.host == 0) {
-    arrival.at = now;   // by whose clock it was sent cannot be made out
+    arrival.at = now;  // by whose clock it was sent cannot be made out
   } else if (sample.host == host_) {
     arrival.at = std::min(bus::HostTime{sample.sent}, now);
     arrival.left = arrival.at;
@@ -229,16 +229,16 @@ std::string LiveLine::failure() const {
 
 std::vector<NodeId> LiveLine::unheard() const {
   std::vector<dds_instance_handle_t> matched(kMostEndpoints);
-  const auto count = checked(dds_get_matched_publications(reader_, matched.data(), matched.size()),
-                             "cannot ask who is on " + topic_);
+  const auto count =
+      checked(dds_get_matched_publications(reader_, matched.data(), matched.size()), "cannot ask who is on " + topic_);
   matched.resize(std::min(matched.size(), static_cast<std::size_t>(count)));
   return all_but(owners(reader_, matched, dds_get_matched_publication_data));
 }
 
 std::vector<NodeId> LiveLine::deaf() const {
   std::vector<dds_instance_handle_t> matched(kMostEndpoints);
-  const auto count = checked(dds_get_matched_subscriptions(writer_, matched.data(), matched.size()),
-                             "cannot ask who is on " + topic_);
+  const auto count =
+      checked(dds_get_matched_subscriptions(writer_, matched.data(), matched.size()), "cannot ask who is on " + topic_);
   matched.resize(std::min(matched.size(), static_cast<std::size_t>(count)));
   return all_but(owners(writer_, matched, dds_get_matched_subscription_data));
 }

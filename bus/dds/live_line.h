@@ -27,15 +27,15 @@
 namespace ttf::dds {
 
 enum class Delivery {
-  kBestEffort,   // what is lost is lost, and counted
-  kReliable,     // sent again where it is missing, from the last kHistory that its writer keeps, which waits for nobody
+  kBestEffort,  // what is lost is lost, and counted
+  kReliable,    // sent again where it is missing, from the last kHistory that its writer keeps, which waits for nobody
 };
 
 // A line and who is on it.
 struct LiveLinePlan {
   bus::Line line = 0;
-  std::string topic;             // live_topic()
-  std::vector<NodeId> nodes;     // all of them, whoever reads this
+  std::string topic;          // live_topic()
+  std::vector<NodeId> nodes;  // all of them, whoever reads this
 };
 
 class LiveLine {
@@ -68,7 +68,7 @@ class LiveLine {
   std::vector<NodeId> deaf() const;
 
  private:
-  struct Boxes;   // DDS' own form of a sample
+  struct Boxes;  // DDS' own form of a sample
 
   static void on_data(Handle reader, void* self);
   void take(Handle reader);
@@ -81,13 +81,13 @@ class LiveLine {
   const NodeId self_;
   const std::uint64_t host_;
   std::vector<NodeId> nodes_;
-  std::array<bool, 256> is_on_{};   // by node
+  std::array<bool, 256> is_on_{};  // by node
   const std::unique_ptr<Boxes> boxes_;
   LiveQueue queue_;
-  LiveNumbering numbering_;         // of DDS' threads, and so is the next
+  LiveNumbering numbering_;  // of DDS' threads, and so is the next
   ArrivalInstant from_afar_;
   std::atomic<std::uint64_t> lost_{0}, foreign_{0}, malformed_{0};
-  std::int32_t write_error_ = 0;    // DDS' return codes
+  std::int32_t write_error_ = 0;  // DDS' return codes
   std::atomic<std::int32_t> take_error_{0};
   std::uint64_t next_number_ = 0;
   Handle writer_ = 0, reader_ = 0;

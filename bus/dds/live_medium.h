@@ -52,8 +52,8 @@ class LiveMedium final : public bus::LiveMedium {
 
   Session session_;
   Participant participant_;
-  std::vector<std::unique_ptr<LiveLine>> lines_;   // by line; nullptr: not on it
-  LiveItem last_;                                  // what receive() handed over
+  std::vector<std::unique_ptr<LiveLine>> lines_;  // by line; nullptr: not on it
+  LiveItem last_;                                 // what receive() handed over
   std::uint64_t sent_ = 0, received_ = 0, not_sent_ = 0;
   mutable std::string failure_;
 };

@@ -23,7 +23,7 @@ LiveQueue::LiveQueue() : items_(std::make_unique<std::array<LiveItem, kRoom>>())
 LiveQueue::~LiveQueue() { close(event_); }
 
 LiveItem* LiveQueue::room() {
-  const std::size_t filled = filled_.load(std::memory_order_relaxed);   // only this thread changes it
+  const std::size_t filled = filled_.load(std::memory_order_relaxed);  // only this thread changes it
   return filled - emptied_.load() == kRoom ? nullptr : &(*items_)[filled % kRoom];
 }
 

@@ -13,7 +13,7 @@
 namespace ttf::dds {
 
 struct LiveItem {
-  bus::LiveArrival arrival;   // its spans are empty: the bytes are below
+  bus::LiveArrival arrival;  // its spans are empty: the bytes are below
   std::size_t size = 0;
   std::array<std::byte, wire::kMaxFrameBytes> bytes{};
 };
@@ -23,7 +23,7 @@ class LiveQueue {
   // A second's worth of FlexRay frames of 5 ms cycles, and more.
   static constexpr std::size_t kRoom = 4096;
 
-  LiveQueue();   // throws std::system_error where there are no more descriptors
+  LiveQueue();  // throws std::system_error where there are no more descriptors
   ~LiveQueue();
   LiveQueue(const LiveQueue&) = delete;
   LiveQueue& operator=(const LiveQueue&) = delete;

@@ -18,9 +18,7 @@ constexpr std::size_t kRetainBytes = 32 << 20;
 // For the acknowledgements of others while one is dead, from whom none will come.
 constexpr std::chrono::milliseconds kPatienceAfterDeath{500};
 
-std::string node(NodeId id) {
-  return id == kSupervisor ? "the supervisor" : fmt::format("node {}", index_of(id));
-}
+std::string node(NodeId id) { return id == kSupervisor ? "the supervisor" : fmt::format("node {}", index_of(id)); }
 
 std::vector<NodeId> without(std::vector<NodeId> members, NodeId self) {
   members.erase(std::remove(members.begin(), members.end(), self), members.end());
@@ -30,13 +28,9 @@ std::vector<NodeId> without(std::vector<NodeId> members, NodeId self) {
 }  // namespace
 
 Exchange::Member::Member(const Session& session, NodeId self)
-    : session_(validate(session)),
-      self_(self),
-      participant_(session.domain, session.lease),
-      data_(participant_, kDataTopic, session.name),
-      control_(participant_, kControlTopic, session.name),
-      waiter_(participant_, data_, &control_),
-      heard_table_(without(session.members, self)) {
+    : session_(validate(session)), self_(self), participant_(session.domain, session.lease),
+      data_(participant_, kDataTopic, session.name), control_(participant_, kControlTopic, session.name),
+      waiter_(participant_, data_, &control_), heard_table_(without(session.members, self)) {
   for (const NodeId id : session.members)
     if (id != self) others_.try_emplace(id, Stream(id, session.supervised ? kRetainBytes : 0));
   TTF_CHECK(others_.size() + 1 == session.members.size(), "node {} is no member", index_of(self));
@@ -46,9 +40,8 @@ Exchange::Member::Member(const Session& session, NodeId self)
 
 // Of those from whom it is to come; who has gone meanwhile is not waited for.
 bool Exchange::Member::everybody(const std::set<NodeId>& said) const {
-  return std::all_of(others_.begin(), others_.end(), [&](const auto& entry) {
-    return said.contains(entry.first) || gone_.contains(entry.first);
-  });
+  return std::all_of(others_.begin(), others_.end(),
+                     [&](const auto& entry) { return said.contains(entry.first) || gone_.contains(entry.first); });
 }
 
 void Exchange::Member::wait_ready(std::chrono::milliseconds patience) {
@@ -65,7 +58,7 @@ void Exchange::Member::wait_ready(std::chrono::milliseconds patience) {
     all_ready_ = said && everybody(ready_) && (!session_.supervised || ready_.contains(kSupervisor));
     if (all_ready_) return;
     if (Clock::now() >= deadline) give_up(patience);
-    note_lost();   // of no interest yet
+    note_lost();  // of no interest yet
     wait(deadline);
   }
 }
@@ -82,7 +75,7 @@ void Exchange::Member::give_up(std::chrono::milliseconds waited) const {
     else if (!ready_.contains(id))
       deaf.push_back(id);
   }
-  if (!absent.empty()) deaf.clear();   // no wonder
+  if (!absent.empty()) deaf.clear();  // no wonder
   throw NotReady(session_, waited, std::move(absent), std::move(deaf));
 }
 
@@ -130,7 +123,7 @@ void Exchange::Member::note_lost() {
     else
       lost_.erase(id);
   };
-  if (session_.supervised) return note(kSupervisor);   // it knows best who else is gone
+  if (session_.supervised) return note(kSupervisor);  // it knows best who else is gone
   for (const auto& entry : others_) note(entry.first);
 }
 

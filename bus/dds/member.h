@@ -11,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "bus/exchange.h"
 #include "bus/dds/channel.h"
 #include "bus/dds/exchange.h"
 #include "bus/dds/heard.h"
@@ -21,6 +20,7 @@
 #include "bus/dds/session.h"
 #include "bus/dds/stream.h"
 #include "bus/dds/waiter.h"
+#include "bus/exchange.h"
 #include "core/ids.h"
 
 namespace ttf::dds {
@@ -40,8 +40,8 @@ class Exchange::Member {
   struct Other {
     explicit Other(Stream its_stream) : stream(std::move(its_stream)) {}
     Stream stream;
-    std::uint32_t round = 0;   // of the last kClose; 0: none
-    bool confirmed = false;    // that round's kClosed has been said
+    std::uint32_t round = 0;  // of the last kClose; 0: none
+    bool confirmed = false;   // that round's kClosed has been said
   };
   // What receive() is going to return; no bytes: gone.
   struct Coming {
@@ -57,7 +57,7 @@ class Exchange::Member {
   void on_fence(const Said& said);
   void on_close(const Said& said);
   void on_again(const Said& said);
-  void deliver(NodeId from);     // what is in entries_
+  void deliver(NodeId from);  // what is in entries_
   void confirm(NodeId of, Other& other);
   void tell_heard();
   Other& other(NodeId node);
@@ -82,18 +82,18 @@ class Exchange::Member {
   Numbering control_numbers_;
   std::map<NodeId, Other> others_;
   HeardTable heard_table_;
-  std::size_t heard_bytes_ = 0;                           // since that was last told to the others
-  std::set<NodeId> data_hello_, control_hello_, ready_;   // who has said it
-  std::set<NodeId> gone_;                                 // known here; receive() may have it still to come
-  std::map<NodeId, Clock::time_point> lost_;              // until when it may come back
+  std::size_t heard_bytes_ = 0;                          // since that was last told to the others
+  std::set<NodeId> data_hello_, control_hello_, ready_;  // who has said it
+  std::set<NodeId> gone_;                                // known here; receive() may have it still to come
+  std::map<NodeId, Clock::time_point> lost_;             // until when it may come back
   bool all_ready_ = false;
   bool cut_off_ = false;
   bool supervisor_left_ = false;
   bool left_ = false;
   Clock::time_point last_death_{};
-  std::vector<Entry> entries_;   // scratch
+  std::vector<Entry> entries_;  // scratch
   std::deque<Coming> coming_;
-  Bytes current_;               // what receive() returned last
+  Bytes current_;  // what receive() returned last
 };
 
 }  // namespace ttf::dds

@@ -91,7 +91,7 @@ void Exchange::Member::on_control(const Said& said) {
       for (auto& [id, state] : others_) state.stream.settle(heard_table_.by_all(id));
       return;
     case Kind::kReport:
-    case Kind::kClosed: return;   // the supervisor's business
+    case Kind::kClosed: return;  // the supervisor's business
     case Kind::kMessage: throw std::runtime_error("exchange: a message among control samples");
   }
 }
@@ -118,8 +118,13 @@ void Exchange::Member::on_close(const Said& said) {
   deliver(said.about);
   if (said.holder != self_) return;
   for (const Entry& entry : about.stream.again(said.first))
-    control_.say({.sender = self_, .kind = Kind::kAgain, .about = said.about, .inner = entry.kind, .round = said.round,
-                  .first = entry.number, .bytes = *entry.bytes});
+    control_.say({.sender = self_,
+                  .kind = Kind::kAgain,
+                  .about = said.about,
+                  .inner = entry.kind,
+                  .round = said.round,
+                  .first = entry.number,
+                  .bytes = *entry.bytes});
   control_.say({.sender = self_, .kind = Kind::kAllAgain, .about = said.about, .round = said.round});
 }
 

@@ -20,7 +20,7 @@ struct OpenDomains {
     int users = 0;
   };
   std::mutex mutex;
-  std::map<std::uint32_t, Domain> domains;   // guarded by mutex
+  std::map<std::uint32_t, Domain> domains;  // guarded by mutex
 };
 
 OpenDomains& open_domains() {

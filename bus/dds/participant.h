@@ -8,7 +8,7 @@
 
 namespace ttf::dds {
 
-using Handle = std::int32_t;   // dds_entity_t
+using Handle = std::int32_t;  // dds_entity_t
 
 // Returns `result` if it is no error. Throws std::runtime_error "DDS: <what>: <why>".
 std::int32_t checked(std::int32_t result, std::string_view what);
@@ -19,7 +19,7 @@ class Participant {
   // bus/dds/configuration.h. Participants of one process and domain share the configuration of the first.
   // Throws std::runtime_error where that is not possible.
   Participant(std::uint32_t domain, std::chrono::milliseconds lease);
-  ~Participant();   // takes everything with it that was made in it
+  ~Participant();  // takes everything with it that was made in it
   Participant(const Participant&) = delete;
   Participant& operator=(const Participant&) = delete;
 
@@ -27,7 +27,7 @@ class Participant {
 
  private:
   std::uint32_t domain_;
-  bool configured_;   // the domain is ours to close
+  bool configured_;  // the domain is ours to close
   Handle handle_ = 0;
 };
 

@@ -17,17 +17,17 @@
 namespace ttf::dds {
 
 enum class Kind : std::uint8_t {
-  kHello,      // the first sample of everybody on either topic
-  kReady,      // control: I hear the hello of everybody
-  kMessage,    // data: `bytes`
-  kBye,        // the last sample on either topic
-  kFence,      // control, supervisor: `about` is dead; nothing further of it is heard until kClose of this `round`
-  kReport,     // control, member, on kFence: I have heard the samples of `about` before number `end`
-  kClose,      // control, supervisor: `about` ends before number `end`; `holder`, if any, repeats it from `first` on
-  kAgain,      // control, holder: sample `first` of `about`, whose kind is `inner`
-  kAllAgain,   // control, holder: all of `about` has been said again in this `round`
-  kClosed,     // control, member: I have heard all of `about` that `round` promised
-  kHeard,      // control, member, now and then: how much I have heard of each (bus/dds/heard.h)
+  kHello,     // the first sample of everybody on either topic
+  kReady,     // control: I hear the hello of everybody
+  kMessage,   // data: `bytes`
+  kBye,       // the last sample on either topic
+  kFence,     // control, supervisor: `about` is dead; nothing further of it is heard until kClose of this `round`
+  kReport,    // control, member, on kFence: I have heard the samples of `about` before number `end`
+  kClose,     // control, supervisor: `about` ends before number `end`; `holder`, if any, repeats it from `first` on
+  kAgain,     // control, holder: sample `first` of `about`, whose kind is `inner`
+  kAllAgain,  // control, holder: all of `about` has been said again in this `round`
+  kClosed,    // control, member: I have heard all of `about` that `round` promised
+  kHeard,     // control, member, now and then: how much I have heard of each (bus/dds/heard.h)
 };
 inline constexpr std::uint8_t kKinds = 11;
 

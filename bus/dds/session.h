@@ -12,10 +12,10 @@
 namespace ttf::dds {
 
 struct Session {
-  std::uint32_t domain = 0;      // 0..231 (kMaxDomain)
-  std::string name;              // keeps launches on one domain apart: 1 to 64 letters, digits, '_', '-', '.'
-  std::vector<NodeId> members;   // all of them, each once, whoever reads this
-  bool supervised = true;        // there is an ExchangeSupervisor, and nobody is gone until it says so
+  std::uint32_t domain = 0;     // 0..231 (kMaxDomain)
+  std::string name;             // keeps launches on one domain apart: 1 to 64 letters, digits, '_', '-', '.'
+  std::vector<NodeId> members;  // all of them, each once, whoever reads this
+  bool supervised = true;       // there is an ExchangeSupervisor, and nobody is gone until it says so
   // A participant from which nothing has come for so long is taken to be gone (unless CYCLONEDDS_URI says otherwise).
   std::chrono::milliseconds lease{10'000};
 };

@@ -23,7 +23,7 @@ std::string lost(NodeId sender, std::uint64_t first, std::uint64_t end) {
 }  // namespace
 
 void Stream::accept(Entry entry, std::vector<Entry>& heard) {
-  if (closed() || entry.number < next_) return;   // heard before, or beyond the agreed end
+  if (closed() || entry.number < next_) return;  // heard before, or beyond the agreed end
   switch (phase_) {
     case Phase::kOpen:
       if (entry.number > next_) throw std::runtime_error(lost(sender_, next_, entry.number));
@@ -58,8 +58,7 @@ std::string Stream::missing() const {
 
 std::vector<Entry> Stream::again(std::uint64_t first) const {
   const std::uint64_t oldest = next_ - kept_.size();
-  if (first < oldest)
-    throw std::runtime_error(lost(sender_, first, oldest) + " to others, and no longer kept here");
+  if (first < oldest) throw std::runtime_error(lost(sender_, first, oldest) + " to others, and no longer kept here");
   if (first >= next_) return {};
   return {kept_.begin() + static_cast<std::ptrdiff_t>(first - oldest), kept_.end()};
 }
@@ -77,7 +76,7 @@ void Stream::hear_waiting(std::vector<Entry>& heard) {
   if (closed() || next_ < end_) return;
   phase_ = Phase::kClosed;
   waiting_.clear();
-  heard.push_back({next_, Kind::kBye, nullptr});   // in its stead
+  heard.push_back({next_, Kind::kBye, nullptr});  // in its stead
 }
 
 void Stream::keep(const Entry& entry) {

@@ -37,7 +37,7 @@ class Stream {
   // The stream ends before number `end`; never before what has been heard.
   void close(std::uint64_t end, std::vector<Entry>& heard);
 
-  std::uint64_t heard() const { return next_; }   // how many samples
+  std::uint64_t heard() const { return next_; }  // how many samples
   bool closed() const { return phase_ == Phase::kClosed; }
   // Waits for something to be said again.
   bool wanting() const { return phase_ == Phase::kClosing; }
@@ -52,15 +52,15 @@ class Stream {
   void hear(Entry entry, std::vector<Entry>& heard);
   void hear_waiting(std::vector<Entry>& heard);
   void keep(const Entry& entry);
-  void forget();   // the oldest that is kept
+  void forget();  // the oldest that is kept
 
   NodeId sender_;
   std::size_t retain_bytes_;
   Phase phase_ = Phase::kOpen;
-  std::uint64_t next_ = 0;                   // the number that is heard next
-  std::uint64_t end_ = 0;                    // of kClosing
-  std::map<std::uint64_t, Entry> waiting_;   // behind the fence, or behind what is missing
-  std::deque<Entry> kept_;                   // heard last, without a gap, up to next_
+  std::uint64_t next_ = 0;                  // the number that is heard next
+  std::uint64_t end_ = 0;                   // of kClosing
+  std::map<std::uint64_t, Entry> waiting_;  // behind the fence, or behind what is missing
+  std::deque<Entry> kept_;                  // heard last, without a gap, up to next_
   std::size_t kept_bytes_ = 0;
 };
 

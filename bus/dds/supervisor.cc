@@ -35,12 +35,9 @@ const Session& supervised(const Session& session) {
 class ExchangeSupervisor::Watch {
  public:
   explicit Watch(const Session& session)
-      : session_(supervised(session)),
-        participant_(session.domain, session.lease),
-        control_(participant_, kControlTopic, session.name),
-        waiter_(participant_, control_, nullptr),
-        members_(session.members.begin(), session.members.end()),
-        thread_([this] { run(); }) {}
+      : session_(supervised(session)), participant_(session.domain, session.lease),
+        control_(participant_, kControlTopic, session.name), waiter_(participant_, control_, nullptr),
+        members_(session.members.begin(), session.members.end()), thread_([this] { run(); }) {}
   ~Watch();
 
   void wait_ready(std::chrono::milliseconds patience);
@@ -69,17 +66,17 @@ class ExchangeSupervisor::Watch {
   // The thread's.
   Numbering numbers_;
   std::set<NodeId> hello_, left_, dead_, lost_;
-  std::map<NodeId, Departure> departures_;   // of the dead that not all survivors know to be gone
+  std::map<NodeId, Departure> departures_;  // of the dead that not all survivors know to be gone
 
   std::mutex mutex_;
   std::condition_variable happened_;
-  std::deque<Event> events_;          // guarded by mutex_, as all below
+  std::deque<Event> events_;  // guarded by mutex_, as all below
   std::deque<NodeId> announcements_;
-  std::set<NodeId> joined_, ready_, gone_;   // as wait_ready() needs them
+  std::set<NodeId> joined_, ready_, gone_;  // as wait_ready() needs them
   bool stop_ = false;
   std::exception_ptr failure_;
 
-  std::thread thread_;   // last, so that all it uses is there
+  std::thread thread_;  // last, so that all it uses is there
 };
 
 ExchangeSupervisor::Watch::~Watch() {
@@ -139,9 +136,9 @@ bool ExchangeSupervisor::Watch::everybody_has_come() const {
 void ExchangeSupervisor::Watch::on_control(const Said& said) {
   const NodeId node = said.sender;
   if (!members_.contains(node))
-    throw std::runtime_error(fmt::format("session {} on DDS domain {}: {}", session_.name, session_.domain,
-                                         node == kSupervisor ? "there is a second supervisor"
-                                                             : fmt::format("node {} is no member", index_of(node))));
+    throw std::runtime_error(fmt::format(
+        "session {} on DDS domain {}: {}", session_.name, session_.domain,
+        node == kSupervisor ? "there is a second supervisor" : fmt::format("node {} is no member", index_of(node))));
   if (dead_.contains(node) || !numbers_.is_new(node, said.number)) return;
   switch (said.kind) {
     case Kind::kHello:
@@ -164,7 +161,7 @@ void ExchangeSupervisor::Watch::on_control(const Said& said) {
       return;
     case Kind::kAgain:
     case Kind::kAllAgain:
-    case Kind::kHeard: return;   // for the members
+    case Kind::kHeard: return;  // for the members
     case Kind::kFence:
     case Kind::kClose:
     case Kind::kMessage:
@@ -184,8 +181,13 @@ void ExchangeSupervisor::Watch::begin_departure(NodeId node) {
 
 void ExchangeSupervisor::Watch::give(NodeId about, const std::optional<Departure::Order>& order) {
   if (order)
-    control_.say({.sender = kSupervisor, .kind = order->kind, .about = about, .holder = order->holder,
-                  .round = order->round, .first = order->first, .end = order->end});
+    control_.say({.sender = kSupervisor,
+                  .kind = order->kind,
+                  .about = about,
+                  .holder = order->holder,
+                  .round = order->round,
+                  .first = order->first,
+                  .end = order->end});
 }
 
 void ExchangeSupervisor::Watch::without(NodeId node) {
@@ -240,7 +242,7 @@ void ExchangeSupervisor::Watch::wait_ready(std::chrono::milliseconds patience) {
     else if (!ready_.contains(member))
       deaf.push_back(member);
   }
-  if (!absent.empty()) deaf.clear();   // no wonder
+  if (!absent.empty()) deaf.clear();  // no wonder
   throw NotReady(session_, patience, std::move(absent), std::move(deaf));
 }
 

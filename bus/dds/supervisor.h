@@ -21,12 +21,12 @@ namespace ttf::dds {
 class ExchangeSupervisor {
  public:
   enum class What : std::uint8_t {
-    kJoined,   // it says hello
-    kReady,    // it hears everybody
-    kLeft,     // it said goodbye
-    kLost,     // DDS has heard nothing of it for its lease; it may be dead, stopped or cut off
-    kBack,     // DDS hears it again
-    kGone,     // every survivor has heard that it is gone
+    kJoined,  // it says hello
+    kReady,   // it hears everybody
+    kLeft,    // it said goodbye
+    kLost,    // DDS has heard nothing of it for its lease; it may be dead, stopped or cut off
+    kBack,    // DDS hears it again
+    kGone,    // every survivor has heard that it is gone
   };
   struct Event {
     What what{};

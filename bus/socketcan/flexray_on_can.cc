@@ -58,9 +58,9 @@ bool goes_whole(int slot, std::span<const std::byte> frame) {
 // A CAN FD frame in the form of a fragment, its own three bytes proved.
 struct Fragment {
   std::size_t index = 0;
-  std::size_t length = 0;             // of the whole frame
+  std::size_t length = 0;  // of the whole frame
   unsigned cycle = 0;
-  std::span<const std::byte> bytes;   // of the frame
+  std::span<const std::byte> bytes;  // of the frame
 };
 
 std::optional<Fragment> fragment_of(int slot, std::span<const std::byte> data) {
@@ -235,7 +235,7 @@ Arrival Reassembly::fragment(int slot, std::span<const std::byte> data) {
   const auto place = bytes_.begin() + static_cast<std::ptrdiff_t>(part.index * kFragmentBytes);
   const bool of_begun = next_ != 0 && slot == slot_ && part.length == length_ && part.cycle == cycle_of(bytes_);
   if (of_begun && part.index < next_ && std::equal(part.bytes.begin(), part.bytes.end(), place)) {
-    arrival.outcome = Outcome::kDisplaced;   // here already: harmless
+    arrival.outcome = Outcome::kDisplaced;  // here already: harmless
     return arrival;
   }
   if (part.index == 0 || !of_begun || part.index != next_) {

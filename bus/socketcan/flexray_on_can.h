@@ -60,31 +60,31 @@ canfd_frame symbol_to_can(schedules::Channel channel, bus::Signal symbol, Durati
 
 // What a sender says of a sync frame that it has sent before: how much later than it should have it left.
 struct FollowUp {
-  int slot = 0;                       // 1..2047
-  std::uint8_t cycle_counter = 0;     // 0..63
-  Duration late;                      // negative: earlier; within can_be_told()
+  int slot = 0;                    // 1..2047
+  std::uint8_t cycle_counter = 0;  // 0..63
+  Duration late;                   // negative: earlier; within can_be_told()
 };
 // Whether it has room in a follow-up: up to 2.14 s either way.
 bool can_be_told(Duration late);
 canfd_frame follow_up_to_can(schedules::Channel channel, const FollowUp& follow_up);
 
 enum class Outcome : std::uint8_t {
-  kComplete,    // a FlexRay frame, a symbol or a follow-up is there
-  kFragment,    // part of a frame that is not complete yet
-  kForeign,     // not this mapping's: classic CAN, 29-bit identifiers, remote and error frames
-  kMalformed,   // a CAN FD frame with an 11-bit identifier that no sender of ours sends
-  kDisplaced,   // a fragment that does not continue what came before it, or repeats it
+  kComplete,   // a FlexRay frame, a symbol or a follow-up is there
+  kFragment,   // part of a frame that is not complete yet
+  kForeign,    // not this mapping's: classic CAN, 29-bit identifiers, remote and error frames
+  kMalformed,  // a CAN FD frame with an 11-bit identifier that no sender of ours sends
+  kDisplaced,  // a fragment that does not continue what came before it, or repeats it
 };
 inline constexpr std::size_t kOutcomes = 5;
 
 struct Arrival {
   Outcome outcome{};
-  bool abandoned = false;             // a frame whose first fragments were here will not be complete any more
-  int slot = 0;                       // of a complete frame or a fragment, displaced or not
-  bus::Signal signal{};               // of what is complete and no follow-up
-  Duration duration{};                // of a symbol
+  bool abandoned = false;               // a frame whose first fragments were here will not be complete any more
+  int slot = 0;                         // of a complete frame or a fragment, displaced or not
+  bus::Signal signal{};                 // of what is complete and no follow-up
+  Duration duration{};                  // of a symbol
   std::span<const std::byte> frame{};   // of a complete frame: valid as long as what arrived is, until the next arrival
-  std::optional<FollowUp> follow_up{};   // if it is one
+  std::optional<FollowUp> follow_up{};  // if it is one
 };
 
 // One channel's receiver: one per interface.

@@ -51,7 +51,7 @@ InterfaceState interface_state(const std::string& name) {
   ifreq request{};
   if (name.empty() || name.size() >= sizeof request.ifr_name || name.find('\0') != std::string::npos) return state;
   std::memcpy(request.ifr_name, name.data(), name.size());
-  const Descriptor any(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0));   // any socket answers
+  const Descriptor any(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0));  // any socket answers
   if (ioctl(any.value(), SIOCGIFHWADDR, &request) != 0) {
     if (errno != ENODEV) unexpected(name, "no answer about its kind");
     return state;
@@ -82,8 +82,9 @@ Problem link_problem(const std::string& name, const InterfaceState& state, bool 
     if (name.empty() || name.size() >= IFNAMSIZ)
       return {fmt::format("is no name of an interface: these have 1..{} bytes", IFNAMSIZ - 1), {}};
     if (!is_virtual(name)) return {fmt::format("is not there; {}", others), {}};
-    return {"is not there", {fmt::format("ip link add dev {} type {}", name, name[1] == 'x' ? "vxcan" : "vcan"),
-                             bring_up(name, flexible_data_rate)}};
+    return {"is not there",
+            {fmt::format("ip link add dev {} type {}", name, name[1] == 'x' ? "vxcan" : "vcan"),
+             bring_up(name, flexible_data_rate)}};
   }
   if (!state.can) return {fmt::format("is no CAN interface; {}", others), {}};
   if (flexible_data_rate && state.mtu < static_cast<int>(CANFD_MTU)) {

@@ -10,11 +10,11 @@ namespace ttf::socketcan {
 
 // What the kernel says; of the interface also where it has no CAN sockets.
 struct InterfaceState {
-  int refused = 0;          // why it gives no raw CAN socket, an errno; 0: it gives them
-  bool there = false;       // an interface of that name; what follows means something only if this holds
-  bool can = false;         // it is a CAN
+  int refused = 0;     // why it gives no raw CAN socket, an errno; 0: it gives them
+  bool there = false;  // an interface of that name; what follows means something only if this holds
+  bool can = false;    // it is a CAN
   bool up = false;
-  int mtu = 0;              // bytes: 16 classic CAN, 72 CAN FD
+  int mtu = 0;  // bytes: 16 classic CAN, 72 CAN FD
 };
 
 // Asks the kernel; changes nothing. Throws std::runtime_error where it knows an interface but tells nothing about it.
@@ -22,11 +22,11 @@ InterfaceState interface_state(const std::string& name);
 
 // What is in the way, and the commands that help, one after the other and as root; none where none is known.
 struct Problem {
-  std::string what;         // a predicate, "is not there"; empty: all is well
+  std::string what;  // a predicate, "is not there"; empty: all is well
   std::vector<std::string> commands;
 
   explicit operator bool() const { return !what.empty(); }
-  std::string text() const;   // the commands behind it, as one would type them
+  std::string text() const;  // the commands behind it, as one would type them
 };
 // Of the kernel: "has no CAN sockets".
 Problem kernel_problem(const InterfaceState& state);

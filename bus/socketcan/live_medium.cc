@@ -174,7 +174,7 @@ bool LiveMedium::take_signal(FlexRay& flexray, bus::LiveArrival& arrival) const 
 
 bool LiveMedium::take_can(OnLine& line, bus::LiveArrival& arrival) const {
   const canfd_frame& can = received_.can;
-  if (can.can_id > CAN_SFF_MASK) return ++line.foreign, false;   // any of the flags, or 29 bits
+  if (can.can_id > CAN_SFF_MASK) return ++line.foreign, false;  // any of the flags, or 29 bits
   const std::size_t most = is_can_fd(can) ? CANFD_MAX_DLEN : CAN_MAX_DLEN;
   if (can.len > most || can_fd_length(can.len) != can.len) return ++line.malformed, false;
   arrival.kind = bus::LiveArrival::Kind::kCan;

@@ -32,7 +32,7 @@ namespace ttf::socketcan {
 
 struct LiveOptions {
   struct Can {
-    std::string interface;              // empty: this node is not on it
+    std::string interface;  // empty: this node is not on it
     bool flexible_data_rate = false;
   };
   std::array<std::string, 2> channels;  // interfaces of A and B; empty: this node is not on it
@@ -49,7 +49,7 @@ class LiveMedium final : public bus::LiveMedium {
   bus::LiveStatus send_can(std::size_t can_bus, const bus::CanFrame& frame) override;
   std::optional<bus::LiveArrival> receive() override;
   int descriptor(bus::Line line) const override;
-  void watch(bus::Line, bool) override {}   // a socket is always readable
+  void watch(bus::Line, bool) override {}  // a socket is always readable
   bus::LiveCounts counts() const override;
   const std::string& failure() const override { return failure_; }
 
@@ -64,8 +64,8 @@ class LiveMedium final : public bus::LiveMedium {
   };
   struct OnLine {
     Socket socket;
-    std::optional<FlexRay> flexray;               // of a channel
-    std::uint64_t foreign = 0, malformed = 0;     // of a private CAN
+    std::optional<FlexRay> flexray;            // of a channel
+    std::uint64_t foreign = 0, malformed = 0;  // of a private CAN
   };
 
   OnLine& on(bus::Line line);
@@ -77,10 +77,10 @@ class LiveMedium final : public bus::LiveMedium {
   bool take_signal(FlexRay& flexray, bus::LiveArrival& arrival) const;
   bool take_can(OnLine& line, bus::LiveArrival& arrival) const;
 
-  std::vector<std::optional<OnLine>> lines_;      // by Line; what this node is not on is empty
-  bus::Line turn_ = 0;                            // which is received from, and for how many frames already
+  std::vector<std::optional<OnLine>> lines_;  // by Line; what this node is not on is empty
+  bus::Line turn_ = 0;                        // which is received from, and for how many frames already
   int in_turn_ = 0;
-  Received received_;                             // what the last arrival's bytes are of
+  Received received_;  // what the last arrival's bytes are of
   Received own_;
   std::uint64_t sent_ = 0, not_sent_ = 0, received_count_ = 0;
   std::string failure_;

@@ -19,18 +19,18 @@
 namespace ttf::socketcan {
 
 struct BitRates {
-  std::int64_t nominal = 0, data = 0;   // bit/s; data at least nominal
+  std::int64_t nominal = 0, data = 0;  // bit/s; data at least nominal
 };
 
 // The frames of one slot that have the same room.
 struct SlotOnCan {
   int slot = 0;
-  schedules::Channels channels{};   // all that such a frame is sent on
+  schedules::Channels channels{};  // all that such a frame is sent on
   bool dynamic = false;
-  int can_frames = 0;               // of the longest, its follow-up included
-  Duration frame{};                 // the longest without its follow-up, rounded up
-  Duration needs{};                 // with it
-  Duration has{};                   // as scheduled, rounded down
+  int can_frames = 0;  // of the longest, its follow-up included
+  Duration frame{};    // the longest without its follow-up, rounded up
+  Duration needs{};    // with it
+  Duration has{};      // as scheduled, rounded down
 
   bool holds(std::int64_t time_scale_ppm) const;
 };

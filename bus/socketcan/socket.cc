@@ -27,8 +27,7 @@ constexpr int kBytesPerFrame = 768;
 
 std::string words_of(int error) { return std::system_category().message(error); }
 
-template <class Value>
-bool set_option(int socket, int level, int option, const Value& value) {
+template <class Value> bool set_option(int socket, int level, int option, const Value& value) {
   return setsockopt(socket, level, option, &value, sizeof value) == 0;
 }
 
@@ -67,9 +66,8 @@ void Socket::set_up(const SocketOptions& options) {
     refuse("no frames of its own");
   const can_err_mask_t all = CAN_ERR_MASK;
   if (options.error_frames && !set_option(descriptor_, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, all)) refuse("no error frames");
-  if (!options.filters.empty() &&
-      setsockopt(descriptor_, SOL_CAN_RAW, CAN_RAW_FILTER, options.filters.data(),
-                 static_cast<socklen_t>(options.filters.size() * sizeof(can_filter))) != 0)
+  if (!options.filters.empty() && setsockopt(descriptor_, SOL_CAN_RAW, CAN_RAW_FILTER, options.filters.data(),
+                                             static_cast<socklen_t>(options.filters.size() * sizeof(can_filter))) != 0)
     refuse("no filters");
   if (!set_option(descriptor_, SOL_SOCKET, SO_RXQ_OVFL, on)) refuse("lost frames are not counted");
   if (!set_option(descriptor_, SOL_SOCKET, SO_TIMESTAMPNS, on)) refuse("no stamps");
@@ -100,14 +98,9 @@ Socket::~Socket() {
 }
 
 Socket::Socket(Socket&& other) noexcept
-    : interface_(std::move(other.interface_)),
-      descriptor_(std::exchange(other.descriptor_, -1)),
-      index_(other.index_),
-      shortage_(std::move(other.shortage_)),
-      when_down_(std::move(other.when_down_)),
-      when_gone_(std::move(other.when_gone_)),
-      lost_seen_(other.lost_seen_),
-      state_(other.state_),
+    : interface_(std::move(other.interface_)), descriptor_(std::exchange(other.descriptor_, -1)), index_(other.index_),
+      shortage_(std::move(other.shortage_)), when_down_(std::move(other.when_down_)),
+      when_gone_(std::move(other.when_gone_)), lost_seen_(other.lost_seen_), state_(other.state_),
       error_(other.error_) {}
 
 Status Socket::failed(int error) {
@@ -170,7 +163,7 @@ Status Socket::receive(Received& received) {
 }
 
 Status Socket::receive_own(Received& received) {
-  msghdr message{};   // no room for anything: only its flags are looked at
+  msghdr message{};  // no room for anything: only its flags are looked at
   ssize_t size = -1;
   do {
     size = recvmsg(descriptor_, &message, MSG_PEEK);

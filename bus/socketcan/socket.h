@@ -20,21 +20,21 @@ namespace ttf::socketcan {
 
 struct SocketOptions {
   std::string interface;
-  bool flexible_data_rate = true;            // the interface must carry CAN FD; what it carries arrives in either case
-  bool own_frames = false;                   // those of this socket arrive here too, once they have left
-  bool error_frames = false;                 // what the driver says about the bus arrives as frames with CAN_ERR_FLAG
+  bool flexible_data_rate = true;  // the interface must carry CAN FD; what it carries arrives in either case
+  bool own_frames = false;         // those of this socket arrive here too, once they have left
+  bool error_frames = false;       // what the driver says about the bus arrives as frames with CAN_ERR_FLAG
   // What the receive buffer should hold. The kernel's usual one has room for 278 CAN FD frames.
   int receive_buffer_frames = 16'384;
-  std::vector<can_filter> filters;           // of which one must match, at most 512; none: everything arrives
+  std::vector<can_filter> filters;  // of which one must match, at most 512; none: everything arrives
 };
 
 enum class Status : std::uint8_t {
   kDone,
-  kNothing,   // received: nothing is there
-  kNoRoom,    // sent: the interface's queue is full, the frame is not sent
-  kDown,      // the interface was taken down: frames of others may have gone by unseen, for good
-  kGone,      // the interface is no more
-  kFailed,    // anything else; failure() has the kernel's words
+  kNothing,  // received: nothing is there
+  kNoRoom,   // sent: the interface's queue is full, the frame is not sent
+  kDown,     // the interface was taken down: frames of others may have gone by unseen, for good
+  kGone,     // the interface is no more
+  kFailed,   // anything else; failure() has the kernel's words
 };
 
 struct Received {
@@ -81,8 +81,8 @@ class Socket {
   int descriptor_ = -1;
   int index_ = 0;
   std::string shortage_, when_down_, when_gone_;
-  std::uint32_t lost_seen_ = 0;       // as told by the frames received
-  Status state_ = Status::kDone;      // once it is another it stays
+  std::uint32_t lost_seen_ = 0;   // as told by the frames received
+  Status state_ = Status::kDone;  // once it is another it stays
   int error_ = 0;
 };
 

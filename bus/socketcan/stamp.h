@@ -13,7 +13,7 @@ namespace ttf::socketcan {
 struct ClockPair {
   bus::HostTime host;
   std::int64_t realtime_ns = 0;
-  bus::HostTime now;              // when the reading was over
+  bus::HostTime now;  // when the reading was over
 };
 ClockPair clock_pair();
 

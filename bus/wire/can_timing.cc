@@ -16,7 +16,7 @@ struct StuffState {
   bool last;
 };
 constexpr std::uint8_t packed(StuffState state) { return static_cast<std::uint8_t>(2 * (state.run - 1) + state.last); }
-constexpr std::uint8_t kAfterBreak = packed({1, true});   // one lone one: no run goes on into a frame's first zero
+constexpr std::uint8_t kAfterBreak = packed({1, true});  // one lone one: no run goes on into a frame's first zero
 
 struct StuffedByte {
   std::uint8_t next, stuff_bits;
@@ -40,8 +40,7 @@ constexpr StuffTable make_stuff_table() {
   StuffTable table{};
   for (int run = 1; run <= 4; ++run)
     for (const bool last : {false, true})
-      for (unsigned byte = 0; byte < 256; ++byte)
-        table[packed({run, last})][byte] = stuffed({run, last}, byte);
+      for (unsigned byte = 0; byte < 256; ++byte) table[packed({run, last})][byte] = stuffed({run, last}, byte);
   return table;
 }
 constexpr StuffTable kStuffTable = make_stuff_table();
@@ -104,22 +103,22 @@ constexpr std::array<int, 16> kLengths{0, 1, 2, 3, 4, 5, 6, 7, 8, 12, 16, 20, 24
 
 Duration can_frame_duration(const schedules::CanBus& bus, std::uint32_t identifier, std::span<const std::byte> data) {
   const int bytes = static_cast<int>(data.size());
-  const auto code = static_cast<std::uint32_t>(std::lower_bound(kLengths.begin(), kLengths.end(), bytes) -
-                                               kLengths.begin());
+  const auto code =
+      static_cast<std::uint32_t>(std::lower_bound(kLengths.begin(), kLengths.end(), bytes) - kLengths.begin());
   TTF_CHECK(schedules::can_data_length(bus.flexible_data_rate, bytes) == bytes, "{} bytes is no CAN length", bytes);
   schedules::CanBits bits = schedules::can_unstuffed_bits(bus, bytes);
   if (bus.flexible_data_rate) {
     Stuffing nominal;
-    nominal.bytes(kFill7 << 17 | (identifier & 0x7FFu) << 5 | 0b00101, 3);   // SOF 0, id, RRS IDE FDF res BRS
+    nominal.bytes(kFill7 << 17 | (identifier & 0x7FFu) << 5 | 0b00101, 3);  // SOF 0, id, RRS IDE FDF res BRS
     // FDF, res and BRS alternate: BRS stands alone whatever came before.
     Stuffing fast;
-    fast.byte(kFill3 << 5 | code);                                           // ESI 0 (error active), DLC
+    fast.byte(kFill3 << 5 | code);  // ESI 0 (error active), DLC
     fast.bytes(data);
     bits.nominal += nominal.count();
     bits.data += fast.count() - (fast.pending() ? 1 : 0);
   } else {
-    const std::uint32_t header = (identifier & 0x7FFu) << 7 | code;          // SOF 0, id, RTR IDE r0 0, DLC
-    const std::uint32_t crc = crc15(header, data);                           // stuffed, too
+    const std::uint32_t header = (identifier & 0x7FFu) << 7 | code;  // SOF 0, id, RTR IDE r0 0, DLC
+    const std::uint32_t crc = crc15(header, data);                   // stuffed, too
     Stuffing stuffing;
     stuffing.bytes(kFill5 << 19 | header, 3);
     stuffing.bytes(data);

@@ -1,5 +1,5 @@
-// How long a CAN frame with given data takes on the wire, stuff bits counted one by one (ISO 11898-1:2015). What any data
-// may take is the schedule's affair: schedules/can_load.h.
+// How long a CAN frame with given data takes on the wire, stuff bits counted one by one (ISO 11898-1:2015). What any
+// data may take is the schedule's affair: schedules/can_load.h.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +11,8 @@
 
 namespace ttf::wire {
 
-// From start of frame to the end of the intermission (bus idle again), rounded up to whole nanoseconds. Base frames: the
-// identifier's low 11 bits count. The data must be as long as a frame can be.
+// From start of frame to the end of the intermission (bus idle again), rounded up to whole nanoseconds. Base frames:
+// the identifier's low 11 bits count. The data must be as long as a frame can be.
 Duration can_frame_duration(const schedules::CanBus& bus, std::uint32_t identifier, std::span<const std::byte> data);
 
 }  // namespace ttf::wire

@@ -43,8 +43,8 @@ constexpr FrameTables kFrameTables = make_frame_tables();
 }  // namespace
 
 std::uint16_t header_crc(bool sync, bool startup, std::uint16_t frame_id, std::uint8_t payload_words) {
-  const std::uint32_t bits = (sync ? 1u << 19 : 0u) | (startup ? 1u << 18 : 0u) |
-                             (static_cast<std::uint32_t>(frame_id) << 7) | payload_words;
+  const std::uint32_t bits =
+      (sync ? 1u << 19 : 0u) | (startup ? 1u << 18 : 0u) | (static_cast<std::uint32_t>(frame_id) << 7) | payload_words;
   std::uint32_t crc = kHeaderInit;
   for (int shift = 16; shift >= 0; shift -= 4)
     crc = ((crc << 4) & 0x7FFu) ^ kHeaderTable[((crc >> 7) ^ (bits >> shift)) & 0xFu];
@@ -58,9 +58,9 @@ std::uint32_t frame_crc(schedules::Channel channel, std::span<const std::byte> h
   const auto byte = [&at](std::size_t i) { return static_cast<std::uint32_t>(at[i]); };
   for (; left >= 8; at += 8, left -= 8) {
     crc ^= (byte(0) << 24) | (byte(1) << 16) | (byte(2) << 8) | byte(3);
-    crc = kFrameTables[7][crc >> 24] ^ kFrameTables[6][(crc >> 16) & 0xFF] ^
-          kFrameTables[5][(crc >> 8) & 0xFF] ^ kFrameTables[4][crc & 0xFF] ^ kFrameTables[3][byte(4)] ^
-          kFrameTables[2][byte(5)] ^ kFrameTables[1][byte(6)] ^ kFrameTables[0][byte(7)];
+    crc = kFrameTables[7][crc >> 24] ^ kFrameTables[6][(crc >> 16) & 0xFF] ^ kFrameTables[5][(crc >> 8) & 0xFF] ^
+          kFrameTables[4][crc & 0xFF] ^ kFrameTables[3][byte(4)] ^ kFrameTables[2][byte(5)] ^ kFrameTables[1][byte(6)] ^
+          kFrameTables[0][byte(7)];
   }
   for (; left > 0; ++at, --left) crc = (crc << 8) ^ kFrameTables[0][(crc >> 24) ^ byte(0)];
   return crc >> 8;

@@ -32,11 +32,10 @@ std::size_t encode_frame(const FrameHeader& header, schedules::Channel channel, 
   const auto words = static_cast<std::uint8_t>(payload.size() / 2);
   const std::uint64_t crc = header_crc(header.sync, header.startup, header.frame_id, words);
   const auto bit = [](bool set, int at) { return static_cast<std::uint64_t>(set) << at; };
-  const std::uint64_t bits = bit(header.payload_preamble, kPreambleBit) | bit(!header.null_frame, kNullBit) |
-                             bit(header.sync, kSyncBit) | bit(header.startup, kStartupBit) |
-                             (static_cast<std::uint64_t>(header.frame_id) << kFrameIdBit) |
-                             (static_cast<std::uint64_t>(words) << kPayloadWordsBit) | (crc << kHeaderCrcBit) |
-                             header.cycle;
+  const std::uint64_t bits =
+      bit(header.payload_preamble, kPreambleBit) | bit(!header.null_frame, kNullBit) | bit(header.sync, kSyncBit) |
+      bit(header.startup, kStartupBit) | (static_cast<std::uint64_t>(header.frame_id) << kFrameIdBit) |
+      (static_cast<std::uint64_t>(words) << kPayloadWordsBit) | (crc << kHeaderCrcBit) | header.cycle;
   for (std::size_t i = 0; i < kHeaderBytes; ++i) frame[i] = static_cast<std::byte>((bits >> (8 * (4 - i))) & 0xFF);
   std::copy(payload.begin(), payload.end(), frame.begin() + kHeaderBytes);
   const std::uint32_t trailer = frame_crc(channel, frame.first(kHeaderBytes + payload.size()));

@@ -19,12 +19,13 @@ double to_physical(const schedules::Signal& signal, std::uint32_t raw, int* out_
 // The code of `high`, the largest in use: below the largest of the signal's bits where the range ends before them.
 std::uint32_t highest_code(const schedules::Signal& signal);
 
-// Index of the header signal of that name, for names that the loader has found in the layout ("sequence", "fragment" and
-// "count" in every one): a layout without it is a bug of ours and fails a check.
+// Index of the header signal of that name, for names that the loader has found in the layout ("sequence", "fragment"
+// and "count" in every one): a layout without it is a bug of ours and fails a check.
 std::size_t header_signal(const schedules::PduLayout& layout, std::string_view name);
 
 // One signal of the header or of element `index` in a fragment's payload. The payload must be fragment_bytes long.
-std::uint32_t read_header_raw(const schedules::PduLayout& layout, std::span<const std::byte> payload, std::size_t signal);
+std::uint32_t read_header_raw(const schedules::PduLayout& layout, std::span<const std::byte> payload,
+                              std::size_t signal);
 void write_header_raw(const schedules::PduLayout& layout, std::span<std::byte> payload, std::size_t signal,
                       std::uint32_t raw);
 std::uint32_t read_element_raw(const schedules::PduLayout& layout, std::span<const std::byte> payload, int index,

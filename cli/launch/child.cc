@@ -61,7 +61,7 @@ Pair control_line() {
   int ends[2];
   checked(socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends), "no socket pair");
   Pair pair{Descriptor(ends[0]), Descriptor(ends[1])};
-  checked(fcntl(ends[0], F_SETFL, O_NONBLOCK), "socket pair");   // the child waits on its own end
+  checked(fcntl(ends[0], F_SETFL, O_NONBLOCK), "socket pair");  // the child waits on its own end
   return pair;
 }
 
@@ -98,7 +98,7 @@ struct Launchpad {
     // The parent may have died before the kernel was told what to do then.
     if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0 || getppid() != parent) _exit(127);
     setsid();
-    ioctl(terminal, TIOCSCTTY, 0);   // its end hangs up on the group, so that nobody outlives a killed supervisor
+    ioctl(terminal, TIOCSCTTY, 0);  // its end hangs up on the group, so that nobody outlives a killed supervisor
     dup2(nothing, STDIN_FILENO);
     dup2(terminal, STDOUT_FILENO);
     dup2(terminal, STDERR_FILENO);
@@ -146,12 +146,17 @@ Child::Child(const ChildCommand& command) {
   Strings arguments, environment;
   for (const std::string& argument : command.arguments) arguments.add(argument);
   for (char** entry = environ; *entry != nullptr; ++entry) environment.add(*entry);
-  environment.set("NO_COLOR", "1");   // escape sequences would be shown as such
+  environment.set("NO_COLOR", "1");  // escape sequences would be shown as such
   for (const auto& [name, value] : command.environment) environment.set(name, value);
   environment.set(std::string(kControlVariable), fmt::to_string(control.childs.get()));
 
-  const Launchpad pad{arguments.array(), environment.array(), terminal.childs.get(), control.childs.get(),
-                      report_in.get(),   nothing.get(),       getpid()};
+  const Launchpad pad{arguments.array(),
+                      environment.array(),
+                      terminal.childs.get(),
+                      control.childs.get(),
+                      report_in.get(),
+                      nothing.get(),
+                      getpid()};
   pid_ = checked(fork(), "no further process");
   if (pid_ == 0) pad.run();
   report_in.close();
@@ -174,7 +179,8 @@ Child::~Child() {
   signal_group(SIGKILL);
   // Killed for certain; and the group's other members before the number is free again.
   siginfo_t info{};
-  while (waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOWAIT) != 0 && errno == EINTR) {}
+  while (waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOWAIT) != 0 && errno == EINTR) {
+  }
   reap();
 }
 
@@ -213,7 +219,7 @@ std::optional<Ending> Child::reap() {
   siginfo_t info{};
   if (waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOHANG | WNOWAIT) != 0 || info.si_pid == 0)
     return std::nullopt;
-  signal_group(SIGKILL);   // while the dead leader still holds the group's number
+  signal_group(SIGKILL);  // while the dead leader still holds the group's number
   waitpid(pid_, nullptr, 0);
   reaped_ = true;
   return Ending{info.si_code != CLD_EXITED, info.si_status};

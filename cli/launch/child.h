@@ -26,19 +26,19 @@
 namespace ttf::launch {
 
 struct ChildCommand {
-  std::vector<std::string> arguments;   // [0] is the program, looked for in PATH if it has no slash
-  std::vector<std::pair<std::string, std::string>> environment;   // added to our own, or instead of ours
+  std::vector<std::string> arguments;  // [0] is the program, looked for in PATH if it has no slash
+  std::vector<std::pair<std::string, std::string>> environment;  // added to our own, or instead of ours
 };
 
 // How a process ended.
 struct Ending {
   bool by_signal = false;
-  int value = 0;   // exit code, or number of the signal
+  int value = 0;  // exit code, or number of the signal
 
   bool success() const { return !by_signal && value == 0; }
   // What a shell would say: the code, or 128 + signal.
   int exit_code() const { return by_signal ? 128 + value : value; }
-  std::string text() const;   // "exit 3", "signal 9 (Killed)"
+  std::string text() const;  // "exit 3", "signal 9 (Killed)"
 };
 
 // The program does not run at all: what() says why; ending() is a shell's, 127 not found or 126 not to be run.
@@ -62,9 +62,9 @@ class Child {
   Child& operator=(const Child&) = delete;
 
   pid_t pid() const { return pid_; }
-  int process_fd() const { return process_.get(); }   // readable when the process has ended
-  int output_fd() const { return output_over_ ? -1 : output_.get(); }   // -1 when nobody has it open any more
-  int control_fd() const { return control_.get(); }   // -1 when the child has closed its end
+  int process_fd() const { return process_.get(); }                    // readable when the process has ended
+  int output_fd() const { return output_over_ ? -1 : output_.get(); }  // -1 when nobody has it open any more
+  int control_fd() const { return control_.get(); }                    // -1 when the child has closed its end
 
   // To the process and all of its group; nothing once it has been reaped.
   void signal_group(int signal);

@@ -18,7 +18,7 @@
 namespace ttf::launch {
 
 inline constexpr std::string_view kControlVariable = "TTF_CONTROL_FD";
-inline constexpr std::size_t kLongestMessage = 65'536;   // bytes
+inline constexpr std::size_t kLongestMessage = 65'536;  // bytes
 
 // The node's end. A process that nobody supervises has none.
 class ControlLine {

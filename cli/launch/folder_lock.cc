@@ -35,7 +35,7 @@ std::string number_in(const std::string& path) {
 }
 
 [[noreturn]] void refuse(const std::string& folder) {
-  const std::string holder = number_in(lock_file(folder));   // one that has not written it yet has none
+  const std::string holder = number_in(lock_file(folder));  // one that has not written it yet has none
   throw InputError({"command line", 0, "--out", folder,
                     fmt::format("must be another folder: it is of a launch that still runs{}",
                                 holder.empty() ? "" : ", process " + holder)});

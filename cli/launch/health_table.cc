@@ -108,9 +108,9 @@ std::string HealthTable::text() const {
                        "sync precision [us]", "drops", "state"});
   for (const Row& row : rows_) {
     const NodeHealth& h = row.health;
-    table.add({printable(row.name), count_cell(h.missed_slots), count_cell(h.late_wakeups),
-               us_cell(h.lateness_p50_us), us_cell(h.lateness_p99_us), us_cell(h.lateness_max_us),
-               us_cell(h.sync_precision_us), count_cell(h.drops),
+    table.add({printable(row.name), count_cell(h.missed_slots), count_cell(h.late_wakeups), us_cell(h.lateness_p50_us),
+               us_cell(h.lateness_p99_us), us_cell(h.lateness_max_us), us_cell(h.sync_precision_us),
+               count_cell(h.drops),
                h.state.empty() ? row.process : fmt::format("{}, {}", row.process, printable(h.state))});
   }
   return table.text();

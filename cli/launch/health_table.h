@@ -13,16 +13,16 @@ namespace ttf::launch {
 
 // What a node says of itself, since it began.
 struct NodeHealth {
-  std::optional<std::uint64_t> missed_slots;    // own slots without a frame
-  std::optional<std::uint64_t> late_wakeups;    // the task began after its instant by more than its allowance
-  std::optional<double> lateness_p50_us;        // of all wake-ups
+  std::optional<std::uint64_t> missed_slots;  // own slots without a frame
+  std::optional<std::uint64_t> late_wakeups;  // the task began after its instant by more than its allowance
+  std::optional<double> lateness_p50_us;      // of all wake-ups
   std::optional<double> lateness_p99_us;
   std::optional<double> lateness_max_us;
-  std::optional<double> sync_precision_us;      // largest deviation that clock synchronisation has seen
+  std::optional<double> sync_precision_us;  // largest deviation that clock synchronisation has seen
   // Frames that its medium lost on their way in or had no room to send, and those that had no room in its process: each
   // once. What is known by its gap alone is not among them: its sender may have withheld it.
   std::optional<std::uint64_t> drops;
-  std::string state;                            // in the node's own words: "normal active"
+  std::string state;  // in the node's own words: "normal active"
 };
 
 class HealthTable {

@@ -12,7 +12,7 @@
 namespace ttf::launch {
 
 // A line that grows beyond this is shown in pieces, so that a flood without a newline costs no more than this.
-inline constexpr std::size_t kLongestLine = 4096;   // bytes
+inline constexpr std::size_t kLongestLine = 4096;  // bytes
 
 // Cuts a stream into lines. Partial lines are held back until they are complete, too long, or the stream ends.
 class LineCutter {
@@ -34,7 +34,7 @@ std::string printable(std::string_view line);
 // How lines are told apart on a screen.
 struct Speaker {
   std::string name;
-  std::size_t index = 0;   // chooses the colour
+  std::size_t index = 0;  // chooses the colour
 };
 
 // "   1.234 fusion      | text": seconds since the launch began, the name filled up to `width` characters (UTF-8), the

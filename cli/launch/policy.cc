@@ -34,15 +34,9 @@ std::optional<int> StopOrder::begin(Duration now) { return begun() ? std::nullop
 
 std::optional<int> StopOrder::hurry(Duration now) {
   switch (signal_) {
-    case 0:
-      next_ = now + grace_.interrupt;
-      return signal_ = SIGINT;
-    case SIGINT:
-      next_ = now + grace_.terminate;
-      return signal_ = SIGTERM;
-    case SIGTERM:
-      next_ = std::nullopt;
-      return signal_ = SIGKILL;
+    case 0: next_ = now + grace_.interrupt; return signal_ = SIGINT;
+    case SIGINT: next_ = now + grace_.terminate; return signal_ = SIGTERM;
+    case SIGTERM: next_ = std::nullopt; return signal_ = SIGKILL;
   }
   return std::nullopt;
 }

@@ -12,11 +12,11 @@
 namespace ttf::launch {
 
 enum class Policy : std::uint8_t {
-  kRequired,   // its failure stops all
-  kRestart,    // it is started again, after a back-off; when that has been tried often enough, it is as kRequired
-  kOptional,   // its failure is said, and the others go on; nobody waits for it longer than the ready barrier lasts
+  kRequired,  // its failure stops all
+  kRestart,   // it is started again, after a back-off; when that has been tried often enough, it is as kRequired
+  kOptional,  // its failure is said, and the others go on; nobody waits for it longer than the ready barrier lasts
 };
-std::string_view name_of(Policy policy);                      // "required", "restart", "optional"
+std::string_view name_of(Policy policy);  // "required", "restart", "optional"
 std::optional<Policy> policy_of(std::string_view name);
 
 // How long to wait before each restart of one node: doubling, capped, limited in number. Both begin anew once a process

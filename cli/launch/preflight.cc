@@ -25,9 +25,9 @@ PreflightItem look_at_loopback() {
 
 // An interface, and who it is for.
 struct User {
-  std::string interface, who;   // "vcan0", "channel A"
+  std::string interface, who;  // "vcan0", "channel A"
   bool flexible_data_rate = false;
-  bool by_own_name = false;     // a CAN's: no name that hardware has, so that a virtual one is meant
+  bool by_own_name = false;  // a CAN's: no name that hardware has, so that a virtual one is meant
 };
 
 std::vector<User> users_of(const Bus& bus, const std::vector<PrivateCan>& cans) {

@@ -13,7 +13,7 @@ enum class BusKind : std::uint8_t { kDds, kSocketCan };
 // --bus: "dds", or "socketcan:IF[,IF]": the interface of channel A, and of channel B.
 struct Bus {
   BusKind kind = BusKind::kDds;
-  std::vector<std::string> interfaces;   // of SocketCAN
+  std::vector<std::string> interfaces;  // of SocketCAN
 
   // Throws InputError naming --bus.
   static Bus parse(const std::string& text);
@@ -23,21 +23,21 @@ struct Bus {
 // As the kernel takes it (dev_valid_name), and without the commas that --bus puts between two: 1..15 bytes, no '/', ':'
 // or white space, and neither "." nor "..".
 bool is_interface_name(std::string_view name);
-inline constexpr const char* kInterfaceNames = "1..15 characters without white space, '/', ':' and ','";   // in words
+inline constexpr const char* kInterfaceNames = "1..15 characters without white space, '/', ':' and ','";  // in words
 
 // A CAN between sensors and hosts, on SocketCAN.
 struct PrivateCan {
-  std::string name;                  // in the cluster file
+  std::string name;  // in the cluster file
   std::string interface;
-  bool flexible_data_rate = false;   // it must carry CAN FD
+  bool flexible_data_rate = false;  // it must carry CAN FD
 };
 
 // One thing that was looked at.
 struct PreflightItem {
-  std::string what;                    // "vcan0"
+  std::string what;  // "vcan0"
   bool good = true;
-  std::string how;                     // "is not there"
-  std::vector<std::string> commands;   // that mend it, to be given as root; none where none is known
+  std::string how;                    // "is not there"
+  std::vector<std::string> commands;  // that mend it, to be given as root; none where none is known
 };
 
 // The interfaces that a bus runs over, and on SocketCAN the private CANs', as the kernel has them now.

@@ -36,7 +36,7 @@ std::string file_stem(std::string_view node);
 
 // What the manifest of a folder says of the launch that was in it.
 struct EarlierLaunch {
-  std::string strategy;              // empty where it says none, or what could not be part of a file's name
+  std::string strategy;  // empty where it says none, or what could not be part of a file's name
   std::vector<std::string> nodes;
 };
 // Nothing where there has been none, or what is there cannot be read.
@@ -62,7 +62,7 @@ class RunFolder {
   // What is there of a node's logs: NODE.mcap and, of processes that took its place, NODE.2.mcap, NODE.3.mcap and so
   // on.
   std::vector<std::string> logs_of(std::string_view node) const;
-  std::vector<std::string> logs() const;   // of all nodes, in the order of the launch
+  std::vector<std::string> logs() const;  // of all nodes, in the order of the launch
   void remove_logs(std::string_view node) const;
   // Of a file that launches leave here; one that is not there, or no plain file, is left alone.
   void remove(const std::string& name) const;

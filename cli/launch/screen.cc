@@ -49,7 +49,7 @@ void Screen::write_some() {
     queue_.erase(0, static_cast<std::size_t>(written));
     if (queue_.empty()) admit_gap();
   } else if (written < 0 && errno != EAGAIN && errno != EINTR) {
-    fd_ = -1;   // nobody reads this any more: the nodes go on
+    fd_ = -1;  // nobody reads this any more: the nodes go on
     queue_.clear();
   }
 }

@@ -27,7 +27,7 @@ class Screen {
   void write_some();
   std::uint64_t lines_left_out() const { return left_out_; }
 
-  static constexpr std::size_t kLongestQueue = 1 << 20;   // bytes
+  static constexpr std::size_t kLongestQueue = 1 << 20;  // bytes
 
  private:
   void admit_gap();
@@ -35,8 +35,8 @@ class Screen {
   int fd_;
   Descriptor copy_;
   std::string queue_;
-  std::uint64_t gap_ = 0;        // lines left out since the last one that was queued
-  std::uint64_t left_out_ = 0;   // in all
+  std::uint64_t gap_ = 0;       // lines left out since the last one that was queued
+  std::uint64_t left_out_ = 0;  // in all
 };
 
 // Whether colour is wanted on `fd`: it is a terminal, and NO_COLOR (https://no-color.org) is unset or empty.

@@ -13,19 +13,20 @@ SignalWatch::SignalWatch() {
   sigemptyset(&watched_);
   sigaddset(&watched_, SIGINT);
   sigaddset(&watched_, SIGTERM);
-  struct sigaction hangup{};
+  struct sigaction hangup {};
   sigaction(SIGHUP, nullptr, &hangup);
   if (hangup.sa_handler != SIG_IGN) sigaddset(&watched_, SIGHUP);
   fd_ = Descriptor(signalfd(-1, &watched_, SFD_NONBLOCK | SFD_CLOEXEC));
   if (!fd_.open()) throw std::runtime_error(std::string("no signalfd: ") + std::strerror(errno));
   pthread_sigmask(SIG_BLOCK, &watched_, &before_);
-  struct sigaction ignore{};
+  struct sigaction ignore {};
   ignore.sa_handler = SIG_IGN;
   sigaction(SIGPIPE, &ignore, &pipe_before_);
 }
 
 SignalWatch::~SignalWatch() {
-  while (next()) {}   // what came after the end has had its effect
+  while (next()) {
+  }  // what came after the end has had its effect
   pthread_sigmask(SIG_SETMASK, &before_, nullptr);
   sigaction(SIGPIPE, &pipe_before_, nullptr);
 }

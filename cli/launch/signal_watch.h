@@ -26,7 +26,7 @@ class SignalWatch {
 
  private:
   sigset_t watched_{}, before_{};
-  struct sigaction pipe_before_{};
+  struct sigaction pipe_before_ {};
   Descriptor fd_;
 };
 

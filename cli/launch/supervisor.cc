@@ -12,9 +12,9 @@
 namespace ttf::launch {
 namespace {
 
-constexpr std::size_t kReadAtOnce = 65'536;      // bytes of one child, before the others have their turn
-constexpr std::size_t kMessagesAtOnce = 1'000;   // more than a socket holds
-constexpr std::size_t kReadAtEnd = 16 << 20;     // bytes; somebody who left the group could go on printing for ever
+constexpr std::size_t kReadAtOnce = 65'536;     // bytes of one child, before the others have their turn
+constexpr std::size_t kMessagesAtOnce = 1'000;  // more than a socket holds
+constexpr std::size_t kReadAtEnd = 16 << 20;    // bytes; somebody who left the group could go on printing for ever
 
 std::vector<std::string> names_of(const std::vector<NodeSpec>& nodes) {
   std::vector<std::string> names;
@@ -32,15 +32,11 @@ int milliseconds_until(std::optional<Duration> instant, Duration now) {
 }  // namespace
 
 Supervisor::Supervisor(SupervisorConfig config, Hooks hooks)
-    : config_(std::move(config)),
-      hooks_(std::move(hooks)),
+    : config_(std::move(config)), hooks_(std::move(hooks)),
       screen_(config_.screen, config_.folder != nullptr ? config_.folder->open_launch_log() : Descriptor()),
       colour_(config_.screen >= 0 && colour_wanted(config_.screen)),
-      terminal_(config_.screen >= 0 && isatty(config_.screen) != 0),
-      began_(std::chrono::steady_clock::now()),
-      name_width_(shown_width("launch")),
-      health_(names_of(config_.nodes)),
-      stop_order_(config_.grace) {
+      terminal_(config_.screen >= 0 && isatty(config_.screen) != 0), began_(std::chrono::steady_clock::now()),
+      name_width_(shown_width("launch")), health_(names_of(config_.nodes)), stop_order_(config_.grace) {
   for (NodeSpec& spec : config_.nodes) {
     nodes_.push_back(std::make_unique<Node>(nodes_.size(), std::move(spec), config_.restart));
     name_width_ = std::max(name_width_, shown_width(nodes_.back()->speaker.name));
@@ -110,8 +106,9 @@ void Supervisor::take_signals() {
         if (const auto next = stop_order_.hurry(now())) signal_all(*next);
       continue;
     }
-    const std::string why =
-        *signal == SIGINT ? "interrupted (SIGINT)" : *signal == SIGTERM ? "SIGTERM" : "the terminal is gone (SIGHUP)";
+    const std::string why = *signal == SIGINT    ? "interrupted (SIGINT)"
+                            : *signal == SIGTERM ? "SIGTERM"
+                                                 : "the terminal is gone (SIGHUP)";
     interruption_ = Outcome{128 + *signal, why};
     stop(why);
   }

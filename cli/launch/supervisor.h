@@ -54,9 +54,9 @@ struct SupervisorConfig {
   Duration optional_grace = Duration::milliseconds(10'000);
   Backoff::Limits restart;
   StopOrder::Grace grace;
-  Duration health_every = Duration::milliseconds(10'000);   // while it runs, on a terminal only; 0: never
-  int screen = 2;                                           // where words go; -1: nowhere
-  RunFolder* folder = nullptr;                              // outlives the supervisor; nothing: leaves no files
+  Duration health_every = Duration::milliseconds(10'000);  // while it runs, on a terminal only; 0: never
+  int screen = 2;                                          // where words go; -1: nowhere
+  RunFolder* folder = nullptr;                             // outlives the supervisor; nothing: leaves no files
 };
 
 // Called from run(), on its thread; they may use say() and request_stop(). `node` counts as in SupervisorConfig::nodes.
@@ -74,7 +74,7 @@ struct Hooks {
 
 struct Outcome {
   int exit_code = 0;
-  std::string why;   // in words, "" where all went well
+  std::string why;  // in words, "" where all went well
 };
 
 class Supervisor {
@@ -136,7 +136,7 @@ class Supervisor {
   std::size_t name_width_ = 0;
   HealthTable health_;
 
-  bool started_ = false;                       // the barrier is behind us
+  bool started_ = false;  // the barrier is behind us
   nlohmann::json start_facts_;
   StopOrder stop_order_;
   std::optional<Duration> barrier_at_, optional_at_, health_at_;

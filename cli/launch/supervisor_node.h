@@ -20,10 +20,10 @@ struct Supervisor::Node {
   Speaker speaker;
   Backoff backoff;
   std::unique_ptr<Child> child;
-  LineCutter lines;                    // of the present process, as is `ready`
+  LineCutter lines;  // of the present process, as is `ready`
   Duration began{};
   bool ready = false;
-  bool failed = false;                 // and does not come back
+  bool failed = false;  // and does not come back
   std::optional<Duration> restart_at;
 };
 

@@ -220,7 +220,7 @@ void Supervisor::signal_all(int signal) {
     if (node->child != nullptr) {
       there.push_back(node->spec.name);
       node->child->signal_group(signal);
-      node->child->signal_group(SIGCONT);   // a stopped process takes no other signal but SIGKILL
+      node->child->signal_group(SIGCONT);  // a stopped process takes no other signal but SIGKILL
     }
   if (signal != SIGINT && !there.empty()) say(fmt::format("still there: {}: {}", joined(there), signal_name(signal)));
 }

@@ -18,14 +18,13 @@ namespace {
 using results::Run;
 using results::RunKey;
 
-constexpr int kRuns = 1;    // to rank 0: runs that were driven, maybe none; whoever sends it has nothing to do
-constexpr int kKeys = 2;    // from rank 0: what to drive; nothing: it is over
-constexpr std::chrono::milliseconds kLook{1};   // between two looks for a message; MPI itself would wait spinning
+constexpr int kRuns = 1;  // to rank 0: runs that were driven, maybe none; whoever sends it has nothing to do
+constexpr int kKeys = 2;  // from rank 0: what to drive; nothing: it is over
+constexpr std::chrono::milliseconds kLook{1};  // between two looks for a message; MPI itself would wait spinning
 
 using Bytes = std::vector<char>;
 
-template <class Number>
-void put(Bytes& bytes, Number number) {
+template <class Number> void put(Bytes& bytes, Number number) {
   static_assert(std::is_arithmetic_v<Number>);
   const auto* from = reinterpret_cast<const char*>(&number);
   bytes.insert(bytes.end(), from, from + sizeof number);
@@ -36,8 +35,7 @@ class Reader {
  public:
   explicit Reader(const Bytes& bytes) : bytes_(bytes) {}
   bool at_end() const { return at_ == bytes_.size(); }
-  template <class Number>
-  Number get() {
+  template <class Number> Number get() {
     Number number;
     std::memcpy(&number, take(sizeof number), sizeof number);
     return number;
@@ -153,9 +151,7 @@ std::string Ranks::first_problem(const std::string& mine) const {
   return first == size_ ? "" : broadcast(mine, first);
 }
 
-bool Ranks::same_as_first(const std::string& text) const {
-  return size_ == 1 || broadcast(text, 0) == text;
-}
+bool Ranks::same_as_first(const std::string& text) const { return size_ == 1 || broadcast(text, 0) == text; }
 
 void Ranks::serve(const SweepDrives& drives) {
   std::vector<Run> done;

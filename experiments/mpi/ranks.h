@@ -47,8 +47,8 @@ class Ranks final : public Elsewhere {
 
   int rank_ = 0, size_ = 1;
   bool served_ = false;
-  std::vector<int> idle_;                // ranks that have nothing to drive
-  std::vector<std::size_t> under_way_;   // runs, by rank
+  std::vector<int> idle_;               // ranks that have nothing to drive
+  std::vector<std::size_t> under_way_;  // runs, by rank
 };
 
 }  // namespace ttf::experiments

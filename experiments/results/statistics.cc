@@ -22,8 +22,8 @@ Interval interval_of(const Moments& moments, double confidence) {
   if (moments.count() < 2) return interval;
   const auto samples = static_cast<double>(moments.count());
   const boost::math::students_t distribution(samples - 1.0);
-  interval.half_width = boost::math::quantile(distribution, 0.5 + 0.5 * confidence) *
-                        std::sqrt(moments.variance() / samples);
+  interval.half_width =
+      boost::math::quantile(distribution, 0.5 + 0.5 * confidence) * std::sqrt(moments.variance() / samples);
   return interval;
 }
 

@@ -13,7 +13,7 @@ class Moments {
   void add(double x);
   std::uint64_t count() const { return count_; }
   double mean() const { return count_ > 0 ? mean_ : std::numeric_limits<double>::quiet_NaN(); }
-  double variance() const;   // of the samples, unbiased; not a number of fewer than two
+  double variance() const;  // of the samples, unbiased; not a number of fewer than two
 
  private:
   std::uint64_t count_ = 0;
@@ -29,7 +29,7 @@ struct Interval {
 
   double low() const { return mean - half_width; }
   double high() const { return mean + half_width; }
-  bool below(double x) const { return high() < x; }   // for certain
+  bool below(double x) const { return high() < x; }  // for certain
   bool above(double x) const { return low() > x; }
 };
 Interval interval_of(const Moments& moments, double confidence);

@@ -16,7 +16,7 @@
 namespace ttf::results {
 namespace {
 
-constexpr const char* kReplications = "replications";   // a key of meta
+constexpr const char* kReplications = "replications";  // a key of meta
 
 // Names come from experiment files: whatever they are, they stay names.
 std::string identifier(std::string_view name) {
@@ -71,7 +71,7 @@ class Statement {
   void bind(int at, std::string_view text) {
     check(sqlite3_bind_text(handle_, at, text.data(), static_cast<int>(text.size()), SQLITE_TRANSIENT));
   }
-  bool row() {   // false: no more
+  bool row() {  // false: no more
     const int code = sqlite3_step(handle_);
     if (code != SQLITE_ROW && code != SQLITE_DONE) fail();
     return code == SQLITE_ROW;
@@ -173,7 +173,7 @@ Store Store::open(const std::string& path) {
     for (std::size_t begin = 0, end = 0; (end = measures->find('\n', begin)) != std::string::npos; begin = end + 1)
       store.head_.measures.push_back(measures->substr(begin, end - begin));
     Statement runs(store.database_->handle, store.database_->path,
-                   "SELECT " + columns(store.head_) + " FROM runs LIMIT 1");   // whether they are as said
+                   "SELECT " + columns(store.head_) + " FROM runs LIMIT 1");  // whether they are as said
     (void)runs.row();
     return store;
   } catch (const std::runtime_error& error) {
@@ -208,7 +208,7 @@ void Store::add(const std::vector<Run>& runs) {
     }
     database_->execute("COMMIT");
   } catch (...) {
-    sqlite3_exec(database_->handle, "ROLLBACK", nullptr, nullptr, nullptr);   // some errors have done so already
+    sqlite3_exec(database_->handle, "ROLLBACK", nullptr, nullptr, nullptr);  // some errors have done so already
     throw;
   }
 }

@@ -25,8 +25,8 @@ struct RunKey {
 
 struct Run {
   RunKey key;
-  std::string status;             // kDone, or what went wrong
-  std::vector<double> values;     // by measure; NaN where there is none
+  std::string status;          // kDone, or what went wrong
+  std::vector<double> values;  // by measure; NaN where there is none
 };
 inline constexpr const char* kDone = "done";
 
@@ -34,9 +34,9 @@ struct StoreHead {
   std::string name;
   // Of all files the runs follow from, and of the program: two stores of the same of both hold the same runs.
   std::string identity, version;
-  std::string text;               // the experiment's file
+  std::string text;  // the experiment's file
   std::vector<std::string> measures;
-  std::uint32_t replications = 0;   // asked for, of every point; none: nobody said
+  std::uint32_t replications = 0;  // asked for, of every point; none: nobody said
 };
 
 class Store {
@@ -56,9 +56,9 @@ class Store {
   // what was there before still is.
   void add(const std::vector<Run>& runs);
   std::uint64_t count() const;
-  std::vector<RunKey> keys() const;                                // in order
-  void for_each(const std::function<void(const Run&)>& use) const;   // in order
-  std::vector<Run> of_point(std::uint32_t point) const;            // in order
+  std::vector<RunKey> keys() const;                                 // in order
+  void for_each(const std::function<void(const Run&)>& use) const;  // in order
+  std::vector<Run> of_point(std::uint32_t point) const;             // in order
 
  private:
   struct Database;

@@ -10,17 +10,15 @@
 
 namespace ttf::fusion::batch {
 
-template <class V>
-struct Axes {
+template <class V> struct Axes {
   struct Axis {
-    V x{}, v{};                     // [m], [m/s]
+    V x{}, v{};  // [m], [m/s]
     V p_xx{}, p_xv{}, p_vv{};
   };
   Axis axis[2];
 };
 
-template <class V>
-[[gnu::always_inline]] inline void predict(Axes<V>& state, const Step& step) {
+template <class V> [[gnu::always_inline]] inline void predict(Axes<V>& state, const Step& step) {
   unrolled<2>([&](int i) {
     auto& a = state.axis[i];
     const V moved = a.p_xv + step.dt * a.p_vv;
@@ -32,8 +30,7 @@ template <class V>
 }
 
 // The update in Joseph form, multiplied out (fusion/filters/correct.h). Returns the NIS, of lanes that are seen.
-template <class V>
-[[gnu::always_inline]] inline V update(Axes<V>& state, const Position<V>& z) {
+template <class V> [[gnu::always_inline]] inline V update(Axes<V>& state, const Position<V>& z) {
   V nis{};
   unrolled<2>([&](auto axis) {
     constexpr int i = axis;

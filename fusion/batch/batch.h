@@ -76,8 +76,7 @@ inline Gaussian<4> taken(const Joint<Lanes>& block, std::size_t lane) {
   return state;
 }
 
-template <template <class> class Form>
-class Batch {
+template <template <class> class Form> class Batch {
  public:
   explicit Batch(std::size_t count) : count_(count), blocks_((count + kLanes - 1) / kLanes) {}
 
@@ -103,7 +102,8 @@ class Batch {
 
  private:
   void check_size(const Positions& z) const {
-    TTF_CHECK(z.blocks().size() == blocks_.size(), "{} blocks of measurements of {}", z.blocks().size(), blocks_.size());
+    TTF_CHECK(z.blocks().size() == blocks_.size(), "{} blocks of measurements of {}", z.blocks().size(),
+              blocks_.size());
   }
 
   std::size_t count_;

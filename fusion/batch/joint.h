@@ -9,17 +9,15 @@
 
 namespace ttf::fusion::batch {
 
-template <class V>
-struct Joint {
+template <class V> struct Joint {
   V x[4] = {};
-  V p[10] = {};   // (0,0) (0,1) (1,1) (0,2) (1,2) (2,2) (0,3) (1,3) (2,3) (3,3)
+  V p[10] = {};  // (0,0) (0,1) (1,1) (0,2) (1,2) (2,2) (0,3) (1,3) (2,3) (3,3)
 
   // Of row r and column c, r <= c.
   static constexpr int at(int r, int c) { return c * (c + 1) / 2 + r; }
 };
 
-template <class V>
-[[gnu::always_inline]] inline void predict(Joint<V>& state, const Step& step) {
+template <class V> [[gnu::always_inline]] inline void predict(Joint<V>& state, const Step& step) {
   const auto p = [&state](int r, int c) -> V& { return state.p[Joint<V>::at(r, c)]; };
   const double dt = step.dt;
   state.x[0] += dt * state.x[2];
@@ -39,8 +37,7 @@ template <class V>
 }
 
 // The update in Joseph form, multiplied out (fusion/filters/correct.h). Returns the NIS, of lanes that are seen.
-template <class V>
-[[gnu::always_inline]] inline V update(Joint<V>& state, const Position<V>& z) {
+template <class V> [[gnu::always_inline]] inline V update(Joint<V>& state, const Position<V>& z) {
   const auto p = [&state](int r, int c) { return state.p[r <= c ? Joint<V>::at(r, c) : Joint<V>::at(c, r)]; };
   const V nu_x = z.x - state.x[0], nu_y = z.y - state.x[1];
   // S = L D L'.
@@ -48,7 +45,7 @@ template <class V>
   const V inverse_x = 1.0 / d_x;
   const V l = (p(1, 0) + z.r_xy) * inverse_x;
   const V inverse_y = 1.0 / ((p(1, 1) + z.r_yy) - l * l * d_x);
-  V g_x[4], g_y[4];   // K
+  V g_x[4], g_y[4];  // K
   unrolled<4>([&](int i) {
     g_y[i] = (p(i, 1) - l * p(i, 0)) * inverse_y;
     g_x[i] = p(i, 0) * inverse_x - l * g_y[i];

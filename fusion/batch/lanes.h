@@ -8,22 +8,15 @@ namespace ttf::fusion::batch {
 
 inline constexpr int kLanes = 4;
 using Lanes = double __attribute__((vector_size(kLanes * sizeof(double))));
-using Mask = std::int64_t __attribute__((vector_size(kLanes * sizeof(std::int64_t))));   // -1: yes, 0: no
+using Mask = std::int64_t __attribute__((vector_size(kLanes * sizeof(std::int64_t))));  // -1: yes, 0: no
 
 // a where `where`, b elsewhere.
 inline double select(bool where, double a, double b) { return where ? a : b; }
 inline Lanes select(Mask where, Lanes a, Lanes b) { return where ? a : b; }
 
 // What goes with numbers of kind V.
-template <class V>
-struct MaskOf;
-template <>
-struct MaskOf<double> {
-  using Type = bool;
-};
-template <>
-struct MaskOf<Lanes> {
-  using Type = Mask;
-};
+template <class V> struct MaskOf;
+template <> struct MaskOf<double> { using Type = bool; };
+template <> struct MaskOf<Lanes> { using Type = Mask; };
 
 }  // namespace ttf::fusion::batch

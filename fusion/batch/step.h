@@ -21,8 +21,7 @@ struct Step {
 
 // z = (x, y) [m] with the covariance of its noise, which is positive definite; of lanes that are not `seen` it is not
 // looked at, but must be so all the same.
-template <class V>
-struct Position {
+template <class V> struct Position {
   V x{}, y{};
   V r_xx{}, r_xy{}, r_yy{};
   typename MaskOf<V>::Type seen{};

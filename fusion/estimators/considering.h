@@ -42,18 +42,14 @@ class AllBiases {
 Matrix<4, 3> first_jacobian(const Observation& observation, const sensors::Mounting& mounting);
 
 template <motion::Model M>
-  requires(M::kCartesian)
-class ConsideringEstimator final : public Estimator {
+requires(M::kCartesian) class ConsideringEstimator final : public Estimator {
  public:
   static constexpr int kN = M::kStates;
   using Own = WithBiases<kN>;
 
   ConsideringEstimator(const TrackerConfig& config, const M& model, const Gaussian<kN>& prior)
-      : model_(model),
-        prior_(prior),
-        sensors_(config.sensors),
-        biases_(config.sensors),
-        filter_{.bias = biases_.covariance()},
+      : model_(model), prior_(prior), sensors_(config.sensors),
+        biases_(config.sensors), filter_{.bias = biases_.covariance()},
         velocity_variance_(config.initial_velocity_sigma * config.initial_velocity_sigma) {}
 
   Estimate initial(const Observation& o) const override {
@@ -140,8 +136,7 @@ class ConsideringEstimator final : public Estimator {
   }
 
  private:
-  template <class E>
-  static auto& own_of(E& estimate) {
+  template <class E> static auto& own_of(E& estimate) {
     auto* own = std::get_if<Own>(&estimate);
     TTF_CHECK(own, "an estimate of another estimator: alternative {}", estimate.index());
     return *own;
@@ -154,8 +149,7 @@ class ConsideringEstimator final : public Estimator {
     });
   }
 
-  template <class Body>
-  auto through_sensor(const Observation& o, const Body& body) const {
+  template <class Body> auto through_sensor(const Observation& o, const Body& body) const {
     using sensors::AmongBiases, sensors::Measurement;
     const sensors::OwnBiases& own = biases_.of(o.sensor);
     if (o.kind == ObservationKind::kPosition)
@@ -166,8 +160,7 @@ class ConsideringEstimator final : public Estimator {
   }
 
   // What the stamp's error adds to the noise for the velocity is not known.
-  template <class S>
-  static void blur(const Own& own, const S& sensor, sensors::Measurement<S::kDimension>& z) {
+  template <class S> static void blur(const Own& own, const S& sensor, sensors::Measurement<S::kDimension>& z) {
     if (sensor.own.time_variance == 0.0) return;
     const Kinematics k = M::template kinematics<kWithVelocity>(own.state.x);
     if (!sensor.sees(k)) return;

@@ -10,8 +10,7 @@
 
 namespace ttf::fusion::estimators {
 
-template <class F>
-class StraightAndTurning {
+template <class F> class StraightAndTurning {
  public:
   using Own = StraightOrTurning;
   static constexpr bool kNeedsCourse = true;

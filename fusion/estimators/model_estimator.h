@@ -36,15 +36,12 @@ Gaussian<4> first_estimate(const Observation& observation, double velocity_varia
 // Whether it is known that this moves, and where to.
 bool knows_course(const Gaussian<4>& state);
 
-template <class F, class Kernel>
-class ModelEstimator final : public Estimator {
+template <class F, class Kernel> class ModelEstimator final : public Estimator {
  public:
   ModelEstimator(const TrackerConfig& config, const Kernel& kernel)
-      : kernel_(kernel),
-        velocity_variance_(config.initial_velocity_sigma * config.initial_velocity_sigma),
-        sensors_(config.sensors),
-        young_{.model = motion::ConstantVelocity(config.initial_acceleration_sigma *
-                                                 config.initial_acceleration_sigma)} {}
+      : kernel_(kernel), velocity_variance_(config.initial_velocity_sigma * config.initial_velocity_sigma),
+        sensors_(config.sensors), young_{.model = motion::ConstantVelocity(config.initial_acceleration_sigma *
+                                                                           config.initial_acceleration_sigma)} {}
 
   Estimate initial(const Observation& observation) const override {
     const Gaussian<4> first = first_estimate(observation, velocity_variance_, known(sensors_, observation.sensor));
@@ -127,8 +124,7 @@ class ModelEstimator final : public Estimator {
     }
   }
 
-  template <class E, class Body>
-  auto with(E& estimate, const Body& body) const {
+  template <class E, class Body> auto with(E& estimate, const Body& body) const {
     if constexpr (Kernel::kNeedsCourse)
       if (auto* young = std::get_if<Gaussian<4>>(&estimate)) return body(young_, *young);
     auto* own = std::get_if<typename Kernel::Own>(&estimate);
@@ -143,8 +139,7 @@ class ModelEstimator final : public Estimator {
   }
 
   // What is a position has been placed in the vehicle's axes before (fusion/known_sensor.h).
-  template <class Body>
-  auto through_sensor(const Observation& o, const Body& body) const {
+  template <class Body> auto through_sensor(const Observation& o, const Body& body) const {
     if (o.kind == ObservationKind::kPosition)
       return body(sensors::Position{},
                   sensors::Measurement<2>{o.z.template head<2>(), o.r.template topLeftCorner<2, 2>()});

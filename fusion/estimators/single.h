@@ -18,8 +18,7 @@ inline constexpr double kForgotten = 0.7;
 
 // A heading is never known less than not at all, uniform over the circle. Of something that stands for long, white
 // turn acceleration would say otherwise; scaling its row and column alike keeps the covariance positive.
-template <class M>
-void bound_heading(Gaussian<M::kStates>& state) {
+template <class M> void bound_heading(Gaussian<M::kStates>& state) {
   if constexpr (!M::kCartesian) {
     constexpr double kUnknown = std::numbers::pi * std::numbers::pi / 3.0;
     const double variance = state.p(M::kHeading, M::kHeading);
@@ -30,19 +29,16 @@ void bound_heading(Gaussian<M::kStates>& state) {
   }
 }
 
-template <class F, motion::Model M>
-struct Single {
+template <class F, motion::Model M> struct Single {
   using Own = Gaussian<M::kStates>;
   static constexpr bool kNeedsCourse = !M::kCartesian;
 
   M model{};
-  Own prior{};   // what is believed of an object before anything is known of it
+  Own prior{};  // what is believed of an object before anything is known of it
   [[no_unique_address]] F filter{};
 
   // From position and velocity, the rest being as of any object.
-  Own from(const Gaussian<4>& known) const {
-    return motion::converted<motion::ConstantVelocity, M>(known, prior);
-  }
+  Own from(const Gaussian<4>& known) const { return motion::converted<motion::ConstantVelocity, M>(known, prior); }
   // Position and velocity of what does not know its course any more; nothing, where it does. It may move as fast as its
   // speed says, whereto nobody knows.
   std::optional<Gaussian<4>> without_course(const Own& own) const {

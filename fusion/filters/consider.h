@@ -17,24 +17,23 @@
 
 namespace ttf::fusion::filters {
 
-template <int B>
-struct Consider {
+template <int B> struct Consider {
   static constexpr const char* kName = "Consider";
   static constexpr int kBiases = B;
 
-  Matrix<B> bias = Matrix<B>::Zero();   // covariance of what is left after known biases are corrected for
+  Matrix<B> bias = Matrix<B>::Zero();  // covariance of what is left after known biases are corrected for
 
-  template <motion::Model M>
-  void predict(const M& model, Considered<M::kStates, B>& considered, double dt) const {
+  template <motion::Model M> void predict(const M& model, Considered<M::kStates, B>& considered, double dt) const {
     considered.cross = times<M::kStates, M::kStates, B>(model.jacobian(considered.state.x, dt), considered.cross);
     Extended{}.predict(model, considered.state, dt);
   }
 
   // Here and in update() the sensor's biases are those from index First on.
   template <int First = 0, motion::Model M, sensors::Biased S>
-    requires(First + S::kBiases <= B)
-  Innovation<S::kDimension> innovate(const M&, const S& sensor, const sensors::Measurement<S::kDimension>& z,
-                                     const Considered<M::kStates, B>& c) const {
+  requires(First + S::kBiases <= B) Innovation<S::kDimension> innovate(const M&, const S& sensor,
+                                                                       const sensors::Measurement<S::kDimension>& z,
+                                                                       const Considered<M::kStates, B>& c)
+  const {
     Sight<M, S> sight;
     if (!look<First>(sensor, z, c, sight)) return {};
     judge<S::kDimension>(sight.innovation, Ldl<S::kDimension>(sight.innovation.s));
@@ -43,18 +42,20 @@ struct Consider {
 
   // The covariance of what the sensor is expected to say, with noise z.r; z.z does not matter.
   template <int First = 0, motion::Model M, sensors::Biased S>
-    requires(First + S::kBiases <= B)
-  Matrix<S::kDimension> spread(const M&, const S& sensor, const sensors::Measurement<S::kDimension>& z,
-                               const Considered<M::kStates, B>& c) const {
+  requires(First + S::kBiases <= B) Matrix<S::kDimension> spread(const M&, const S& sensor,
+                                                                 const sensors::Measurement<S::kDimension>& z,
+                                                                 const Considered<M::kStates, B>& c)
+  const {
     Sight<M, S> sight;
     look<First>(sensor, z, c, sight);
     return sight.innovation.s;
   }
 
   template <int First = 0, motion::Model M, sensors::Biased S>
-    requires(First + S::kBiases <= B)
-  Innovation<S::kDimension> update(const M&, const S& sensor, const sensors::Measurement<S::kDimension>& z,
-                                   Considered<M::kStates, B>& c) const {
+  requires(First + S::kBiases <= B) Innovation<S::kDimension> update(const M&, const S& sensor,
+                                                                     const sensors::Measurement<S::kDimension>& z,
+                                                                     Considered<M::kStates, B>& c)
+  const {
     constexpr int kN = M::kStates, kM = S::kDimension, kC = leading_columns(S::kParts), kS = S::kBiases;
     Sight<M, S> sight;
     if (!look<First>(sensor, z, c, sight)) return {};
@@ -77,8 +78,7 @@ struct Consider {
   }
 
  private:
-  template <class M, class S>
-  struct Sight {
+  template <class M, class S> struct Sight {
     Matrix<S::kDimension, leading_columns(S::kParts)> h;
     Matrix<S::kDimension, S::kBiases> d;
     Matrix<S::kDimension, M::kStates> w;   // cov(z, x)

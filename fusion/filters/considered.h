@@ -6,8 +6,7 @@
 
 namespace ttf::fusion::filters {
 
-template <int N, int B>
-struct Considered {
+template <int N, int B> struct Considered {
   Gaussian<N> state;
   Matrix<N, B> cross = Matrix<N, B>::Zero();
 };

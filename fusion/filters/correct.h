@@ -26,8 +26,7 @@ void project(const Matrix<N>& p, const Matrix<M, C>& h, const Matrix<M>& r, Matr
 }
 
 // An innovation whose nu and S are known.
-template <int M>
-void judge(Innovation<M>& innovation, const Ldl<M>& ldl) {
+template <int M> void judge(Innovation<M>& innovation, const Ldl<M>& ldl) {
   innovation.nis = ldl.norm_squared(innovation.nu);
   innovation.determinant = ldl.determinant();
   innovation.used = true;

@@ -10,8 +10,7 @@ namespace ttf::fusion::filters {
 struct Extended {
   static constexpr const char* kName = "Extended";
 
-  template <motion::Model M>
-  void predict(const M& model, Gaussian<M::kStates>& state, double dt) const {
+  template <motion::Model M> void predict(const M& model, Gaussian<M::kStates>& state, double dt) const {
     if constexpr (M::kLinear) {
       Kalman{}.predict(model, state, dt);
     } else {

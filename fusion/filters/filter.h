@@ -16,27 +16,24 @@ namespace ttf::fusion::filters {
 
 // What an update found: the innovation and its covariance. Not used (nothing changed) where the sensor model has no
 // derivative at the expected state, or sees one of the sigma points not.
-template <int M>
-struct Innovation {
+template <int M> struct Innovation {
   Vector<M> nu = Vector<M>::Zero();
   Matrix<M> s = Matrix<M>::Identity();
-  double nis = 0.0;           // nu' S^-1 nu
-  double determinant = 1.0;   // of S
+  double nis = 0.0;          // nu' S^-1 nu
+  double determinant = 1.0;  // of S
   bool used = false;
 
   // Of the measurement, given all before it.
-  double log_likelihood() const {
-    return -0.5 * (nis + std::log(determinant) + M * std::log(2.0 * std::numbers::pi));
-  }
+  double log_likelihood() const { return -0.5 * (nis + std::log(determinant) + M * std::log(2.0 * std::numbers::pi)); }
 };
 
 template <class F, class M, class S>
 concept Filter = motion::Model<M> && sensors::Model<S> &&
     requires(const F& filter, const M& model, const S& sensor, Gaussian<M::kStates>& state,
              const Gaussian<M::kStates>& kept, const sensors::Measurement<S::kDimension>& z, double dt) {
-      { filter.predict(model, state, dt) };
-      { filter.innovate(model, sensor, z, kept) } -> std::same_as<Innovation<S::kDimension>>;
-      { filter.update(model, sensor, z, state) } -> std::same_as<Innovation<S::kDimension>>;
-    };
+  {filter.predict(model, state, dt)};
+  { filter.innovate(model, sensor, z, kept) } -> std::same_as<Innovation<S::kDimension>>;
+  { filter.update(model, sensor, z, state) } -> std::same_as<Innovation<S::kDimension>>;
+};
 
 }  // namespace ttf::fusion::filters

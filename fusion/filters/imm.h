@@ -27,10 +27,9 @@ namespace ttf::fusion::filters {
 // How modes change with time: after `seconds` on the average a mode is drawn anew, mode j with probability share(j). So
 //   P(dt) = e I + (1 - e) 1 share',  e = exp(-dt / seconds),
 // for which P(a) P(b) = P(a + b): asynchronous sensors see the same chain, and nothing changes within no time.
-template <int K>
-struct ModeChain {
-  Vector<K> share = Vector<K>::Constant(1.0 / K);   // positive, of sum 1
-  double seconds = 5.0;                             // above 0
+template <int K> struct ModeChain {
+  Vector<K> share = Vector<K>::Constant(1.0 / K);  // positive, of sum 1
+  double seconds = 5.0;                            // above 0
 
   Matrix<K> transition(double dt) const {
     const double kept = std::exp(-dt / seconds);
@@ -40,8 +39,7 @@ struct ModeChain {
   }
 };
 
-template <class F, motion::Model... Ms>
-class Imm {
+template <class F, motion::Model... Ms> class Imm {
  public:
   static constexpr int kModes = static_cast<int>(sizeof...(Ms));
 
@@ -125,18 +123,15 @@ class Imm {
   }
 
  private:
-  template <int M>
-  using Innovations = std::array<Innovation<M>, static_cast<std::size_t>(kModes)>;
+  template <int M> using Innovations = std::array<Innovation<M>, static_cast<std::size_t>(kModes)>;
 
-  template <int M>
-  static bool all_used(const Innovations<M>& of) {
+  template <int M> static bool all_used(const Innovations<M>& of) {
     return std::all_of(of.begin(), of.end(), [](const Innovation<M>& one) { return one.used; });
   }
 
-  template <class Body>
-  static void each(const Body& body) {
-    [&]<std::size_t... J>(std::index_sequence<J...>) { (body.template operator()<J>(), ...); }(
-        std::index_sequence_for<Ms...>{});
+  template <class Body> static void each(const Body& body) {
+    [&]<std::size_t... J>(std::index_sequence<J...>) { (body.template operator()<J>(), ...); }
+    (std::index_sequence_for<Ms...>{});
   }
 
   // As differences from the most probable mode's innovation, so that angles average as angles.
@@ -173,7 +168,7 @@ class Imm {
     constexpr int kN = To::kStates;
     const Gaussian<kN> own = std::get<J>(before);
     std::array<Gaussian<kN>, static_cast<std::size_t>(kModes)> in_own;
-    Vector<kN> shift = Vector<kN>::Zero();   // of the mean, from this mode's own
+    Vector<kN> shift = Vector<kN>::Zero();  // of the mean, from this mode's own
     each([&]<std::size_t I>() {
       using From = std::tuple_element_t<I, std::tuple<Ms...>>;
       const double weight = weights(static_cast<int>(I));

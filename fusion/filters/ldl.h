@@ -13,8 +13,7 @@ namespace ttf::fusion {
 
 // What whoever takes in a covariance from outside asks of it (fusion/sensors/sensor_model.h): finite, symmetric to the
 // bit, and no pivot that is rounding only, within 1e-12 of its diagonal element.
-template <int M>
-bool positive_definite(const Matrix<M>& a) {
+template <int M> bool positive_definite(const Matrix<M>& a) {
   constexpr double kRounding = 1e-12;
   Matrix<M> l;
   for (int j = 0; j < M; ++j) {
@@ -34,8 +33,7 @@ bool positive_definite(const Matrix<M>& a) {
 
 // Of a positive definite matrix, for solving; anything else is a mistake of the program (positive_definite() above is
 // for asking).
-template <int M>
-class Ldl {
+template <int M> class Ldl {
  public:
   explicit Ldl(const Matrix<M>& a) : l_(a) {
     unrolled<M>([&](auto column) {
@@ -55,8 +53,7 @@ class Ldl {
   }
 
   // B A^-1, for B with columns of any length: whole columns at a time.
-  template <int Rows>
-  Matrix<Rows, M> divide(Matrix<Rows, M> b) const {
+  template <int Rows> Matrix<Rows, M> divide(Matrix<Rows, M> b) const {
     unrolled<M>([&](auto i) { unrolled<i>([&](int k) { b.col(i.value) -= l_(i.value, k) * b.col(k); }); });
     unrolled<M>([&](auto back) {
       constexpr int i = M - 1 - back;
@@ -90,8 +87,7 @@ class Ldl {
 
 // A lower triangular with A A' = P for a positive semi-definite P: a pivot that is zero within rounding leaves a zero
 // column, for there is no uncertainty in that direction.
-template <int N>
-Matrix<N> square_root(const Matrix<N>& p) {
+template <int N> Matrix<N> square_root(const Matrix<N>& p) {
   constexpr double kRounding = 1e-14;
   Matrix<N> a = Matrix<N>::Zero();
   for (int j = 0; j < N; ++j) {

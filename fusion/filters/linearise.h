@@ -9,7 +9,7 @@ namespace ttf::fusion::filters {
 // H_c: d expected / d (the leading components of the state, all that it depends on).
 template <motion::Model M, sensors::Model S>
 Matrix<S::kDimension, leading_columns(S::kParts)> measurement_matrix(const S& sensor, const Kinematics& k,
-                                                                      const Vector<M::kStates>& x) {
+                                                                     const Vector<M::kStates>& x) {
   const Matrix<S::kDimension, S::kParts> h = sensor.jacobian(k);
   if constexpr (S::kParts == kPositionOnly || (S::kParts == kWithVelocity && M::kCartesian))
     return h;

@@ -8,8 +8,7 @@
 
 namespace ttf::fusion::filters {
 
-template <motion::Model... Ms>
-struct Modes {
+template <motion::Model... Ms> struct Modes {
   std::tuple<Gaussian<Ms::kStates>...> estimates;
   Vector<static_cast<int>(sizeof...(Ms))> probability =
       Vector<static_cast<int>(sizeof...(Ms))>::Constant(1.0 / sizeof...(Ms));

@@ -28,8 +28,7 @@ struct Unscented {
   static constexpr const char* kName = "Unscented";
   double alpha = 1.0, beta = 0.0, kappa = 0.0;
 
-  template <motion::Model M>
-  void predict(const M& model, Gaussian<M::kStates>& state, double dt) const {
+  template <motion::Model M> void predict(const M& model, Gaussian<M::kStates>& state, double dt) const {
     constexpr int kN = M::kStates;
     const Weights w(*this, kN);
     const Matrix<kN> noise = model.noise(state.x, dt), a = w.spread * square_root<kN>(state.p);
@@ -70,7 +69,7 @@ struct Unscented {
     const Matrix<kN>& a = sight.a;
     const Matrix<kM, 2 * kN>& d = sight.d;
     const Matrix<kM, kN> opposite = d.template leftCols<kN>() - d.template rightCols<kN>();
-    Matrix<kN, kM> crossed = Matrix<kN, kM>::Zero();   // cov(x, z)
+    Matrix<kN, kM> crossed = Matrix<kN, kM>::Zero();  // cov(x, z)
     add_scaled<kN, kM>(crossed, w.other, times_transposed<kN, kN, kM>(a, opposite));
     const Matrix<kN, kM> gain = ldl.template divide<kN>(crossed);
     state.p = sandwich<kN, kM>(gain, z.r);
@@ -87,15 +86,14 @@ struct Unscented {
  private:
   struct Weights {
     Weights(const Unscented& u, int n) {
-      const double scale = u.alpha * u.alpha * (n + u.kappa);   // n + lambda
+      const double scale = u.alpha * u.alpha * (n + u.kappa);  // n + lambda
       spread = std::sqrt(scale);
       other = 0.5 / scale;
       centre_of_covariance = (scale - n) / scale + 1.0 - u.alpha * u.alpha + u.beta;
     }
 
     // Of images d of the points as differences from the centre's, which become differences from their mean, `shift`.
-    template <int D, int Points>
-    Matrix<D> spread_of(Matrix<D, Points>& d, Vector<D>& shift) const {
+    template <int D, int Points> Matrix<D> spread_of(Matrix<D, Points>& d, Vector<D>& shift) const {
       shift.setZero();
       for (int i = 0; i < Points; ++i) shift += other * d.col(i);
       Matrix<D> sum = Matrix<D>::Zero();
@@ -112,12 +110,11 @@ struct Unscented {
 
   // The points, seen: their distances a from the centre, their images d as differences from the mean of all, which is
   // the centre's image plus `shift`.
-  template <class M, class S>
-  struct Sight {
+  template <class M, class S> struct Sight {
     Matrix<M::kStates> a;
     Matrix<S::kDimension, 2 * M::kStates> d;
     Vector<S::kDimension> shift;
-    Innovation<S::kDimension> innovation;   // but for what judge() says
+    Innovation<S::kDimension> innovation;  // but for what judge() says
   };
 
   // False, and nothing is to be learnt, where the sensor does not see one of the points.

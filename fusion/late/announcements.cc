@@ -33,8 +33,8 @@ std::span<const oosm::Stamp> Announcements::pass(const Scan& scan) {
     const ScheduledInstants& instants = other.instants;
     if (until >= instants.first) {
       const GlobalTime newest = instants.newest_at(until);
-      GlobalTime due = other.next ? std::max(*other.next, newest - instants.period * (kClones - 1))
-                                  : newest + instants.period;
+      GlobalTime due =
+          other.next ? std::max(*other.next, newest - instants.period * (kClones - 1)) : newest + instants.period;
       for (; due <= newest; due += instants.period)
         if (other.sensor != scan.id.sensor || due != mine) due_.push_back(stamp_of(other.sensor, due));
       other.next = due;

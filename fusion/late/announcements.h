@@ -33,7 +33,7 @@ class Announcements {
   struct Sensor {
     SensorId sensor{};
     ScheduledInstants instants;
-    std::optional<GlobalTime> next{};   // the first that time has not passed
+    std::optional<GlobalTime> next{};  // the first that time has not passed
   };
   static oosm::Stamp stamp_of(SensorId sensor, GlobalTime instant) { return {instant, {sensor, 0}}; }
   // The scheduled instant of this list; nothing where its stamp fits none.

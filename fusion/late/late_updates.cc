@@ -26,12 +26,10 @@ double widened(double sigma, double variance) { return std::sqrt(sigma * sigma +
 
 LateUpdates::LateUpdates(const TrackerConfig& config, std::size_t max_observations,
                          std::span<const SensorTiming> sensors)
-    : tracker_(config, max_observations),
-      identities_(tracker_.max_tracks()),
+    : tracker_(config, max_observations), identities_(tracker_.max_tracks()),
       pasts_(late::make_pasts(config, tracker_.max_tracks())),
       announcements_(config.late == oosm::Kind::kClone ? sensors : std::span<const SensorTiming>()),
-      set_(tracker_.max_tracks()),
-      then_(tracker_.max_tracks()) {
+      set_(tracker_.max_tracks()), then_(tracker_.max_tracks()) {
   objects_.reserve(tracker_.max_tracks());
   for (std::size_t slot = tracker_.max_tracks(); slot > 0; --slot) free_.push_back(slot - 1);
   places_.reserve(tracker_.max_tracks());

@@ -58,8 +58,8 @@ class LateUpdates final : public TrackHistory {
   // Of a track, beside it.
   struct Object {
     ObservationId birth;
-    std::size_t slot = 0;                // of its past
-    GlobalTime z_at{}, height_at{};      // when what it carries of the third axis was measured
+    std::size_t slot = 0;            // of its past
+    GlobalTime z_at{}, height_at{};  // when what it carries of the third axis was measured
   };
   void step(const Scan& scan);
   bool mend(const Scan& scan, int lists_since);
@@ -72,12 +72,12 @@ class LateUpdates final : public TrackHistory {
   std::unique_ptr<late::Pasts> pasts_;
   late::Announcements announcements_;
   TrackSet set_;
-  std::vector<Object> objects_;            // of the set's tracks, one by one
-  std::vector<std::size_t> free_;          // slots
-  TrackSet then_;                          // the tracks that have a part in the late list at work, as they were
-  std::vector<std::size_t> places_;        // of those in the set
-  std::vector<Taken> lists_;               // chronological
-  std::optional<Taken> forgotten_;         // the newest list that is not remembered
+  std::vector<Object> objects_;      // of the set's tracks, one by one
+  std::vector<std::size_t> free_;    // slots
+  TrackSet then_;                    // the tracks that have a part in the late list at work, as they were
+  std::vector<std::size_t> places_;  // of those in the set
+  std::vector<Taken> lists_;         // chronological
+  std::optional<Taken> forgotten_;   // the newest list that is not remembered
 };
 
 }  // namespace ttf::fusion

@@ -17,8 +17,8 @@
 
 namespace ttf::fusion::late {
 
-inline constexpr int kRemembered = 16;   // measurements of an object that a method can reach behind, births included
-inline constexpr int kClones = 8;        // of an object, at a time
+inline constexpr int kRemembered = 16;  // measurements of an object that a method can reach behind, births included
+inline constexpr int kClones = 8;       // of an object, at a time
 
 // Measured `after` the stamp's instant, or before: by what a clock is off the schedule. A position of then is taken as
 // H F(after) x + v of the instant's state. What noise does to the object meanwhile is left out: in position a variance

@@ -18,8 +18,7 @@
 
 namespace ttf::fusion::late {
 
-template <motion::LinearModel M, oosm::Method X>
-class PastsOf final : public Pasts {
+template <motion::LinearModel M, oosm::Method X> class PastsOf final : public Pasts {
  public:
   PastsOf(const M& motion, std::size_t slots) : motion_(motion), methods_(slots, X(motion)) {}
 
@@ -42,7 +41,7 @@ class PastsOf final : public Pasts {
   }
   Estimate newest(std::size_t slot, GlobalTime time) const override {
     const Duration elapsed = time - methods_[slot].time();
-    if (elapsed < Duration{}) return moved(methods_[slot].state(), elapsed);   // an instant of a clock that is ahead
+    if (elapsed < Duration{}) return moved(methods_[slot].state(), elapsed);  // an instant of a clock that is ahead
     return oosm::advanced<kN>(methods_[slot].state(), motion_, elapsed);
   }
 
@@ -69,24 +68,15 @@ std::unique_ptr<Pasts> make_pasts_of(const M& motion, oosm::Kind kind, std::size
   constexpr int kN = M::kStates;
   using oosm::Kind;
   switch (kind) {
-    case Kind::kAugmented:
-      return std::make_unique<PastsOf<M, oosm::Augmented<kN, 2, M, kRemembered>>>(motion, slots);
-    case Kind::kClone:
-      return std::make_unique<PastsOf<M, oosm::Clone<kN, 2, M, kClones>>>(motion, slots);
-    case Kind::kAdjoint:
-      return std::make_unique<PastsOf<M, oosm::Adjoint<kN, 2, M, kRemembered>>>(motion, slots);
-    case Kind::kAl1:
-      return std::make_unique<PastsOf<M, oosm::Al1<kN, 2, M, kRemembered>>>(motion, slots);
-    case Kind::kBl1:
-      return std::make_unique<PastsOf<M, oosm::Bl1<kN, 2, M, kRemembered>>>(motion, slots);
-    case Kind::kA:
-      return std::make_unique<PastsOf<M, oosm::AlgorithmA<kN, 2, M>>>(motion, slots);
-    case Kind::kB:
-      return std::make_unique<PastsOf<M, oosm::AlgorithmB<kN, 2, M>>>(motion, slots);
-    case Kind::kC:
-      return std::make_unique<PastsOf<M, oosm::AlgorithmC<kN, 2, M>>>(motion, slots);
-    case Kind::kRewind:
-      break;
+    case Kind::kAugmented: return std::make_unique<PastsOf<M, oosm::Augmented<kN, 2, M, kRemembered>>>(motion, slots);
+    case Kind::kClone: return std::make_unique<PastsOf<M, oosm::Clone<kN, 2, M, kClones>>>(motion, slots);
+    case Kind::kAdjoint: return std::make_unique<PastsOf<M, oosm::Adjoint<kN, 2, M, kRemembered>>>(motion, slots);
+    case Kind::kAl1: return std::make_unique<PastsOf<M, oosm::Al1<kN, 2, M, kRemembered>>>(motion, slots);
+    case Kind::kBl1: return std::make_unique<PastsOf<M, oosm::Bl1<kN, 2, M, kRemembered>>>(motion, slots);
+    case Kind::kA: return std::make_unique<PastsOf<M, oosm::AlgorithmA<kN, 2, M>>>(motion, slots);
+    case Kind::kB: return std::make_unique<PastsOf<M, oosm::AlgorithmB<kN, 2, M>>>(motion, slots);
+    case Kind::kC: return std::make_unique<PastsOf<M, oosm::AlgorithmC<kN, 2, M>>>(motion, slots);
+    case Kind::kRewind: break;
   }
   TTF_CHECK(false, "no past of single states under {}", oosm::name_of(kind));
 }

@@ -28,10 +28,10 @@ namespace ttf::fusion::metrics {
 
 struct ClearMotCounts {
   std::uint64_t instants = 0;
-  std::uint64_t objects = 0, tracks = 0;   // summed over the instants
-  std::uint64_t matches = 0;               // switched ones too
+  std::uint64_t objects = 0, tracks = 0;  // summed over the instants
+  std::uint64_t matches = 0;              // switched ones too
   std::uint64_t misses = 0, false_positives = 0, switches = 0;
-  double distance_sum_m = 0.0;             // of the matches
+  double distance_sum_m = 0.0;  // of the matches
 
   // Not a number where there was nothing to judge.
   double mota() const {
@@ -47,8 +47,8 @@ struct ClearMotCounts {
 class ClearMot {
  public:
   struct Capacity {
-    std::size_t objects = 0, tracks = 0;   // at one instant
-    std::size_t objects_ever = 0;          // different ones that are ever matched
+    std::size_t objects = 0, tracks = 0;  // at one instant
+    std::size_t objects_ever = 0;         // different ones that are ever matched
   };
   // Object and track further apart than `gate_m` (finite, > 0) do not belong together.
   ClearMot(const Capacity& capacity, double gate_m);
@@ -69,17 +69,16 @@ class ClearMot {
     std::uint64_t instant = 0;
   };
   const Last* last_of(Identity object) const;
-  void keep(std::span<const Identity> objects, std::span<const Identity> tracks,
-            std::span<const double> distances);
+  void keep(std::span<const Identity> objects, std::span<const Identity> tracks, std::span<const double> distances);
   void pair_others(std::size_t objects, std::size_t tracks, std::span<const double> distances);
   void remember(Identity object, Identity track);
 
   Capacity capacity_;
   double gate_;
   ClearMotCounts counts_;
-  std::vector<Last> last_;                           // by object
+  std::vector<Last> last_;  // by object
   std::vector<std::size_t> objects_by_name_, tracks_by_name_;
-  std::vector<int> track_of_, object_of_;            // by place in the order of names; Pairing::kNone
+  std::vector<int> track_of_, object_of_;  // by place in the order of names; Pairing::kNone
   std::vector<Identity> object_names_, track_names_;
   std::vector<double> distances_;
   std::vector<Match> matches_;

@@ -19,7 +19,7 @@ struct Named {
 struct Match {
   Identity object = 0, track = 0;
   double distance_m = 0.0;
-  bool switched = false;   // another track followed the object when it was last matched
+  bool switched = false;  // another track followed the object when it was last matched
 };
 
 }  // namespace ttf::fusion::metrics

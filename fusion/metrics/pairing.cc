@@ -8,12 +8,8 @@
 namespace ttf::fusion::metrics {
 
 Pairing::Pairing(std::size_t max_rows, std::size_t max_columns)
-    : max_rows_(max_rows),
-      max_columns_(max_columns),
-      cost_(max_rows * max_columns),
-      column_of_(max_rows),
-      row_of_(max_columns),
-      assignment_(max_rows, max_columns) {
+    : max_rows_(max_rows), max_columns_(max_columns), cost_(max_rows * max_columns), column_of_(max_rows),
+      row_of_(max_columns), assignment_(max_rows, max_columns) {
   candidates_.reserve(max_rows * max_columns);
 }
 

@@ -43,7 +43,7 @@ class Pairing {
   bool prefer_smaller_column(std::size_t row);
 
   std::size_t max_rows_, max_columns_, rows_ = 0, columns_ = 0;
-  std::vector<double> cost_;   // infinite where no pair was offered
+  std::vector<double> cost_;  // infinite where no pair was offered
   std::vector<Candidate> candidates_;
   std::vector<int> column_of_, row_of_;
   Assignment assignment_;

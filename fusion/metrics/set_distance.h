@@ -26,24 +26,24 @@
 namespace ttf::fusion::metrics {
 
 struct CutOff {
-  double distance_m = 5.0;   // c, > 0 [m]
-  double order = 2.0;        // p in [1, 64]
+  double distance_m = 5.0;  // c, > 0 [m]
+  double order = 2.0;       // p in [1, 64]
 };
 
 struct Gospa {
   double distance_m = 0.0;
-  double localisation = 0.0, missed = 0.0, false_estimates = 0.0;   // [m^p]; their sum is distance_m^p
+  double localisation = 0.0, missed = 0.0, false_estimates = 0.0;  // [m^p]; their sum is distance_m^p
 };
 
 struct Ospa {
   double distance_m = 0.0;
-  double localisation = 0.0, cardinality = 0.0;   // [m^p]; their sum is distance_m^p
+  double localisation = 0.0, cardinality = 0.0;  // [m^p]; their sum is distance_m^p
 };
 
 struct SetDistance {
   Gospa gospa;
   Ospa ospa;
-  std::size_t pairs = 0;    // nearer than the cut-off
+  std::size_t pairs = 0;  // nearer than the cut-off
 };
 
 class SetMetric {

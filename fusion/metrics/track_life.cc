@@ -36,7 +36,7 @@ void TrackLives::step(TrueTime at, std::span<const Identity> objects, std::span<
     TTF_CHECK(life.instants == 0 || life.last < at, "object {} listed twice at {} ns", object, at.ns);
     life.last = at;
     ++life.instants;
-    ++life.missed_in_a_row;   // unless a match says otherwise
+    ++life.missed_in_a_row;  // unless a match says otherwise
   }
   for (const Match& match : matches) {
     ObjectLife& life = life_of(match.object, at);

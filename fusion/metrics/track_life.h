@@ -25,10 +25,10 @@ enum class Coverage { kMostlyTracked, kPartlyTracked, kMostlyLost };
 
 struct ObjectLife {
   Identity object = 0;
-  TrueTime born{}, last{};               // first and last instant listed
+  TrueTime born{}, last{};  // first and last instant listed
   std::optional<TrueTime> confirmed;
   std::uint64_t instants = 0, tracked = 0;
-  std::uint64_t missed_in_a_row = 0;     // instants listed since the last match, or since birth
+  std::uint64_t missed_in_a_row = 0;  // instants listed since the last match, or since birth
   std::uint64_t fragmentations = 0, switches = 0;
 
   std::optional<Duration> confirmed_after() const {
@@ -44,7 +44,7 @@ struct LifeSummary {
   std::uint64_t fragmentations = 0, switches = 0;
   // Not a number where no object was confirmed, or listed.
   double mean_confirmed_after_s = 0.0, mean_fraction_tracked = 0.0;
-  Duration worst_confirmed_after{};      // of those confirmed
+  Duration worst_confirmed_after{};  // of those confirmed
 };
 
 class TrackLives {
@@ -55,7 +55,7 @@ class TrackLives {
   // of ClearMot::step. Allocates nothing.
   void step(TrueTime at, std::span<const Identity> objects, std::span<const Match> matches);
 
-  std::span<const ObjectLife> lives() const { return lives_; }   // in the order of the objects' names
+  std::span<const ObjectLife> lives() const { return lives_; }  // in the order of the objects' names
   LifeSummary summary() const;
 
  private:

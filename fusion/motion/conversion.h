@@ -21,7 +21,7 @@
 
 namespace ttf::fusion::motion {
 
-inline constexpr double kTurning = 1.0;   // [m/s]
+inline constexpr double kTurning = 1.0;  // [m/s]
 
 // (x, y, vx, vy, ax, ay), or only the first four of them.
 struct Whole {
@@ -29,8 +29,7 @@ struct Whole {
   bool knows_acceleration = false;
 };
 
-template <Model From>
-Whole whole(const Gaussian<From::kStates>& from) {
+template <Model From> Whole whole(const Gaussian<From::kStates>& from) {
   constexpr int kN = From::kStates;
   Whole to{.estimate = {}, .knows_acceleration = !(From::kCartesian && kN == 4)};
   Vector<6>& x = to.estimate.x;
@@ -44,7 +43,7 @@ Whole whole(const Gaussian<From::kStates>& from) {
     if constexpr (kN == 6) along = from.x(5);
     x << from.x(0), from.x(1), speed * c, speed * s, along * c - speed * rate * s, along * s + speed * rate * c;
     j(0, 0) = j(1, 1) = 1.0;
-    for (int i = 2; i < 6; i += 2) {   // both vectors turn with the heading
+    for (int i = 2; i < 6; i += 2) {  // both vectors turn with the heading
       j(i, 2) = -x(i + 1);
       j(i + 1, 2) = x(i);
     }
@@ -63,8 +62,7 @@ Whole whole(const Gaussian<From::kStates>& from) {
   return to;
 }
 
-template <Model To>
-Gaussian<To::kStates> from_whole(const Whole& from, const Gaussian<To::kStates>& own) {
+template <Model To> Gaussian<To::kStates> from_whole(const Whole& from, const Gaussian<To::kStates>& own) {
   constexpr int kN = To::kStates;
   const Vector<6>& w = from.estimate.x;
   Gaussian<kN> to = own;
@@ -116,7 +114,7 @@ Gaussian<To::kStates> from_whole(const Whole& from, const Gaussian<To::kStates>&
 }
 
 template <class A, class B>
-inline constexpr bool kSameLayout = A::kCartesian == B::kCartesian && A::kStates == B::kStates;
+inline constexpr bool kSameLayout = A::kCartesian == B::kCartesian&& A::kStates == B::kStates;
 
 template <Model From, Model To>
 Gaussian<To::kStates> converted(const Gaussian<From::kStates>& from, const Gaussian<To::kStates>& own) {

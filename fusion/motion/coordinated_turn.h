@@ -25,15 +25,14 @@
 
 namespace ttf::fusion::motion {
 
-template <int N>
-struct CoordinatedTurn : Polar<N> {
+template <int N> struct CoordinatedTurn : Polar<N> {
   using Layout = Polar<N>;
   static constexpr int kStates = N;
   static constexpr bool kLinear = false;
   static constexpr bool kAccelerates = N == 6;
 
-  double turn_density = 1.0;    // of the turn acceleration [rad^2/s^3], >= 0
-  double along_density = 1.0;   // of the acceleration [m^2/s^3], or of the jerk [m^2/s^5]; >= 0
+  double turn_density = 1.0;   // of the turn acceleration [rad^2/s^3], >= 0
+  double along_density = 1.0;  // of the acceleration [m^2/s^3], or of the jerk [m^2/s^5]; >= 0
 
   Vector<N> move(const Vector<N>& x, double dt) const {
     TTF_CHECK(dt >= 0.0, "prediction by {} s", dt);
@@ -75,8 +74,8 @@ struct CoordinatedTurn : Polar<N> {
   }
 
   Matrix<N> noise(const Vector<N>& x, double dt) const {
-    constexpr double kInner = 0.33998104358485626, kOuter = 0.86113631159405258;   // sqrt(3/7 -+ 2/7 sqrt(6/5))
-    constexpr double kHeavy = 0.32607257743127307, kLight = 0.17392742256872693;   // (18 +- sqrt(30)) / 72
+    constexpr double kInner = 0.33998104358485626, kOuter = 0.86113631159405258;  // sqrt(3/7 -+ 2/7 sqrt(6/5))
+    constexpr double kHeavy = 0.32607257743127307, kLight = 0.17392742256872693;  // (18 +- sqrt(30)) / 72
     constexpr double kNodes[] = {-kOuter, -kInner, kInner, kOuter}, kWeights[] = {kLight, kHeavy, kHeavy, kLight};
     Matrix<N> q = Matrix<N>::Zero();
     for (int i = 0; i < 4; ++i) {

@@ -11,12 +11,11 @@
 
 namespace ttf::fusion::motion {
 
-template <int K>
-struct IntegratorChain : Cartesian<2 * K> {
+template <int K> struct IntegratorChain : Cartesian<2 * K> {
   static constexpr int kStates = 2 * K;
   static constexpr bool kLinear = true;
 
-  double spectral_density = 1.0;   // of the noise that drives each axis [m^2/s^(2K-1)], >= 0
+  double spectral_density = 1.0;  // of the noise that drives each axis [m^2/s^(2K-1)], >= 0
 
   Vector<kStates> move(const Vector<kStates>& x, double dt) const {
     Vector<kStates> moved = x;
@@ -55,8 +54,7 @@ struct IntegratorChain : Cartesian<2 * K> {
   static double step_by(double dt, int n) { return power(dt, n) * (1.0 / factorial(n)); }
 
   // From the top downwards: the rows below are still those before the step.
-  template <class Rows>
-  static void advance_rows(Rows& a, double dt) {
+  template <class Rows> static void advance_rows(Rows& a, double dt) {
     unrolled<K>([&](auto i) {
       unrolled<K - 1 - i>([&](auto below) {
         constexpr int kSteps = below + 1;

@@ -10,21 +10,18 @@
 namespace ttf::fusion {
 
 // body(0), ..., body(N - 1) with indices that are constants: g++ at -O2 keeps most small loops as loops.
-template <int N, class Body>
-constexpr void unrolled(const Body& body) {
-  [&]<int... I>(std::integer_sequence<int, I...>) { (body(std::integral_constant<int, I>{}), ...); }(
-      std::make_integer_sequence<int, N>{});
+template <int N, class Body> constexpr void unrolled(const Body& body) {
+  [&]<int... I>(std::integer_sequence<int, I...>) { (body(std::integral_constant<int, I>{}), ...); }
+  (std::make_integer_sequence<int, N>{});
 }
 
 // The lower triangle becomes the upper one's mirror image: of what is symmetric but for rounding.
-template <int N>
-void mirror(Matrix<N>& p) {
+template <int N> void mirror(Matrix<N>& p) {
   unrolled<N>([&](auto c) { unrolled<c>([&](int r) { p(c.value, r) = p(r, c.value); }); });
 }
 
 // A B.
-template <int R, int K, int C>
-Matrix<R, C> times(const Matrix<R, K>& a, const Matrix<K, C>& b) {
+template <int R, int K, int C> Matrix<R, C> times(const Matrix<R, K>& a, const Matrix<K, C>& b) {
   Matrix<R, C> out;
   for (int j = 0; j < C; ++j)
     for (int i = 0; i < R; ++i) {
@@ -36,8 +33,7 @@ Matrix<R, C> times(const Matrix<R, K>& a, const Matrix<K, C>& b) {
 }
 
 // A B'.
-template <int R, int K, int C>
-Matrix<R, C> times_transposed(const Matrix<R, K>& a, const Matrix<C, K>& b) {
+template <int R, int K, int C> Matrix<R, C> times_transposed(const Matrix<R, K>& a, const Matrix<C, K>& b) {
   Matrix<R, C> out;
   for (int j = 0; j < C; ++j)
     for (int i = 0; i < R; ++i) {
@@ -49,8 +45,7 @@ Matrix<R, C> times_transposed(const Matrix<R, K>& a, const Matrix<C, K>& b) {
 }
 
 // J P J'. Only the innermost loops are unrolled: most of the gain, little of the compiler's time.
-template <int N, int K>
-Matrix<N> sandwich(const Matrix<N, K>& j, const Matrix<K>& p) {
+template <int N, int K> Matrix<N> sandwich(const Matrix<N, K>& j, const Matrix<K>& p) {
   Matrix<N, K> jp;
   for (int c = 0; c < K; ++c)
     for (int r = 0; r < N; ++r) {
@@ -69,14 +64,12 @@ Matrix<N> sandwich(const Matrix<N, K>& j, const Matrix<K>& p) {
 }
 
 // P += weight v v'.
-template <int N>
-void add_outer(Matrix<N>& p, double weight, const Vector<N>& v) {
+template <int N> void add_outer(Matrix<N>& p, double weight, const Vector<N>& v) {
   for (int c = 0; c < N; ++c) unrolled<N>([&](int r) { p(r, c) += weight * (v(r) * v(c)); });
 }
 
 // a += weight b, of any shape.
-template <int N, int K>
-void add_scaled(Matrix<N, K>& a, double weight, const Matrix<N, K>& b) {
+template <int N, int K> void add_scaled(Matrix<N, K>& a, double weight, const Matrix<N, K>& b) {
   for (int c = 0; c < K; ++c)
     for (int r = 0; r < N; ++r) a(r, c) += weight * b(r, c);
 }

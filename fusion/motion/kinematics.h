@@ -8,10 +8,10 @@
 namespace ttf::fusion {
 
 struct Kinematics {
-  Vector<2> position = Vector<2>::Zero();   // [m]
-  Vector<2> velocity = Vector<2>::Zero();   // [m/s]
-  double heading = 0.0;                     // [rad]
-  bool has_heading = false;                 // not of something slow whose heading is only known as its course
+  Vector<2> position = Vector<2>::Zero();  // [m]
+  Vector<2> velocity = Vector<2>::Zero();  // [m/s]
+  double heading = 0.0;                    // [rad]
+  bool has_heading = false;                // not of something slow whose heading is only known as its course
 };
 
 // How many of (x, y, vx, vy, heading) are asked for: what is not asked for need not be computed.

@@ -16,8 +16,7 @@ namespace ttf::fusion::motion {
 // Slower than this [m/s], a course says nothing of the heading.
 inline constexpr double kSlowest = 0.1;
 
-template <int N>
-struct Cartesian {
+template <int N> struct Cartesian {
   static_assert(N == 4 || N == 6);
   static constexpr int kStates = N;
   static constexpr bool kCartesian = true;
@@ -25,8 +24,7 @@ struct Cartesian {
   static Vector<N> difference(const Vector<N>& a, const Vector<N>& b) { return a - b; }
   static void normalise(Vector<N>&) {}
 
-  template <int Parts>
-  static Kinematics kinematics(const Vector<N>& x) {
+  template <int Parts> static Kinematics kinematics(const Vector<N>& x) {
     Kinematics k{.position = x.template head<2>(), .velocity = x.template segment<2>(2)};
     if constexpr (Parts == kWithHeading) {
       k.has_heading = k.velocity.squaredNorm() >= kSlowest * kSlowest;
@@ -47,8 +45,7 @@ struct Cartesian {
   }
 };
 
-template <int N>
-struct Polar {
+template <int N> struct Polar {
   static_assert(N == 5 || N == 6);
   static constexpr int kStates = N;
   static constexpr bool kCartesian = false;
@@ -61,8 +58,7 @@ struct Polar {
   }
   static void normalise(Vector<N>& x) { x(kHeading) = to_half_turn(x(kHeading)); }
 
-  template <int Parts>
-  static Kinematics kinematics(const Vector<N>& x) {
+  template <int Parts> static Kinematics kinematics(const Vector<N>& x) {
     Kinematics k{.position = x.template head<2>()};
     if constexpr (Parts >= kWithVelocity)
       k.velocity = x(kSpeed) * Vector<2>(std::cos(x(kHeading)), std::sin(x(kHeading)));

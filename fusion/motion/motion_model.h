@@ -24,7 +24,7 @@ concept Model = requires(const M& model, const Vector<M::kStates>& x, Vector<M::
   { model.jacobian(x, dt) } -> std::same_as<Matrix<M::kStates>>;
   { model.noise(x, dt) } -> std::same_as<Matrix<M::kStates>>;
   { M::difference(x, x) } -> std::same_as<Vector<M::kStates>>;
-  { M::normalise(changed) };
+  {M::normalise(changed)};
   { M::template kinematics<kWithHeading>(x) } -> std::same_as<Kinematics>;
   { M::kinematics_jacobian(x) } -> std::same_as<Matrix<5, 4>>;
 };
@@ -37,7 +37,7 @@ concept LinearModel = Model<M> && M::kLinear && requires(const M& model, double 
 // Adds a step to state and covariance in place; the same as step(dt), but for rounding.
 template <class M>
 concept StructuredModel = LinearModel<M> && requires(const M& model, Gaussian<M::kStates>& state, double dt) {
-  { model.advance(state, dt) };
+  {model.advance(state, dt)};
 };
 
 }  // namespace ttf::fusion::motion

@@ -27,7 +27,7 @@ struct TurnSeries {
 };
 constexpr TurnSeries turn_series() {
   TurnSeries series{};
-  double even = 1.0, odd = 1.0;   // (-1)^j / (2j)! and / (2j + 1)!
+  double even = 1.0, odd = 1.0;  // (-1)^j / (2j)! and / (2j + 1)!
   for (std::size_t j = 0; j < kTurnTerms; ++j) {
     const double twice = 2.0 * static_cast<double>(j);
     for (std::size_t k = 0; k < 3; ++k) {

@@ -22,8 +22,7 @@
 
 namespace ttf::fusion::oosm {
 
-template <int N, int M, Motion<N> Model, int Capacity>
-class Adjoint {
+template <int N, int M, Motion<N> Model, int Capacity> class Adjoint {
  public:
   static constexpr int kStates = N, kDimension = M;
   static constexpr Exactness kExactness = Exactness::kOneLate;
@@ -60,11 +59,11 @@ class Adjoint {
  private:
   struct Entry {
     Stamp stamp;
-    Gaussian<N> estimate;    // after the update
-    Matrix<N> f;             // over the step before it
-    Matrix<N> kept;          // M = I - K H
-    Vector<N> pull;          // H' S^-1 nu
-    Matrix<N> information;   // H' S^-1 H
+    Gaussian<N> estimate;   // after the update
+    Matrix<N> f;            // over the step before it
+    Matrix<N> kept;         // M = I - K H
+    Vector<N> pull;         // H' S^-1 nu
+    Matrix<N> information;  // H' S^-1 H
   };
 
   void begin(const Stamp& stamp, const Gaussian<N>& estimate) {

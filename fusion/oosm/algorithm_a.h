@@ -14,11 +14,9 @@
 
 namespace ttf::fusion::oosm {
 
-template <int N>
-class MemoryA {
+template <int N> class MemoryA {
  public:
-  template <int M>
-  [[gnu::flatten]] void corrected(const Matrix<N>& predicted, const Whitened<N, M>& whitened) {
+  template <int M> [[gnu::flatten]] void corrected(const Matrix<N>& predicted, const Whitened<N, M>& whitened) {
     predicted_ = predicted;
     pull_ = whitened.h.transpose() * whitened.nu;
     information_ = whitened.h.transpose() * whitened.h;
@@ -40,7 +38,6 @@ class MemoryA {
   Matrix<N> information_ = Matrix<N>::Zero();
 };
 
-template <int N, int M, Motion<N> Model>
-using AlgorithmA = OneLag<N, M, Model, MemoryA<N>, Exactness::kOneLate>;
+template <int N, int M, Motion<N> Model> using AlgorithmA = OneLag<N, M, Model, MemoryA<N>, Exactness::kOneLate>;
 
 }  // namespace ttf::fusion::oosm

@@ -12,11 +12,9 @@
 
 namespace ttf::fusion::oosm {
 
-template <int N>
-class MemoryB {
+template <int N> class MemoryB {
  public:
-  template <int M>
-  [[gnu::flatten]] void corrected(const Matrix<N>& predicted, const Whitened<N, M>& whitened) {
+  template <int M> [[gnu::flatten]] void corrected(const Matrix<N>& predicted, const Whitened<N, M>& whitened) {
     predicted_ = predicted;
     information_ = whitened.h.transpose() * whitened.h;
   }
@@ -35,7 +33,6 @@ class MemoryB {
   Matrix<N> information_ = Matrix<N>::Zero();
 };
 
-template <int N, int M, Motion<N> Model>
-using AlgorithmB = OneLag<N, M, Model, MemoryB<N>, Exactness::kApproximate>;
+template <int N, int M, Motion<N> Model> using AlgorithmB = OneLag<N, M, Model, MemoryB<N>, Exactness::kApproximate>;
 
 }  // namespace ttf::fusion::oosm

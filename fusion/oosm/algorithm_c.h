@@ -10,18 +10,15 @@
 
 namespace ttf::fusion::oosm {
 
-template <int N>
-class MemoryC {
+template <int N> class MemoryC {
  public:
-  template <int M>
-  void corrected(const Matrix<N>&, const Whitened<N, M>&) {}
+  template <int M> void corrected(const Matrix<N>&, const Whitened<N, M>&) {}
   Retrodicted<N> retrodict(const Gaussian<N>& now, const LinearStep<N>& step) const {
     return fusion::oosm::retrodict<N>(now, step.f, Vector<N>::Zero(), Matrix<N>::Zero(), Matrix<N>::Zero());
   }
   void booked(const Gaussian<N>&, const Gaussian<N>&) {}
 };
 
-template <int N, int M, Motion<N> Model>
-using AlgorithmC = OneLag<N, M, Model, MemoryC<N>, Exactness::kApproximate>;
+template <int N, int M, Motion<N> Model> using AlgorithmC = OneLag<N, M, Model, MemoryC<N>, Exactness::kApproximate>;
 
 }  // namespace ttf::fusion::oosm

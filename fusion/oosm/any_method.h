@@ -21,11 +21,10 @@
 
 namespace ttf::fusion::oosm {
 
-template <int N, int M, Motion<N> Model, int Capacity = 16, int Clones = 8>
-class AnyMethod {
+template <int N, int M, Motion<N> Model, int Capacity = 16, int Clones = 8> class AnyMethod {
  public:
   static constexpr int kStates = N, kDimension = M;
-  static constexpr Exactness kExactness = Exactness::kApproximate;   // the least that may be inside
+  static constexpr Exactness kExactness = Exactness::kApproximate;  // the least that may be inside
 
   AnyMethod(Kind kind, const Model& motion) : method_(make(kind, motion)) {}
 
@@ -56,14 +55,13 @@ class AnyMethod {
 
  private:
   // In the order of kKinds.
-  using Methods = std::variant<Rewind<N, M, Model, Capacity>, Augmented<N, M, Model, Capacity>,
-                               Clone<N, M, Model, Clones>, Adjoint<N, M, Model, Capacity>,
-                               Al1<N, M, Model, Capacity>, Bl1<N, M, Model, Capacity>, AlgorithmA<N, M, Model>,
-                               AlgorithmB<N, M, Model>, AlgorithmC<N, M, Model>>;
+  using Methods =
+      std::variant<Rewind<N, M, Model, Capacity>, Augmented<N, M, Model, Capacity>, Clone<N, M, Model, Clones>,
+                   Adjoint<N, M, Model, Capacity>, Al1<N, M, Model, Capacity>, Bl1<N, M, Model, Capacity>,
+                   AlgorithmA<N, M, Model>, AlgorithmB<N, M, Model>, AlgorithmC<N, M, Model>>;
   static_assert(std::variant_size_v<Methods> == kKinds.size());
 
-  template <std::size_t I = 0>
-  static Methods make(Kind kind, const Model& motion) {
+  template <std::size_t I = 0> static Methods make(Kind kind, const Model& motion) {
     if constexpr (I + 1 < kKinds.size())
       if (kind != kKinds[I].kind) return make<I + 1>(kind, motion);
     return Methods(std::in_place_index<I>, motion);

@@ -19,8 +19,7 @@
 
 namespace ttf::fusion::oosm {
 
-template <int N, int M, Motion<N> Model, int Capacity>
-class Augmented {
+template <int N, int M, Motion<N> Model, int Capacity> class Augmented {
   static_assert(Capacity >= 2, "a start and one measurement");
 
  public:
@@ -71,7 +70,7 @@ class Augmented {
   static constexpr int kNone = -2;
 
   struct Neighbours {
-    int before = kNone;            // not after the stamp
+    int before = kNone;  // not after the stamp
     int after = States::kNow;
   };
 
@@ -116,7 +115,7 @@ class Augmented {
 
   Model motion_;
   States joint_;
-  std::array<Stamp, Capacity> stamps_{};   // of the slots
+  std::array<Stamp, Capacity> stamps_{};  // of the slots
   Stamp last_;
 };
 

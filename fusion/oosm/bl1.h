@@ -10,7 +10,6 @@
 
 namespace ttf::fusion::oosm {
 
-template <int N, int M, Motion<N> Model, int Capacity>
-using Bl1 = Collapsed<N, M, Model, Capacity, Noise::kIgnored>;
+template <int N, int M, Motion<N> Model, int Capacity> using Bl1 = Collapsed<N, M, Model, Capacity, Noise::kIgnored>;
 
 }  // namespace ttf::fusion::oosm

@@ -25,8 +25,7 @@
 namespace ttf::fusion::oosm {
 
 // Clones at once, and as many announcements of instants that time has not passed yet.
-template <int N, int M, Motion<N> Model, int Clones>
-class Clone {
+template <int N, int M, Motion<N> Model, int Clones> class Clone {
  public:
   static constexpr int kStates = N, kDimension = M;
   static constexpr Exactness kExactness = Exactness::kAlways;
@@ -118,11 +117,11 @@ class Clone {
 
   Model motion_;
   Joint<N, M, Clones> joint_;
-  std::array<Stamp, Clones> stamps_{};      // of the clones
-  std::array<Stamp, Clones> announced_{};   // not passed yet, in order
+  std::array<Stamp, Clones> stamps_{};     // of the clones
+  std::array<Stamp, Clones> announced_{};  // not passed yet, in order
   int pending_ = 0;
   Stamp last_, gone_;
-  GlobalTime reached_{};                    // by the motion, while a measurement is being taken
+  GlobalTime reached_{};  // by the motion, while a measurement is being taken
 };
 
 }  // namespace ttf::fusion::oosm

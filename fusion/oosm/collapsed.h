@@ -20,14 +20,14 @@
 
 namespace ttf::fusion::oosm {
 
-enum class Noise : std::uint8_t { kRetrodicted = 0, kIgnored = 1 };   // Al1, Bl1
+enum class Noise : std::uint8_t { kRetrodicted = 0, kIgnored = 1 };  // Al1, Bl1
 
 // `predicted` is (x*, P*), `step` goes from tau to t(k).
 template <int N>
 [[gnu::flatten]] Retrodicted<N> retrodict_collapsed(const Gaussian<N>& now, const Gaussian<N>& predicted,
                                                     const LinearStep<N>& step, Noise noise) {
   const Matrix<N> root = whitening<N>(predicted.p);
-  const Matrix<N> share = root.transpose() * (root * step.q);   // P*^-1 Q
+  const Matrix<N> share = root.transpose() * (root * step.q);  // P*^-1 Q
   const Matrix<N> cross = now.p * share;
   if (noise == Noise::kIgnored) return retrodict<N>(now, step.f, Vector<N>::Zero(), step.q, cross);
   const Vector<N> mean = share.transpose() * (now.x - predicted.x);
@@ -35,8 +35,7 @@ template <int N>
 }
 
 // Remembers the stamps taken in order, and nothing of late ones.
-template <int N, int M, Motion<N> Model, int Capacity, Noise kNoise>
-class Collapsed {
+template <int N, int M, Motion<N> Model, int Capacity, Noise kNoise> class Collapsed {
  public:
   static constexpr int kStates = N, kDimension = M;
   static constexpr Exactness kExactness = Exactness::kApproximate;
@@ -79,7 +78,7 @@ class Collapsed {
  private:
   struct Entry {
     Stamp stamp;
-    Gaussian<N> estimate;   // as it was when the next one came
+    Gaussian<N> estimate;  // as it was when the next one came
   };
 
   // `then` is the last not after tau.

@@ -1,8 +1,8 @@
 // The update in order that all methods here share, and what they keep of it. With S = H P H' + R = L L' (Cholesky):
 //   h = L^-1 H,  nu = L^-1 (z - H x),  V = P h',  K = V L^-1;   x <- x + V nu,  T = P - V V',
 //   P <- T - (T H' - K R) K',   which is the Joseph form multiplied out: O(n^2 m), and I - K H is never formed.
-// It is the update of fusion/filters/correct.h up to rounding, at any P and H. What later measurements say about earlier states
-// is made of h, nu and V alone:  H' S^-1 H = h' h,  H' S^-1 nu = h' nu,  K H = V h.
+// It is the update of fusion/filters/correct.h up to rounding, at any P and H. What later measurements say about
+// earlier states is made of h, nu and V alone:  H' S^-1 H = h' h,  H' S^-1 nu = h' nu,  K H = V h.
 //
 // [[gnu::flatten]], here and in the other small functions of this room that are all arithmetic: at -O2 the compiler
 // leaves most of Eigen's small products as calls, which cost more than what they compute.
@@ -13,8 +13,7 @@
 
 namespace ttf::fusion::oosm {
 
-template <int N, int M>
-struct Whitened {
+template <int N, int M> struct Whitened {
   Matrix<M, N> h;
   Vector<M> nu;
   Matrix<N, M> v;
@@ -34,7 +33,7 @@ template <int N, int M>
   const Matrix<N, M> gain = result.v * root;
   Matrix<N> p = state.p;
   p.noalias() -= result.v * result.v.transpose();
-  Matrix<N, M> slip;   // T H' - K R
+  Matrix<N, M> slip;  // T H' - K R
   slip.noalias() = p * measurement.h.transpose();
   slip.noalias() -= gain * measurement.r;
   p.noalias() -= slip * gain.transpose();

@@ -9,8 +9,7 @@
 
 namespace ttf::fusion::oosm {
 
-template <class Entry, int Capacity>
-class History {
+template <class Entry, int Capacity> class History {
   static_assert(Capacity >= 2, "a start and one measurement");
 
  public:

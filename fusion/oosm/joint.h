@@ -22,8 +22,7 @@
 namespace ttf::fusion::oosm {
 
 // x(tau) = a x(before) + b x(after) + e, e ~ N(0, q) and independent of all else.
-template <int N>
-struct Bridge {
+template <int N> struct Bridge {
   Matrix<N> a = Matrix<N>::Zero();
   Matrix<N> b = Matrix<N>::Zero();
   Matrix<N> q = Matrix<N>::Zero();
@@ -34,8 +33,7 @@ struct Bridge {
 //   b = Q1 F2' (F2 Q1 F2' + Q2)^-1,  a = F1 - b F2 F1,  q = Q1 - b F2 Q1
 // (the gain as in Garcia-Fernandez, Yi: "Continuous-discrete multiple target tracking with out-of-sequence
 // measurements", IEEE TSP 69, 2021, eq. 36-37). Without noise the earlier instant alone tells.
-template <int N>
-[[gnu::flatten]] Bridge<N> bridge(const LinearStep<N>& first, const LinearStep<N>& second) {
+template <int N> [[gnu::flatten]] Bridge<N> bridge(const LinearStep<N>& first, const LinearStep<N>& second) {
   const Matrix<N> fq = second.f * first.q;
   Matrix<N> whole = second.q;
   whole.noalias() += fq * second.f.transpose();
@@ -50,10 +48,9 @@ template <int N>
   return result;
 }
 
-template <int N, int M, int Slots>
-class Joint {
+template <int N, int M, int Slots> class Joint {
  public:
-  static constexpr int kNow = -1;   // in place of a slot: the newest state
+  static constexpr int kNow = -1;  // in place of a slot: the newest state
 
   const Gaussian<N>& now() const { return now_; }
   int size() const { return size_; }
@@ -103,8 +100,8 @@ class Joint {
     const Matrix<N> mixed = bridge.b * between(after, before) * bridge.a.transpose();
     Gaussian<N> result;
     result.x = bridge.a * then.x + bridge.b * later.x;
-    result.p = bridge.q + bridge.a * then.p * bridge.a.transpose() + bridge.b * later.p * bridge.b.transpose() +
-               mixed + mixed.transpose();
+    result.p = bridge.q + bridge.a * then.p * bridge.a.transpose() + bridge.b * later.p * bridge.b.transpose() + mixed +
+               mixed.transpose();
     symmetrise<N>(result.p);
     return result;
   }
@@ -176,7 +173,7 @@ class Joint {
   std::array<Vector<N>, Slots> x_{};
   std::array<Matrix<N>, Slots> cross_{};
   std::array<Matrix<N>, kBlocks> blocks_{};
-  std::array<Matrix<N, M>, Slots> gains_{};   // of the correction at work
+  std::array<Matrix<N, M>, Slots> gains_{};  // of the correction at work
 };
 
 }  // namespace ttf::fusion::oosm

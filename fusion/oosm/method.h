@@ -52,22 +52,22 @@ class Stamp {
   constexpr explicit Stamp(GlobalTime time) : time_(time) {}
 
   GlobalTime time_{};
-  std::int64_t order_ = -1;   // among stamps of one time
+  std::int64_t order_ = -1;  // among stamps of one time
 };
 
 enum class Taken : std::uint8_t {
   kInOrder = 1,
-  kLate = 2,          // taken in behind what was there
-  kTooOld = 3,        // older than what the method remembers: not taken
-  kDuplicate = 4,     // a stamp the method remembers: not taken again
-  kUnannounced = 5,   // late, and of an instant the method was not told of in time: not taken
+  kLate = 2,         // taken in behind what was there
+  kTooOld = 3,       // older than what the method remembers: not taken
+  kDuplicate = 4,    // a stamp the method remembers: not taken again
+  kUnannounced = 5,  // late, and of an instant the method was not told of in time: not taken
 };
 
 // What is exact besides processing in order. Motions that compose (below) provided.
 enum class Exactness : std::uint8_t {
   kApproximate = 0,
-  kOneLate = 1,   // one late measurement, after what is measured in order and before the next late one
-  kAlways = 2,    // everything that is taken, in any order of arrival
+  kOneLate = 1,  // one late measurement, after what is measured in order and before the next late one
+  kAlways = 2,   // everything that is taken, in any order of arrival
 };
 
 // F(dt) and Q(dt) of a step of dt > 0 seconds. Methods that look into the middle of a step are as exact as the motion
@@ -81,9 +81,9 @@ concept Motion = std::copyable<X> && requires(const X& motion, double dt) {
 // announce() says beforehand that a measurement of this stamp will come, late perhaps; it is false if the method
 // can do nothing with that any more. Methods that need no such word take it and do nothing.
 template <class X>
-concept Method = std::copyable<X> && requires(X x, const X& told, GlobalTime time, const Stamp& stamp,
-                                              const Gaussian<X::kStates>& prior,
-                                              const LinearMeasurement<X::kStates, X::kDimension>& measurement) {
+concept Method = std::copyable<X> &&
+    requires(X x, const X& told, GlobalTime time, const Stamp& stamp, const Gaussian<X::kStates>& prior,
+             const LinearMeasurement<X::kStates, X::kDimension>& measurement) {
   { X::kExactness } -> std::convertible_to<Exactness>;
   x.start(time, prior);
   { x.announce(stamp) } -> std::same_as<bool>;
@@ -94,12 +94,10 @@ concept Method = std::copyable<X> && requires(X x, const X& told, GlobalTime tim
 };
 
 // Over `elapsed`, which may be nothing.
-template <int N, Motion<N> M>
-[[gnu::flatten]] void advance(Gaussian<N>& state, const M& motion, Duration elapsed) {
+template <int N, Motion<N> M> [[gnu::flatten]] void advance(Gaussian<N>& state, const M& motion, Duration elapsed) {
   if (elapsed > Duration{}) predict<N>(state, motion.step(elapsed.seconds()));
 }
-template <int N, Motion<N> M>
-Gaussian<N> advanced(Gaussian<N> state, const M& motion, Duration elapsed) {
+template <int N, Motion<N> M> Gaussian<N> advanced(Gaussian<N> state, const M& motion, Duration elapsed) {
   advance<N>(state, motion, elapsed);
   return state;
 }

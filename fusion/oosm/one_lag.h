@@ -17,8 +17,7 @@
 namespace ttf::fusion::oosm {
 
 // Remembers the last two stamps taken in order, and nothing of late ones.
-template <int N, int M, Motion<N> Model, class Memory, Exactness kExact>
-class OneLag {
+template <int N, int M, Motion<N> Model, class Memory, Exactness kExact> class OneLag {
  public:
   static constexpr int kStates = N, kDimension = M;
   static constexpr Exactness kExactness = kExact;

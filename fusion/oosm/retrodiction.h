@@ -14,10 +14,9 @@
 
 namespace ttf::fusion::oosm {
 
-template <int N>
-struct Retrodicted {
-  Gaussian<N> then;    // x(tau)
-  Matrix<N> cross;     // cov(x(k), x(tau))
+template <int N> struct Retrodicted {
+  Gaussian<N> then;  // x(tau)
+  Matrix<N> cross;   // cov(x(k), x(tau))
 };
 
 template <int N, int M>

@@ -16,8 +16,7 @@
 
 namespace ttf::fusion::oosm {
 
-template <int N, int M, Motion<N> Model, int Capacity>
-class Rewind {
+template <int N, int M, Motion<N> Model, int Capacity> class Rewind {
  public:
   static constexpr int kStates = N, kDimension = M;
   static constexpr Exactness kExactness = Exactness::kAlways;
@@ -37,7 +36,7 @@ class Rewind {
     if (n == 0) return Taken::kTooOld;
     const Entry& before = history_[n - 1];
     if (before.stamp == stamp) return Taken::kDuplicate;
-    Gaussian<N> estimate = before.estimate;   // `before` itself may be forgotten
+    Gaussian<N> estimate = before.estimate;  // `before` itself may be forgotten
     GlobalTime time = before.stamp.time();
     const bool late = n < history_.size();
     int at = n;
@@ -72,8 +71,8 @@ class Rewind {
  private:
   struct Entry {
     Stamp stamp;
-    LinearMeasurement<N, M> measurement;   // of a start: none
-    Gaussian<N> estimate;                  // after it
+    LinearMeasurement<N, M> measurement;  // of a start: none
+    Gaussian<N> estimate;                 // after it
   };
 
   Model motion_;

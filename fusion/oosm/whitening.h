@@ -19,8 +19,7 @@ inline double inverse_root(double pivot, double diagonal) {
   return pivot > kNoPivot * diagonal ? 1.0 / std::sqrt(pivot) : 0.0;
 }
 
-template <int M>
-Matrix<M> whitening(const Matrix<M>& s) {
+template <int M> Matrix<M> whitening(const Matrix<M>& s) {
   Matrix<M> inverse = Matrix<M>::Zero();
   inverse(0, 0) = inverse_root(s(0, 0), s(0, 0));
   if constexpr (M == 2) {

@@ -21,19 +21,18 @@ namespace ttf::fusion::sensors {
 
 // Where a sensor's biases are among all, and where the sensor is. Index -1: it has no such error.
 struct OwnBiases {
-  std::array<int, 4> index{-1, -1, -1, -1};   // of the components (SystematicErrors::sigma), the stamp last
+  std::array<int, 4> index{-1, -1, -1, -1};  // of the components (SystematicErrors::sigma), the stamp last
   ErrorAxes axes = ErrorAxes::kPolar;
   Mounting mounting{};
-  double time_variance = 0.0;                 // [s^2]
+  double time_variance = 0.0;  // [s^2]
 };
 
-template <Model S>
-struct AmongBiases {
+template <Model S> struct AmongBiases {
   static_assert(S::kParts <= kWithVelocity && (S::kDimension == 2 || S::kDimension == 3));
   static constexpr int kDimension = S::kDimension, kParts = kWithVelocity, kBiases = kMostBiases;
   static constexpr bool kLinear = S::kLinear;
 
-  S sensor;               // in the vehicle's axes
+  S sensor;  // in the vehicle's axes
   const OwnBiases& own;
 
   Vector<kDimension> expected(const Kinematics& k) const { return sensor.expected(k); }

@@ -12,9 +12,9 @@
 namespace ttf::fusion::sensors {
 
 struct Mounting {
-  Vector<2> position = Vector<2>::Zero();   // [m] in the vehicle's axes
-  double yaw = 0.0;                         // [rad] from the vehicle's x axis to the sensor's
-  Vector<2> velocity = Vector<2>::Zero();   // [m/s], zero on a vehicle that stands: see carried()
+  Vector<2> position = Vector<2>::Zero();  // [m] in the vehicle's axes
+  double yaw = 0.0;                        // [rad] from the vehicle's x axis to the sensor's
+  Vector<2> velocity = Vector<2>::Zero();  // [m/s], zero on a vehicle that stands: see carried()
 };
 
 // The same mounting on a vehicle that drives: velocity of its origin over ground, in its own axes, and its yaw rate
@@ -24,16 +24,11 @@ inline Mounting carried(Mounting mounting, const Vector<2>& velocity, double yaw
   return mounting;
 }
 
-template <class S>
-struct BiasesOf {};
-template <Biased S>
-struct BiasesOf<S> {
-  static constexpr int kBiases = S::kBiases;
-};
+template <class S> struct BiasesOf {};
+template <Biased S> struct BiasesOf<S> { static constexpr int kBiases = S::kBiases; };
 
 template <Model S>
-  requires(!Placed<S>)
-class Mounted : public BiasesOf<S> {
+requires(!Placed<S>) class Mounted : public BiasesOf<S> {
  public:
   static constexpr int kDimension = S::kDimension, kParts = S::kParts;
   static constexpr bool kLinear = S::kLinear, kPlaced = true;
@@ -47,12 +42,10 @@ class Mounted : public BiasesOf<S> {
   Matrix<kDimension, kParts> jacobian(const Kinematics& k) const {
     Matrix<kDimension, kParts> h = sensor_.jacobian(from_here(k));
     constexpr int kVectors = std::min(kParts, static_cast<int>(kWithVelocity));
-    for (int i = 0; i < kVectors; i += 2)
-      h.template middleCols<2>(i) = (h.template middleCols<2>(i) * back_).eval();
+    for (int i = 0; i < kVectors; i += 2) h.template middleCols<2>(i) = (h.template middleCols<2>(i) * back_).eval();
     return h;
   }
-  template <Biased B = S>
-  Matrix<kDimension, B::kBiases> bias_jacobian(const Kinematics& k) const {
+  template <Biased B = S> Matrix<kDimension, B::kBiases> bias_jacobian(const Kinematics& k) const {
     return sensor_.bias_jacobian(from_here(k));
   }
   Vector<kDimension> residual(const Vector<kDimension>& z, const Vector<kDimension>& e) const {
@@ -68,7 +61,7 @@ class Mounted : public BiasesOf<S> {
 
   S sensor_;
   Mounting mounting_;
-  Matrix<2> back_;   // R', from the vehicle's axes to the sensor's
+  Matrix<2> back_;  // R', from the vehicle's axes to the sensor's
 };
 
 }  // namespace ttf::fusion::sensors

@@ -26,9 +26,7 @@ struct RangeBearing {
     h << x / range, y / range, -y / squared, x / squared;
     return h;
   }
-  Vector<2> residual(const Vector<2>& z, const Vector<2>& e) const {
-    return {z(0) - e(0), to_half_turn(z(1) - e(1))};
-  }
+  Vector<2> residual(const Vector<2>& z, const Vector<2>& e) const { return {z(0) - e(0), to_half_turn(z(1) - e(1))}; }
   bool sees(const Kinematics& k) const { return k.position.squaredNorm() >= kNearest * kNearest; }
 };
 static_assert(Model<RangeBearing>);

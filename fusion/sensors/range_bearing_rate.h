@@ -17,17 +17,14 @@ struct RangeBearingRate {
 
   Vector<3> expected(const Kinematics& k) const {
     const double range = k.position.norm();
-    return {range, std::atan2(k.position.y(), k.position.x()),
-            k.position.dot(k.velocity) / std::max(range, kNearest)};
+    return {range, std::atan2(k.position.y(), k.position.x()), k.position.dot(k.velocity) / std::max(range, kNearest)};
   }
   Matrix<3, 4> jacobian(const Kinematics& k) const {
     const double squared = k.position.squaredNorm(), range = std::sqrt(squared);
     const double c = k.position.x() / range, s = k.position.y() / range;
-    const double across = (c * k.velocity.y() - s * k.velocity.x()) / range;   // turn rate of the line of sight
+    const double across = (c * k.velocity.y() - s * k.velocity.x()) / range;  // turn rate of the line of sight
     Matrix<3, 4> h;
-    h << c, s, 0.0, 0.0,
-        -s / range, c / range, 0.0, 0.0,
-        -s * across, c * across, c, s;
+    h << c, s, 0.0, 0.0, -s / range, c / range, 0.0, 0.0, -s * across, c * across, c, s;
     return h;
   }
   Vector<3> residual(const Vector<3>& z, const Vector<3>& e) const {

@@ -23,8 +23,7 @@ namespace ttf::fusion::sensors {
 // message carries when it is unpacked, by positive_definite() there. R must also not drown in the rounding of H P H':
 // 1e-12 of it is enough. The methods of fusion/oosm/ ask the same of R (fusion/gaussian.h); that their whitening.h lets
 // pivots of zero pass is for predicted covariances and process noise, which may be semi-definite.
-template <int M>
-struct Measurement {
+template <int M> struct Measurement {
   Vector<M> z = Vector<M>::Zero();
   Matrix<M> r = Matrix<M>::Identity();
 };
@@ -40,11 +39,15 @@ concept Model = requires(const S& sensor, const Kinematics& k, const Vector<S::k
 };
 
 template <class S>
-concept Direct = Model<S> && S::kLinear && requires { requires S::kDirect; };
+concept Direct = Model<S> && S::kLinear && requires {
+  requires S::kDirect;
+};
 
 // One that knows its place on the vehicle: its kinematics are not in the sensor's own axes.
 template <class S>
-concept Placed = Model<S> && requires { requires S::kPlaced; };
+concept Placed = Model<S> && requires {
+  requires S::kPlaced;
+};
 
 // One with systematic errors: d expected / d (what it is wrong by).
 template <class S>

@@ -17,12 +17,11 @@
 namespace ttf::fusion::sensors {
 
 template <Model S>
-  requires(!Placed<S>)
-struct Systematic {
+requires(!Placed<S>) struct Systematic {
   static constexpr int kDimension = S::kDimension;
   static constexpr int kParts = std::max(S::kParts, static_cast<int>(kWithVelocity));
   static constexpr bool kLinear = S::kLinear;
-  static constexpr int kBiases = kDimension + 1;   // b, then tau
+  static constexpr int kBiases = kDimension + 1;  // b, then tau
 
   S sensor{};
   Vector<kDimension> bias = Vector<kDimension>::Zero();

@@ -30,7 +30,7 @@ LaserPreprocessor::LaserPreprocessor(const LaserPreprocessingConfig& config, std
     : config_(config), most_points_(most_points) {
   points_.reserve(most_points);
   segments_.reserve(most_points);
-  prepare_orientation_search();   // not within the first scan's deadline
+  prepare_orientation_search();  // not within the first scan's deadline
 }
 
 void LaserPreprocessor::process(std::span<const ScanPoint> scan, std::vector<LaserObject>& out) {

@@ -14,8 +14,8 @@ namespace ttf::nodes {
 struct LaserPreprocessingConfig {
   SegmentationConfig segmentation;
   RectangleConfig rectangle;
-  int fewest_points = 3;             // fewer are no object, nor are those of a single beam
-  double longest_extent_m = 12.0;    // longer segments are walls and hedges, not vehicles
+  int fewest_points = 3;           // fewer are no object, nor are those of a single beam
+  double longest_extent_m = 12.0;  // longer segments are walls and hedges, not vehicles
 };
 LaserPreprocessingConfig load_laser_preprocessing(YamlMap& yaml);
 

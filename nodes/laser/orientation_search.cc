@@ -19,18 +19,16 @@ using fusion::batch::select;
 
 constexpr double kCoarseStep = std::numbers::pi / 90.0;
 constexpr int kCoarseAngles = 45;
-constexpr int kFineReach = 9, kFineAngles = 2 * kFineReach + 1;   // on either side, up to the next coarse angle
+constexpr int kFineReach = 9, kFineAngles = 2 * kFineReach + 1;  // on either side, up to the next coarse angle
 
 // Candidate angles and the directions of their rectangles' two axes, a quarter turn apart.
 struct Candidates {
   Lanes angle, ax, ay, bx, by;
 };
-template <int kAngles>
-using Groups = std::array<Candidates, (kAngles + kLanes - 1) / kLanes>;
+template <int kAngles> using Groups = std::array<Candidates, (kAngles + kLanes - 1) / kLanes>;
 
 // Lanes left over repeat the last angle: it does not score higher than itself.
-template <int kAngles, class AngleOf>
-Groups<kAngles> candidates(AngleOf angle_of) {
+template <int kAngles, class AngleOf> Groups<kAngles> candidates(AngleOf angle_of) {
   Groups<kAngles> groups{};
   int i = 0;
   for (Candidates& group : groups)
@@ -47,7 +45,7 @@ Groups<kAngles> candidates(AngleOf angle_of) {
 
 struct Grid {
   Groups<kCoarseAngles> coarse;
-  std::array<Groups<kFineAngles>, kCoarseAngles> fine;   // around each coarse angle
+  std::array<Groups<kFineAngles>, kCoarseAngles> fine;  // around each coarse angle
   Grid() : coarse(candidates<kCoarseAngles>([](int i) { return i * kCoarseStep; })) {
     int i = 0;
     for (Groups<kFineAngles>& around : fine) {

@@ -18,11 +18,11 @@ constexpr double kWidestSpacing_m = 1.2;
 
 // The returns seen along one axis of a candidate rectangle: extent, and the face turned to the sensor if there is one.
 struct Axis {
-  double cx = 1, sy = 0;                  // direction
-  double low = 0, high = 0;               // extent of the projections
-  bool visible = false;                   // a face normal to this axis is turned to the sensor
-  double near = 0, far = 0;               // its position, and the other end
-  double away = 1;                        // sign of the direction away from the sensor
+  double cx = 1, sy = 0;     // direction
+  double low = 0, high = 0;  // extent of the projections
+  bool visible = false;      // a face normal to this axis is turned to the sensor
+  double near = 0, far = 0;  // its position, and the other end
+  double away = 1;           // sign of the direction away from the sensor
   double project(const PlanePoint& p) const { return cx * p.x + sy * p.y; }
 };
 
@@ -44,8 +44,8 @@ Axis axis_at(double angle, std::span<const PlanePoint> points) {
   return axis;
 }
 
-// The search's angle, refined: least squares of the returns' distances to their faces. With the returns of the second face
-// turned by a quarter, both share one normal, the minor axis of the summed scatter about each face's mean.
+// The search's angle, refined: least squares of the returns' distances to their faces. With the returns of the second
+// face turned by a quarter, both share one normal, the minor axis of the summed scatter about each face's mean.
 double refined_angle(double angle, std::span<const PlanePoint> points) {
   constexpr double kLargestStep = 0.15;
   for (int iteration = 0; iteration < 3; ++iteration) {
@@ -91,12 +91,14 @@ LaserObject speck(const RectangleConfig& config, std::span<const PlanePoint> poi
   }
   x /= static_cast<double>(points.size());
   y /= static_cast<double>(points.size());
-  const double range = std::max(1e-3, std::hypot(x, y)), shift = 0.25 * (config.nominal_length_m + config.nominal_width_m);
+  const double range = std::max(1e-3, std::hypot(x, y)),
+               shift = 0.25 * (config.nominal_length_m + config.nominal_width_m);
   LaserObject object;
   object.x = x * (1.0 + shift / range);
   object.y = y * (1.0 + shift / range);
   // Anything between the half width and the half length: uniform over that span, in both directions.
-  const double spread = 0.5 * (config.nominal_length_m - config.nominal_width_m) / std::sqrt(3.0) + config.nominal_width_m / 2;
+  const double spread =
+      0.5 * (config.nominal_length_m - config.nominal_width_m) / std::sqrt(3.0) + config.nominal_width_m / 2;
   object.sxx = object.syy = spread * spread;
   return object;
 }
@@ -154,8 +156,8 @@ LaserObject fit_rectangle(const RectangleConfig& config, std::span<const PlanePo
     return object;
   }
 
-  // Extents, from the returns of the outermost beams: these end the outline on either side. Means over their layers, since
-  // the extremes of many noisy returns would lie outside. The outline ends up to one beam's spacing further on.
+  // Extents, from the returns of the outermost beams: these end the outline on either side. Means over their layers,
+  // since the extremes of many noisy returns would lie outside. The outline ends up to one beam's spacing further on.
   const PlanePoint first = end_of(points, points.front().azimuth, config.azimuth_step_rad);
   const PlanePoint last = end_of(points, points.back().azimuth, config.azimuth_step_rad);
   double near[2], ends_middle[2], extent[2], extent_sigma[2], steepness[2];
@@ -187,12 +189,12 @@ LaserObject fit_rectangle(const RectangleConfig& config, std::span<const PlanePo
   else if (measured[0] != measured[1])
     along = measured[0] ? 1 : 0;
   else
-    along = steepness[0] < steepness[1] ? 0 : 1;   // a face seen steeply is seen whole
+    along = steepness[0] < steepness[1] ? 0 : 1;  // a face seen steeply is seen whole
   const int across = 1 - along;
 
   object.has_length = measured[along] && extent[along] > config.widest_rear_m;
-  object.has_width = measured[across] && extent[across] > config.narrowest_width_m &&
-                     extent[across] < config.widest_rear_m;
+  object.has_width =
+      measured[across] && extent[across] > config.narrowest_width_m && extent[across] < config.widest_rear_m;
   object.length = object.has_length ? extent[along] : config.nominal_length_m;
   object.width = object.has_width ? extent[across] : config.nominal_width_m;
   object.sigma_length = object.has_length ? extent_sigma[along] : config.length_sigma_m;
@@ -218,7 +220,7 @@ LaserObject fit_rectangle(const RectangleConfig& config, std::span<const PlanePo
       const double missing = std::max(0.0, size[k] - (axes[k].high - axes[k].low));
       variance[k] = 0.25 * extent_sigma[k] * extent_sigma[k] + missing * missing / 12.0;
     }
-    variance[k] += 1e-4;   // nothing is known better than to a centimetre
+    variance[k] += 1e-4;  // nothing is known better than to a centimetre
   }
   const double c = axes[0].cx, s = axes[0].sy;
   object.x = c * centre[0] + axes[1].cx * centre[1];

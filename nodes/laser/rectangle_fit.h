@@ -1,13 +1,12 @@
 // A rectangle through the returns of one object, and what it says about a vehicle's centre, heading and size.
 //
 // The orientation is searched for (Zhang, Xu, Dong, Dolan: "Efficient L-shape fitting for vehicle detection using laser
-// scanners", IEEE Intelligent Vehicles Symposium 2017, closeness criterion, algorithm 4): each candidate scores how near
-// the returns lie to the two faces turned to the sensor. A face is visible where the sensor stands outside its slab. The best
-// one (orientation_search.h) is refined by least squares over both faces.
-// Then:
-//   extents longer than a vehicle is wide are its length; a single short face is its rear or front, so the length is unknown
-//   the centre lies half the size behind each visible face; where the size is unknown the nominal one stands in, with its
-//   spread, so that the covariance along that axis is honest
+// scanners", IEEE Intelligent Vehicles Symposium 2017, closeness criterion, algorithm 4): each candidate scores how
+// near the returns lie to the two faces turned to the sensor. A face is visible where the sensor stands outside its
+// slab. The best one (orientation_search.h) is refined by least squares over both faces. Then:
+//   extents longer than a vehicle is wide are its length; a single short face is its rear or front, so the length is
+//   unknown the centre lies half the size behind each visible face; where the size is unknown the nominal one stands
+//   in, with its spread, so that the covariance along that axis is honest
 #pragma once
 
 #include <span>
@@ -22,12 +21,12 @@ struct RectangleConfig {
   // Passenger cars: mean and spread of length and width (European fleet, 3.6..5.0 m by 1.6..2.0 m).
   double nominal_length_m = 4.4, length_sigma_m = 0.35;
   double nominal_width_m = 1.8, width_sigma_m = 0.12;
-  double widest_rear_m = 2.6;        // a longer extent is a side
-  double narrowest_width_m = 1.3;    // a shorter face is only part of one
+  double widest_rear_m = 2.6;      // a longer extent is a side
+  double narrowest_width_m = 1.3;  // a shorter face is only part of one
 };
 
-// Position [m] of the vehicle's centre and its covariance, heading [rad] of its long axis (up to half a turn), size [m].
-// Values whose has_ flag is clear are nominal, their sigma the fleet's.
+// Position [m] of the vehicle's centre and its covariance, heading [rad] of its long axis (up to half a turn), size
+// [m]. Values whose has_ flag is clear are nominal, their sigma the fleet's.
 struct LaserObject {
   double x = 0, y = 0, sxx = 0, sxy = 0, syy = 0;
   double heading = 0, length = 0, width = 0;

@@ -5,8 +5,8 @@ namespace ttf::nodes {
 
 struct ScanPoint {
   int layer = 0;
-  double azimuth = 0.0;   // [rad], 0 ahead, positive left
-  double range = 0.0;     // [m]
+  double azimuth = 0.0;  // [rad], 0 ahead, positive left
+  double range = 0.0;    // [m]
 };
 
 }  // namespace ttf::nodes

@@ -26,20 +26,15 @@ Microticks reach_of(const schedules::GlobalParameters& g, const schedules::NodeP
                               bits(g, p, schedules::frame_bits(g, g.gPayloadLengthStatic)).value -
                               std::max(p.pDelayCompensationA, p.pDelayCompensationB) - macrotick;
   const std::int64_t before = g.gdActionPointOffset * macrotick - macrotick;
-  return {std::max<std::int64_t>(
-      0, std::min({behind, before, static_cast<std::int64_t>(p.pdAcceptedStartupRange),
-                   static_cast<std::int64_t>(p.pOffsetCorrectionOut)}))};
+  return {std::max<std::int64_t>(0, std::min({behind, before, static_cast<std::int64_t>(p.pdAcceptedStartupRange),
+                                              static_cast<std::int64_t>(p.pOffsetCorrectionOut)}))};
 }
 
 }  // namespace
 
 Arrivals::Arrivals(const schedules::Cluster& cluster, NodeId node, Window window, ArrivalEvents& events)
-    : cluster_(cluster),
-      parameters_(cluster.node(node).flexray ? &*cluster.node(node).flexray : nullptr),
-      slots_(cluster, node),
-      window_(window),
-      events_(events),
-      pool_(kMost) {
+    : cluster_(cluster), parameters_(cluster.node(node).flexray ? &*cluster.node(node).flexray : nullptr),
+      slots_(cluster, node), window_(window), events_(events), pool_(kMost) {
   if (parameters_ != nullptr) reach_ = reach_of(cluster.flexray, *parameters_);
   free_.reserve(kMost);
   used_.reserve(kMost);
@@ -120,8 +115,8 @@ bool Arrivals::place(Held& held, const timebase::CycleClock* clock) {
   const std::span<const std::byte> bytes = std::span<const std::byte>(held.bytes).first(held.size);
   const auto header = wire::header_of(bytes);
   const Microticks length = length_of(held);
-  const bool known = header && wire::header_crc_holds(*header) && header->frame_id == held.slot &&
-                     held.slot >= 1 && held.slot <= g.gNumberOfStaticSlots;
+  const bool known = header && wire::header_crc_holds(*header) && header->frame_id == held.slot && held.slot >= 1 &&
+                     held.slot <= g.gNumberOfStaticSlots;
   if (known && header->sync && !held.late && !held.awaits_follow_up) {
     // Until its follow-up comes, or comes no more.
     held.awaits_follow_up = true;
@@ -163,7 +158,7 @@ bool Arrivals::place_in_slot(Held& held, const wire::FrameHeader& header, const 
     return true;
   }
   if (ahead > 1 || off > 1 || off < -1) {
-    place_raw(held, length);   // of no cycle that is near: the controller will say so
+    place_raw(held, length);  // of no cycle that is near: the controller will say so
     return true;
   }
   const std::int64_t cycle = clock.cycle() + ahead;
@@ -190,8 +185,8 @@ Microticks Arrivals::within_reach(Microticks deviation, std::int64_t cycle, int 
   Deviation& last = deviations_[index_of(channel)][static_cast<std::size_t>(slot - 1)];
   const bool second = cycle % 2 == 1 && last.cycle == cycle - 1;
   const Microticks most = reach_ - Microticks{reach_.value / 8};
-  const Microticks put = second ? std::clamp(last.put + (deviation - last.measured), -reach_, reach_)
-                                : std::clamp(deviation, -most, most);
+  const Microticks put =
+      second ? std::clamp(last.put + (deviation - last.measured), -reach_, reach_) : std::clamp(deviation, -most, most);
   last = {cycle, deviation, put};
   return put;
 }
@@ -254,9 +249,9 @@ std::optional<Arrivals::Due> Arrivals::take(Microticks now, const timebase::Cycl
       due.can_bus = held.can_bus;
       due.can = {held.identifier, held.flexible_data_rate, bytes};
     } else {
-      due.reception = {held.channel, held.signal, held.start, held.end,
-                       held.signal == bus::Signal::kFrame ? wire::decode_frame(held.channel, bytes)
-                                                          : wire::DecodedFrame{}};
+      due.reception = {
+          held.channel, held.signal, held.start, held.end,
+          held.signal == bus::Signal::kFrame ? wire::decode_frame(held.channel, bytes) : wire::DecodedFrame{}};
     }
     return due;
   }

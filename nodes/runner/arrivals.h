@@ -55,7 +55,7 @@ class ArrivalEvents {
 class Arrivals {
  public:
   static constexpr std::int64_t kLongestGap = 64;
-  static constexpr std::size_t kMost = 1024;   // held at a time
+  static constexpr std::size_t kMost = 1024;  // held at a time
 
   struct Window {
     Microticks early{}, late{};
@@ -72,8 +72,8 @@ class Arrivals {
 
   struct Due {
     bus::LiveArrival::Kind kind{};
-    bus::Reception reception;         // of kFlexRay
-    std::size_t can_bus = 0;          // of kCan
+    bus::Reception reception;  // of kFlexRay
+    std::size_t can_bus = 0;   // of kCan
     bus::CanFrame can;
     Microticks at{};
   };
@@ -82,7 +82,8 @@ class Arrivals {
 
   // Something whose begin has come is still on its way.
   bool carrier(schedules::Channel channel, Microticks now) const;
-  // How long after its end a frame in its window may still be handed over: it comes late, and its follow-up as late again.
+  // How long after its end a frame in its window may still be handed over: it comes late, and its follow-up as late
+  // again.
   Microticks handed_over_within() const { return {2 * window_.late.value}; }
   std::uint64_t held() const { return used_.size(); }
   // There was no room for them.
@@ -114,24 +115,24 @@ class Arrivals {
   bool place_in_slot(Held& held, const wire::FrameHeader& header, const timebase::CycleClock& clock, Microticks length);
   Microticks within_reach(Microticks deviation, std::int64_t cycle, int slot, schedules::Channel channel);
   void count_gap(std::int64_t cycle, int slot, schedules::Channel channel);
-  void drop(std::size_t place);   // in used_
+  void drop(std::size_t place);  // in used_
 
   const schedules::Cluster& cluster_;
-  const schedules::NodeParameters* parameters_;   // null: off FlexRay
+  const schedules::NodeParameters* parameters_;  // null: off FlexRay
   const bus::SlotTable slots_;
   const Window window_;
   ArrivalEvents& events_;
-  Microticks reach_{};                            // a sync frame's from its action point, at most
+  Microticks reach_{};  // a sync frame's from its action point, at most
   struct Deviation {
-    std::int64_t cycle = -2;   // before any that an odd one follows
+    std::int64_t cycle = -2;  // before any that an odd one follows
     Microticks measured{}, put{};
   };
-  std::array<std::vector<Deviation>, 2> deviations_;   // by channel and slot - 1, the last one of a sync frame
+  std::array<std::vector<Deviation>, 2> deviations_;  // by channel and slot - 1, the last one of a sync frame
   std::vector<Held> pool_;
   std::vector<std::uint16_t> free_, used_;
-  std::optional<std::uint16_t> handed_over_;      // its views are out
+  std::optional<std::uint16_t> handed_over_;  // its views are out
   std::uint64_t order_ = 0, dropped_ = 0;
-  std::array<std::vector<std::int64_t>, 2> heard_;   // by channel and slot - 1, the last cycle; kNotHeard
+  std::array<std::vector<std::int64_t>, 2> heard_;  // by channel and slot - 1, the last cycle; kNotHeard
 };
 
 }  // namespace ttf::runner

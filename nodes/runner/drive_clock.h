@@ -17,10 +17,10 @@ class DriveClock {
   // `origin`: when true time 0 is. `scale_ppm`: a million times F, positive.
   DriveClock(bus::HostTime origin, std::int64_t scale_ppm);
 
-  TrueTime drive_time(bus::HostTime at) const;      // rounded down
-  bus::HostTime host_time(TrueTime at) const;       // the first at which drive_time is at or after it
-  Duration in_drive(Duration real) const;           // rounded down
-  Duration in_real(Duration drive) const;           // rounded up
+  TrueTime drive_time(bus::HostTime at) const;  // rounded down
+  bus::HostTime host_time(TrueTime at) const;   // the first at which drive_time is at or after it
+  Duration in_drive(Duration real) const;       // rounded down
+  Duration in_real(Duration drive) const;       // rounded up
   bus::HostTime origin() const { return origin_; }
   // The first instant after `now` that is a whole number of periods, and `phase`, from the origin: what is done
   // periodically is then where it is in the drive, whenever a process was started. `period` positive.

@@ -20,7 +20,8 @@ void Floor::run(Duration period, bus::HostTime first) {
   constexpr std::int64_t kSecond = 1'000'000'000;
   for (bus::HostTime next = first; !stopped_; next += period) {
     const timespec until{.tv_sec = next.ns / kSecond, .tv_nsec = next.ns % kSecond};
-    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) != 0) {}
+    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) != 0) {
+    }
     const bus::HostTime now = bus::host_now();
     {
       const std::lock_guard lock(mutex_);

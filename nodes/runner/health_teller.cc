@@ -25,7 +25,7 @@ bool HealthTeller::hand_over(const Health& health) {
   health_ = health;
   at_ = bus::host_now();
   waits_.store(true, std::memory_order_release);
-  sem_post(&called_);   // never waits
+  sem_post(&called_);  // never waits
   return true;
 }
 

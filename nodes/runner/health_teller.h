@@ -22,7 +22,7 @@ class HealthTeller {
   // `tell` is called on the other thread, with the instant of the handing over. It must not throw. That thread begins
   // with the priority and on the processors of who makes this: make it before asking for real time.
   explicit HealthTeller(std::function<void(const Health&, bus::HostTime)> tell);
-  ~HealthTeller();   // close()
+  ~HealthTeller();  // close()
   HealthTeller(const HealthTeller&) = delete;
   HealthTeller& operator=(const HealthTeller&) = delete;
 
@@ -30,19 +30,19 @@ class HealthTeller {
   bool hand_over(const Health& health);
   // Tells what has been handed over, and ends the thread; nothing may be handed over afterwards.
   void close();
-  std::uint64_t left_out() const { return left_out_; }   // for the thread that hands over
+  std::uint64_t left_out() const { return left_out_; }  // for the thread that hands over
 
  private:
   void run();
 
   const std::function<void(const Health&, bus::HostTime)> tell_;
-  Health health_;                     // of who hands over while nothing waits, of the other thread while it does
-  bus::HostTime at_{};                // likewise
+  Health health_;       // of who hands over while nothing waits, of the other thread while it does
+  bus::HostTime at_{};  // likewise
   std::atomic<bool> waits_{false};
   std::atomic<bool> closing_{false};
   std::uint64_t left_out_ = 0;
   sem_t called_;
-  std::thread thread_;                // last: it uses all of the above
+  std::thread thread_;  // last: it uses all of the above
 };
 
 }  // namespace ttf::runner

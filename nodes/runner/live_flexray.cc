@@ -4,12 +4,8 @@ namespace ttf::runner {
 
 LiveFlexRay::LiveFlexRay(const DriveClock& clock, const timebase::Oscillator& oscillator, Duration latest,
                          bus::LiveMedium& medium, const Arrivals& arrivals, TimingAccount& account)
-    : clock_(clock),
-      oscillator_(oscillator),
-      latest_(latest),
-      medium_(medium),
-      arrivals_(arrivals),
-      account_(account) {}
+    : clock_(clock), oscillator_(oscillator), latest_(latest), medium_(medium), arrivals_(arrivals), account_(account) {
+}
 
 bool LiveFlexRay::may_leave(schedules::Channel channel, int slot, Microticks start) {
   const Duration late = bus::host_now() - due(start);
@@ -28,9 +24,8 @@ void LiveFlexRay::transmit(const bus::Transmission& transmission) {
   signal.slot = transmission.slot;
   signal.bytes = transmission.bytes;
   signal.tells_late = transmission.signal == bus::Signal::kFrame && transmission.content.header.sync;
-  if (transmission.signal != bus::Signal::kFrame)
-    signal.duration = due(transmission.end) - at;
-  (void)medium_.send(signal, at);   // what it has no room for, it counts
+  if (transmission.signal != bus::Signal::kFrame) signal.duration = due(transmission.end) - at;
+  (void)medium_.send(signal, at);  // what it has no room for, it counts
 }
 
 }  // namespace ttf::runner

@@ -21,8 +21,8 @@ namespace ttf::runner {
 class LiveFlexRay final : public bus::FlexRayPort {
  public:
   // `latest`: behind the action point, in real time.
-  LiveFlexRay(const DriveClock& clock, const timebase::Oscillator& oscillator, Duration latest,
-              bus::LiveMedium& medium, const Arrivals& arrivals, TimingAccount& account);
+  LiveFlexRay(const DriveClock& clock, const timebase::Oscillator& oscillator, Duration latest, bus::LiveMedium& medium,
+              const Arrivals& arrivals, TimingAccount& account);
 
   bool may_leave(schedules::Channel channel, int slot, Microticks start) override;
   void transmit(const bus::Transmission& transmission) override;

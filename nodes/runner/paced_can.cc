@@ -10,9 +10,7 @@ namespace ttf::runner {
 
 PacedCan::PacedCan(const schedules::Cluster& cluster, std::size_t can_bus, std::size_t most,
                    std::function<records::Stamp()> now)
-    : bus_(cluster.can_buses[can_bus]),
-      can_bus_(static_cast<std::uint8_t>(can_bus)),
-      now_(std::move(now)),
+    : bus_(cluster.can_buses[can_bus]), can_bus_(static_cast<std::uint8_t>(can_bus)), now_(std::move(now)),
       ring_(most) {}
 
 void PacedCan::send(const bus::CanFrame& frame) {

@@ -29,7 +29,7 @@ class PacedCan final : public bus::CanPort {
   TrueTime next() const;
   struct Departure {
     bus::CanFrame frame;
-    records::CanFrameSent sent;   // as Executive::can_frame_sent() takes it
+    records::CanFrameSent sent;  // as Executive::can_frame_sent() takes it
   };
   // It leaves: to be put on the medium now. Precondition: one waits. Views are valid until the next call of anything
   // here.
@@ -50,7 +50,7 @@ class PacedCan final : public bus::CanPort {
   const std::function<records::Stamp()> now_;
   std::vector<Waiting> ring_;
   std::size_t first_ = 0, count_ = 0;
-  records::Stamp began_;           // the first of them
+  records::Stamp began_;  // the first of them
   TrueTime through_{}, idle_from_{};
   std::uint64_t dropped_ = 0;
 };

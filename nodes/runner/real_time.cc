@@ -16,8 +16,8 @@
 namespace ttf::runner {
 namespace {
 
-constexpr std::uint64_t kStackRoom = 8 << 20;   // as much as a stack grows to where nobody says otherwise
-constexpr int kPriority = 50;   // below the kernel's own threads that carry interrupts on real-time kernels
+constexpr std::uint64_t kStackRoom = 8 << 20;  // as much as a stack grows to where nobody says otherwise
+constexpr int kPriority = 50;  // below the kernel's own threads that carry interrupts on real-time kernels
 
 std::string words_of(int error) { return std::system_category().message(error); }
 
@@ -85,8 +85,8 @@ std::vector<std::string> ask_for_real_time(std::size_t place, std::size_t proces
   std::vector<std::string> refused;
   const sched_param priority{.sched_priority = kPriority};
   if (sched_setscheduler(0, SCHED_FIFO, &priority) != 0)
-    refused.push_back(fmt::format("no real-time priority: {} (allow it: ulimit -r {}, or CAP_SYS_NICE)",
-                                  words_of(errno), kPriority));
+    refused.push_back(
+        fmt::format("no real-time priority: {} (allow it: ulimit -r {}, or CAP_SYS_NICE)", words_of(errno), kPriority));
   if (prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL) != 0) refused.push_back("timers have slack: " + words_of(errno));
   if (std::string why = lock_memory(); !why.empty()) refused.push_back(std::move(why));
   if (std::string why = pin(place, processes); !why.empty()) refused.push_back(std::move(why));

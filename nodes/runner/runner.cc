@@ -18,13 +18,13 @@ namespace {
 
 constexpr Microticks kNever{std::numeric_limits<std::int64_t>::max()};
 constexpr Duration kHealthEvery = Duration::milliseconds(1000);
-constexpr Duration kRoomForHealth = Duration::microseconds(500);   // until the next thing is due
+constexpr Duration kRoomForHealth = Duration::microseconds(500);  // until the next thing is due
 constexpr Duration kFloorPeriod = Duration::milliseconds(5);
-constexpr Duration kFloorPhase = Duration::microseconds(3500);   // off whole milliseconds, where cycles begin
-constexpr std::uint64_t kDoneBetweenLooks = 1024;   // who has much to catch up with can be stopped all the same
+constexpr Duration kFloorPhase = Duration::microseconds(3500);  // off whole milliseconds, where cycles begin
+constexpr std::uint64_t kDoneBetweenLooks = 1024;  // who has much to catch up with can be stopped all the same
 constexpr Duration kUntilTakenIn = Duration::milliseconds(1);
 constexpr std::int64_t kCyclesUntilAnew = 64;
-constexpr std::size_t kListsWaiting = 4;   // on a CAN, of the largest
+constexpr std::size_t kListsWaiting = 4;  // on a CAN, of the largest
 
 bool readable(int descriptor) {
   if (descriptor < 0) return false;
@@ -47,18 +47,16 @@ class Runner::Watch final : public records::Sink {
   void on(const records::ClockCorrected& corrected) override {
     largest = std::max(largest, std::abs(corrected.offset_microticks));
   }
-  int largest = 0;   // offset correction [uT]
+  int largest = 0;  // offset correction [uT]
   std::unique_ptr<records::Tee> out;
 };
 
 Runner::Runner(const RunnerConfig& config, std::vector<std::shared_ptr<nodes::Step>> steps, bus::LiveMedium& medium,
                records::Sink& sink)
-    : config_(config),
-      cluster_(*config.cluster),
-      oscillator_(nodes::drawn_oscillator(cluster_.node(config.node), index_of(config.node), config.seed,
-                                          config.replication)),
-      medium_(medium),
-      watch_(std::make_unique<Watch>()),
+    : config_(config), cluster_(*config.cluster),
+      oscillator_(
+          nodes::drawn_oscillator(cluster_.node(config.node), index_of(config.node), config.seed, config.replication)),
+      medium_(medium), watch_(std::make_unique<Watch>()),
       account_([this](Microticks at) { return executive_->stamp(at); }, sink),
       arrivals_(cluster_, config.node,
                 {ticks(config.clock.in_drive(cluster_.arrival_window->early)),
@@ -72,9 +70,9 @@ Runner::Runner(const RunnerConfig& config, std::vector<std::shared_ptr<nodes::St
   std::vector<bus::CanPort*> ports;
   for (std::size_t b = 0; b < cluster_.can_buses.size(); ++b) {
     const std::size_t most = frames_waiting(cluster_, cluster_.can_buses[b]);
-    cans_.push_back(!schedules::is_on_can(node, b)
-                        ? nullptr
-                        : std::make_unique<PacedCan>(cluster_, b, most, [this] { return executive_->stamp(last_); }));
+    cans_.push_back(!schedules::is_on_can(node, b) ? nullptr : std::make_unique<PacedCan>(cluster_, b, most, [this] {
+      return executive_->stamp(last_);
+    }));
     ports.push_back(cans_.back().get());
   }
   for (std::size_t s = 0; s < cluster_.sensors.size(); ++s)
@@ -96,9 +94,9 @@ Runner::Runner(const RunnerConfig& config, std::vector<std::shared_ptr<nodes::St
       config.cold.how,
       config.cold.after,
       this};
-  executive_ = std::make_unique<nodes::Executive>(executive, std::move(steps), node.flexray ? &flexray_ : nullptr,
-                                                  std::move(ports), static_cast<nodes::SensorLines&>(*this),
-                                                  *watch_->out);
+  executive_ =
+      std::make_unique<nodes::Executive>(executive, std::move(steps), node.flexray ? &flexray_ : nullptr,
+                                         std::move(ports), static_cast<nodes::SensorLines&>(*this), *watch_->out);
   if (node.flexray) flexray_.bind(*executive_->controller());
   if (!integrated && !executive_->asleep()) watch_->out->on(records::PowerChanged{executive_->stamp(last_), true});
   health_due_ = next_health(bus::host_now());
@@ -148,7 +146,7 @@ void Runner::lost(std::int64_t cycle, int slot, schedules::Channel channel, std:
 void Runner::take_in() {
   while (const auto arrival = medium_.receive()) {
     if (arrival->left) account_.transits.add(arrival->received - *arrival->left);
-    if (arrival->at < powered_on_) continue;   // who has no power yet hears nothing
+    if (arrival->at < powered_on_) continue;  // who has no power yet hears nothing
     std::optional<Microticks> late;
     if (arrival->late) late = ticks(config_.clock.in_drive(*arrival->late));
     arrivals_.arrive(*arrival, ticks(config_.clock.drive_time(arrival->at)), late,
@@ -220,8 +218,8 @@ void Runner::look_after_controller() {
   if (controller == nullptr) return;
   const bus::PocState& state = controller->state();
   const schedules::NodeParameters& node = *cluster_.node(config_.node).flexray;
-  const bool gave_up = state.kind == bus::PocKind::kIntegrationListen && node.pKeySlotUsedForStartup &&
-                       bus::attempts_exhausted(state);
+  const bool gave_up =
+      state.kind == bus::PocKind::kIntegrationListen && node.pKeySlotUsedForStartup && bus::attempts_exhausted(state);
   if (!gave_up)
     tries_again_ = kNever;
   else if (tries_again_ == kNever)
@@ -290,7 +288,7 @@ Health Runner::health() const {
 }
 
 RunnerEnd Runner::run() {
-  listens_ = true;   // so that watch_lines() does it
+  listens_ = true;  // so that watch_lines() does it
   if (executive_->promise().after_flexray != nodes::Promise::kNever) listens_ = false;
   watch_lines();
   const bus::HostTime end = config_.clock.host_time(config_.end);

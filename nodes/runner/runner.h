@@ -42,26 +42,26 @@
 namespace ttf::runner {
 
 struct RunnerConfig {
-  const schedules::Cluster* cluster = nullptr;   // with an arrival window
+  const schedules::Cluster* cluster = nullptr;  // with an arrival window
   NodeId node{};
   DriveClock clock{{}, 1'000'000};
   std::uint64_t seed = 0;
   std::uint32_t replication = 0;
-  TrueTime first_cycle{};                        // of who begins integrated; off FlexRay, of its power-on
-  std::optional<TrueTime> power_on;              // it begins cold, then or at once if that is over
+  TrueTime first_cycle{};            // of who begins integrated; off FlexRay, of its power-on
+  std::optional<TrueTime> power_on;  // it begins cold, then or at once if that is over
   nodes::NodeStart cold{};
-  TrueTime end{};                                // what is due later is not done
-  int stop_descriptor = -1;                      // readable: stop now
+  TrueTime end{};            // what is due later is not done
+  int stop_descriptor = -1;  // readable: stop now
 };
 
 // How it goes, for people: in real time since the run began.
 struct Health {
   TimingCounts timing;
   bus::LiveCounts medium;
-  std::uint64_t dropped = 0;              // frames that no room was for in this process, on their way in or out
+  std::uint64_t dropped = 0;  // frames that no room was for in this process, on their way in or out
   Duration wakeup_p50{}, wakeup_p99{}, wakeup_longest{};
-  Duration largest_offset{};              // that clock synchronisation corrected, either sign
-  std::string_view state;                 // of the controller; empty off FlexRay
+  Duration largest_offset{};  // that clock synchronisation corrected, either sign
+  std::string_view state;     // of the controller; empty off FlexRay
 
   // Frames that this process or its medium knows to have been lost, each once. Which of timing.frames_lost, known by
   // their gaps, are among them cannot be told, nor which their senders withheld.
@@ -69,9 +69,9 @@ struct Health {
 };
 
 enum class RunnerEnd : std::uint8_t {
-  kDone,      // the drive is over
-  kStopped,   // by the stop descriptor
-  kFailed,    // the medium is of no use any more: LiveMedium::failure()
+  kDone,     // the drive is over
+  kStopped,  // by the stop descriptor
+  kFailed,   // the medium is of no use any more: LiveMedium::failure()
 };
 
 class Runner final : private nodes::SensorLines, private nodes::TrueClock, private ArrivalEvents {
@@ -124,19 +124,19 @@ class Runner final : private nodes::SensorLines, private nodes::TrueClock, priva
   const schedules::Cluster& cluster_;
   const timebase::Oscillator oscillator_;
   bus::LiveMedium& medium_;
-  std::unique_ptr<Watch> watch_;       // the sink, with what is seen on the way to it
+  std::unique_ptr<Watch> watch_;  // the sink, with what is seen on the way to it
   TimingAccount account_;
   Arrivals arrivals_;
   LiveFlexRay flexray_;
-  std::vector<std::unique_ptr<PacedCan>> cans_;      // by CAN, null where the node is not on it
-  std::vector<std::optional<std::size_t>> sensor_can_;   // by sensor, the CAN of its lines
+  std::vector<std::unique_ptr<PacedCan>> cans_;         // by CAN, null where the node is not on it
+  std::vector<std::optional<std::size_t>> sensor_can_;  // by sensor, the CAN of its lines
   std::unique_ptr<nodes::Executive> executive_;
   Floor floor_;
   WakeUp wake_up_;
   bus::HostTime powered_on_{std::numeric_limits<std::int64_t>::min()};
-  Microticks last_{};                  // what was done last
-  bool listens_ = false;               // FlexRay lines are watched
-  Microticks tries_again_{std::numeric_limits<std::int64_t>::max()};   // at a coldstart, if it still may only listen
+  Microticks last_{};                                                 // what was done last
+  bool listens_ = false;                                              // FlexRay lines are watched
+  Microticks tries_again_{std::numeric_limits<std::int64_t>::max()};  // at a coldstart, if it still may only listen
   bus::HostTime health_due_{};
   std::function<void(const Health&)> on_health_;
 };

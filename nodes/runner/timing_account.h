@@ -15,11 +15,11 @@
 namespace ttf::runner {
 
 struct TimingCounts {
-  std::uint64_t late_wakeups = 0;     // something was due for longer than the arrival window allows
-  std::uint64_t slots_missed = 0;     // too late for an own slot, by channel: nothing was sent
-  std::uint64_t late_frames = 0;      // came behind their window, and were not used
-  std::uint64_t early_frames = 0;     // before it
-  std::uint64_t frames_lost = 0;      // of others' slots, never came
+  std::uint64_t late_wakeups = 0;  // something was due for longer than the arrival window allows
+  std::uint64_t slots_missed = 0;  // too late for an own slot, by channel: nothing was sent
+  std::uint64_t late_frames = 0;   // came behind their window, and were not used
+  std::uint64_t early_frames = 0;  // before it
+  std::uint64_t frames_lost = 0;   // of others' slots, never came
 };
 
 class TimingAccount {

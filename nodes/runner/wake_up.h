@@ -27,7 +27,7 @@ class WakeUp {
 
  private:
   int timer_ = -1;
-  std::vector<pollfd> watched_;   // the timer first
+  std::vector<pollfd> watched_;  // the timer first
 };
 
 }  // namespace ttf::runner

@@ -52,7 +52,7 @@ class BinnedDurations {
     for (; bin < kLatenessBins; ++bin) all = sum(all, counts_[bin]);
     return all;
   }
-  Duration longest() const { return longest_; }   // 0 of none
+  Duration longest() const { return longest_; }  // 0 of none
 
   // In thousandths: 500 is the median, 999 what one in a thousand is longer than. 0 of none.
   Duration quantile(int thousandths) const {

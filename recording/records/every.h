@@ -11,8 +11,7 @@
 
 namespace ttf::records {
 
-template <class Derived>
-class Every : public Sink {
+template <class Derived> class Every : public Sink {
  public:
   void on(const Measured& record) final { pass(record); }
   void on(const CanFrameSent& record) final { pass(record); }
@@ -42,10 +41,7 @@ class Every : public Sink {
   void on(const MediumCounts& record) final { pass(record); }
 
  private:
-  template <class Record>
-  void pass(const Record& record) {
-    static_cast<Derived&>(*this).each(record);
-  }
+  template <class Record> void pass(const Record& record) { static_cast<Derived&>(*this).each(record); }
 };
 
 }  // namespace ttf::records

@@ -17,7 +17,7 @@ constexpr std::size_t lateness_bin(Duration late) {
   if (late.ns <= 0) return 0;
   const auto us = static_cast<std::uint64_t>(late.ns) / 1000;
   if (us < 64) return us;
-  const int octave = std::bit_width(us) - 7;   // 0: 64..127 us
+  const int octave = std::bit_width(us) - 7;  // 0: 64..127 us
   const std::size_t bin = 64 + static_cast<std::size_t>(octave) * 32 + ((us >> (octave + 1)) & 31);
   return bin < kLatenessBins ? bin : kLatenessBins - 1;
 }

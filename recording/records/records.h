@@ -35,7 +35,7 @@ constexpr TrueTime true_time_of(const Stamp& stamp, GlobalTime at) { return stam
 struct Measured {
   Stamp stamp;
   MeasurementId id;
-  std::span<const ObjectId> truth_ids;   // per raw item, kClutterObject for none; truth, in the log only
+  std::span<const ObjectId> truth_ids;  // per raw item, kClutterObject for none; truth, in the log only
 };
 inline constexpr ObjectId kClutterObject{0xffff};
 
@@ -45,9 +45,9 @@ inline constexpr ObjectId kClutterObject{0xffff};
 
 // One frame on a private CAN, as its sender saw it.
 struct CanFrameSent {
-  std::uint8_t bus = 0;              // index in Cluster::can_buses
-  Stamp start{};                     // it won the arbitration
-  Stamp end{};                       // it has left, intermission included
+  std::uint8_t bus = 0;  // index in Cluster::can_buses
+  Stamp start{};         // it won the arbitration
+  Stamp end{};           // it has left, intermission included
   std::uint32_t identifier = 0;
   bool flexible_data_rate = false;
   PduId pdu = kNoPdu;
@@ -59,11 +59,11 @@ struct CanFrameSent {
 
 // One FlexRay frame on one channel.
 struct SlotFrameSent {
-  Stamp stamp;                       // start of transmission
+  Stamp stamp;  // start of transmission
   Stamp end{};
-  std::int64_t cycle = 0;            // running cycle
+  std::int64_t cycle = 0;  // running cycle
   std::uint16_t slot = 0;
-  std::uint8_t channel = 0;          // 0 A, 1 B
+  std::uint8_t channel = 0;  // 0 A, 1 B
   bool null_frame = false;
   PduId pdu = kNoPdu;
   SensorId sensor = kNoSensor;
@@ -76,18 +76,18 @@ struct SlotFrameSent {
 // included: as the best-placed of its receivers had it, so that what one of them alone could not make out is that one's
 // SlotProblem and no record here. Reported when it has arrived everywhere, or is sure to arrive nowhere, which may be
 // before its sender reports it. Symbols have none.
-inline constexpr std::uint8_t kChannelHeaderCrc = 1;   // it fails its header CRC
-inline constexpr std::uint8_t kChannelFrameCrc = 2;    // it fails its frame CRC, or is not as long as its header says
-inline constexpr std::uint8_t kChannelCoding = 4;      // nobody can make it out, or no more of it than `bytes`
-inline constexpr std::uint8_t kChannelCut = 8;         // it breaks off after `bytes`; a CRC that never came is not wrong
-inline constexpr std::uint8_t kChannelNothing = 16;    // nothing of it reached anybody; alone
+inline constexpr std::uint8_t kChannelHeaderCrc = 1;  // it fails its header CRC
+inline constexpr std::uint8_t kChannelFrameCrc = 2;   // it fails its frame CRC, or is not as long as its header says
+inline constexpr std::uint8_t kChannelCoding = 4;     // nobody can make it out, or no more of it than `bytes`
+inline constexpr std::uint8_t kChannelCut = 8;        // it breaks off after `bytes`; a CRC that never came is not wrong
+inline constexpr std::uint8_t kChannelNothing = 16;   // nothing of it reached anybody; alone
 struct ChannelFrame {
-  TrueTime start{};                  // first and last bit, as and where they left the sender, or appeared
+  TrueTime start{};  // first and last bit, as and where they left the sender, or appeared
   TrueTime end{};
-  NodeId sender = kNoNode;           // kNoNode: it came out of nothing
-  std::uint8_t channel = 0;          // 0 A, 1 B
-  std::uint8_t state = 0;            // bits as above, of our own decoder; 0: a sound frame
-  std::uint16_t slot = 0;            // it was sent in; 0: no controller sent it, and the next three are 0, too
+  NodeId sender = kNoNode;   // kNoNode: it came out of nothing
+  std::uint8_t channel = 0;  // 0 A, 1 B
+  std::uint8_t state = 0;    // bits as above, of our own decoder; 0: a sound frame
+  std::uint16_t slot = 0;    // it was sent in; 0: no controller sent it, and the next three are 0, too
   std::uint8_t cycle_counter = 0;
   TrueTime sent{};                   // the stamp of its SlotFrameSent, which has the same sender
   std::uint8_t sent_channel = 0;     // and this channel
@@ -106,11 +106,11 @@ struct SlotProblem {
 
 // A list of a PDU on its way: every hop is one record, so that a diagram can draw the arrows.
 enum class Hop : std::uint8_t {
-  kWritten = 1,    // a task's output became visible in a CNI
-  kSent = 2,       // its last frame has left
-  kReceived = 3,   // complete in the receiver's CNI
-  kTorn = 4,       // displaced before all its fragments were there: lost
-  kRead = 5,       // a task read it at its start, for the first time
+  kWritten = 1,      // a task's output became visible in a CNI
+  kSent = 2,         // its last frame has left
+  kReceived = 3,     // complete in the receiver's CNI
+  kTorn = 4,         // displaced before all its fragments were there: lost
+  kRead = 5,         // a task read it at its start, for the first time
   kOverwritten = 6,  // a newer list replaced it before it was ever read
   kStale = 7,        // a fragment of it came when a newer list had begun to arrive; not used
   kDiscarded = 8     // a task read it and could not use it: raw data whose strobe was not seen have no time
@@ -121,12 +121,12 @@ struct ListHop {
   PduId pdu{};
   SensorId sensor = kNoSensor;
   std::uint32_t sequence = 0;
-  std::int8_t can_bus = -1;          // -1: FlexRay
+  std::int8_t can_bus = -1;  // -1: FlexRay
 };
 
 struct TaskRun {
   Stamp start;
-  std::uint8_t task = 0;             // index in Node::tasks
+  std::uint8_t task = 0;  // index in Node::tasks
   Stamp activated{};
   Stamp end{};
   bool deadline_met = true;
@@ -135,8 +135,8 @@ struct TaskRun {
 // The corrections computed from a double cycle. The offset correction acts from gOffsetCorrectionStart of this same
 // cycle to its end, the rate correction from the next cycle on.
 struct ClockCorrected {
-  Stamp stamp;                       // end of the odd cycle's static segment, before either is in force; what all
-                                     // clocks showed at that instant, however late it was looked at
+  Stamp stamp;  // end of the odd cycle's static segment, before either is in force; what all
+                // clocks showed at that instant, however late it was looked at
   std::int64_t cycle = 0;
   std::int32_t offset_microticks = 0;
   std::int32_t rate_microticks = 0;
@@ -146,27 +146,27 @@ struct ClockCorrected {
 // Protocol operation control of a node's controller went from one state to another: numbers as E-Ray's CCSV.POCS, words
 // as bus/poc_text.cc. A node that begins integrated has not changed its state.
 struct StateChanged {
-  Stamp stamp;                       // global time as the node has it in the new state
+  Stamp stamp;  // global time as the node has it in the new state
   std::uint8_t from = 0, to = 0;
   std::string_view from_name, to_name;
-  std::string_view why;              // one sentence without the final stop
-  std::string_view consequence;      // why start-up went this way and not another; empty where there is but one
+  std::string_view why;          // one sentence without the final stop
+  std::string_view consequence;  // why start-up went this way and not another; empty where there is but one
 };
 
 // A symbol on one channel, as its sender sent it.
-inline constexpr std::uint8_t kSymbolCas = 1;         // collision avoidance symbol
-inline constexpr std::uint8_t kSymbolWakeup = 2;      // a wake-up pattern
-inline constexpr std::uint8_t kSymbolMediaTest = 3;   // media access test symbol
+inline constexpr std::uint8_t kSymbolCas = 1;        // collision avoidance symbol
+inline constexpr std::uint8_t kSymbolWakeup = 2;     // a wake-up pattern
+inline constexpr std::uint8_t kSymbolMediaTest = 3;  // media access test symbol
 struct SymbolSent {
-  Stamp stamp;                       // start of transmission
+  Stamp stamp;  // start of transmission
   Stamp end{};
-  std::uint8_t channel = 0;          // 0 A, 1 B
+  std::uint8_t channel = 0;  // 0 A, 1 B
   std::uint8_t kind = kSymbolCas;
 };
 
 // A node's supply came or went. Nothing of a node is left while it is off.
 struct PowerChanged {
-  Stamp stamp;                       // off: by the clocks it had until then
+  Stamp stamp;  // off: by the clocks it had until then
   bool on = true;
 };
 
@@ -177,28 +177,28 @@ inline constexpr std::uint8_t kFaultActs = 2;
 inline constexpr std::uint8_t kFaultEnds = 3;
 struct FaultActivity {
   TrueTime at{};
-  std::uint32_t fault = 0;           // index in the plan
+  std::uint32_t fault = 0;  // index in the plan
   std::uint8_t what = kFaultBegins;
-  NodeId node = kNoNode;             // the faulty node, kNoNode for the medium's faults
-  std::string_view kind;             // as the plan names it, "babbling_idiot"
-  std::string_view text;             // one sentence
+  NodeId node = kNoNode;  // the faulty node, kNoNode for the medium's faults
+  std::string_view kind;  // as the plan names it, "babbling_idiot"
+  std::string_view text;  // one sentence
 };
 
 // What the central guardian of one channel kept from the others, wholly or from `until` on. It belongs to no node, so
 // its true time is all there is.
 inline constexpr std::uint8_t kSignalFrame = 1;
-inline constexpr std::uint8_t kSignalCas = 2;           // collision avoidance or media access test symbol
-inline constexpr std::uint8_t kSignalWakeup = 3;        // a wake-up pattern
+inline constexpr std::uint8_t kSignalCas = 2;     // collision avoidance or media access test symbol
+inline constexpr std::uint8_t kSignalWakeup = 3;  // a wake-up pattern
 inline constexpr std::uint8_t kSignalUndecodable = 4;
 struct GuardianIntervention {
-  TrueTime at{};                     // the signal begins at the coupler
-  NodeId branch = kNoNode;           // on whose branch
-  std::uint8_t channel = 0;          // 0 A, 1 B
+  TrueTime at{};             // the signal begins at the coupler
+  NodeId branch = kNoNode;   // on whose branch
+  std::uint8_t channel = 0;  // 0 A, 1 B
   std::uint8_t signal = kSignalFrame;
-  std::uint8_t reason = 0;           // as bus::GuardianReason, 0 where it was cut
-  bool cut = false;                  // else blocked
-  TrueTime until{};                  // cut: so far it went through; blocked: `at`
-  std::string_view why;              // the reason in words
+  std::uint8_t reason = 0;  // as bus::GuardianReason, 0 where it was cut
+  bool cut = false;         // else blocked
+  TrueTime until{};         // cut: so far it went through; blocked: `at`
+  std::string_view why;     // the reason in words
 };
 
 // Largest difference between any two nodes' global times within a double cycle: seen by the simulator, which belongs
@@ -216,9 +216,9 @@ struct FusionInput {
   PduId pdu{};
   SensorId sensor = kNoSensor;
   std::uint32_t sequence = 0;
-  GlobalTime measured{};             // unwrapped time stamp of the list
-  std::uint16_t count = 0;           // elements
-  std::span<const std::byte> fragments;   // fragment payloads one after the other
+  GlobalTime measured{};                 // unwrapped time stamp of the list
+  std::uint16_t count = 0;               // elements
+  std::span<const std::byte> fragments;  // fragment payloads one after the other
 };
 
 // What became of one observation list.
@@ -234,7 +234,7 @@ struct ListFused {
 // One activation of the fusion task.
 struct FusionStep {
   Stamp stamp;
-  std::uint32_t step = 0;            // the numbered fusion instants of the diagrams
+  std::uint32_t step = 0;  // the numbered fusion instants of the diagrams
   std::uint16_t confirmed = 0;
   std::uint16_t tentative = 0;
 };
@@ -263,9 +263,9 @@ struct ObservationSeen {
 // The real-time image of one object as decoded from the bus, in the sensor car's frame: velocities are relative to
 // it. Status: the sum of the bits below. Length and width are what is typical of vehicles where they were not
 // measured.
-inline constexpr std::uint8_t kImageConfirmed = 1;   // else tentative
-inline constexpr std::uint8_t kImageCoasting = 2;    // not observed of late: predicted only
-inline constexpr std::uint8_t kImageHasLength = 4;   // length was measured
+inline constexpr std::uint8_t kImageConfirmed = 1;  // else tentative
+inline constexpr std::uint8_t kImageCoasting = 2;   // not observed of late: predicted only
+inline constexpr std::uint8_t kImageHasLength = 4;  // length was measured
 inline constexpr std::uint8_t kImageHasWidth = 8;
 struct ImageObject {
   TrackId track{};
@@ -277,36 +277,36 @@ struct ImageObject {
 struct ImageWritten {
   Stamp stamp;
   std::uint32_t sequence = 0;
-  GlobalTime valid_at{};             // the instant of use the image is predicted to
-  GlobalTime newest_measurement{};   // of all that is fused in it
+  GlobalTime valid_at{};            // the instant of use the image is predicted to
+  GlobalTime newest_measurement{};  // of all that is fused in it
   std::span<const ImageObject> objects;
-  std::span<const MeasurementId> newest;   // the newest measurement of each sensor that is fused in it
+  std::span<const MeasurementId> newest;  // the newest measurement of each sensor that is fused in it
 };
 
 // What the feature service used, and what it made of it.
 struct FeatureObject {
   ImageObject image;
-  double time_gap_s = 0;             // infinity where there is none
-  double time_to_collision_s = 0;    // infinity where there is none
+  double time_gap_s = 0;           // infinity where there is none
+  double time_to_collision_s = 0;  // infinity where there is none
   bool warning = false;
 };
 struct FeatureUsed {
   Stamp stamp;
   std::uint32_t image_sequence = 0;
-  GlobalTime image_valid_at{};       // its age is stamp.global less this
-  bool fresh = true;                 // first use of this image
+  GlobalTime image_valid_at{};  // its age is stamp.global less this
+  bool fresh = true;            // first use of this image
   std::span<const FeatureObject> objects;
-  bool stale = false;                // too old to be used: nothing was judged, objects is empty
+  bool stale = false;  // too old to be used: nothing was judged, objects is empty
 };
 
-struct ReferenceFix {                // DGPS on the tracked car, transformed with the (erroneous) alignment
+struct ReferenceFix {  // DGPS on the tracked car, transformed with the (erroneous) alignment
   TrueTime measured_true{};
   GlobalTime measured{};
   GlobalTime available{};
   ObjectId object{};
   double x = 0, y = 0, sigma = 0;
-  double vx = 0, vy = 0, sigma_velocity = 0;   // from Doppler; not a number where the receiver gives none
-  LocalTime measured_local{};        // on the receiver's own clock, which is GPS time
+  double vx = 0, vy = 0, sigma_velocity = 0;  // from Doppler; not a number where the receiver gives none
+  LocalTime measured_local{};                 // on the receiver's own clock, which is GPS time
 };
 
 // An object as it truly was when a node measured or used an image: that instant on the node's clocks, too.
@@ -321,18 +321,18 @@ struct TruthState {
 
 // What a node's process did not do in its time, or what did not come to it in its time: of runs in real time, where the
 // schedule is kept by an ordinary kernel. Loss and lateness are told apart.
-inline constexpr std::uint8_t kLateWakeUp = 1;     // something was due for longer than the arrival window allows
-inline constexpr std::uint8_t kSlotMissed = 2;     // so late that nothing was sent in an own slot
-inline constexpr std::uint8_t kLateFrame = 3;      // a frame came after its window, and was not used
-inline constexpr std::uint8_t kEarlyFrame = 4;     // before it; not used either
-inline constexpr std::uint8_t kFramesLost = 5;     // `count` frames of a slot never came, as the next one's cycle shows
+inline constexpr std::uint8_t kLateWakeUp = 1;  // something was due for longer than the arrival window allows
+inline constexpr std::uint8_t kSlotMissed = 2;  // so late that nothing was sent in an own slot
+inline constexpr std::uint8_t kLateFrame = 3;   // a frame came after its window, and was not used
+inline constexpr std::uint8_t kEarlyFrame = 4;  // before it; not used either
+inline constexpr std::uint8_t kFramesLost = 5;  // `count` frames of a slot never came, as the next one's cycle shows
 struct TimingProblem {
-  Stamp stamp;                       // true time: when it was noticed; local and global: when it was due
+  Stamp stamp;  // true time: when it was noticed; local and global: when it was due
   std::uint8_t what = kLateWakeUp;
-  Duration late{};                   // in real time; negative: early; of frames lost: how late that was noticed
+  Duration late{};  // in real time; negative: early; of frames lost: how late that was noticed
   std::int64_t cycle = 0;
-  std::uint16_t slot = 0;            // 0: none
-  std::uint8_t channel = 0;          // 0 A, 1 B
+  std::uint16_t slot = 0;    // 0: none
+  std::uint8_t channel = 0;  // 0 A, 1 B
   std::uint32_t count = 1;
 };
 
@@ -347,7 +347,7 @@ struct LatenessHistogram {
   Stamp stamp;
   std::uint8_t of = kLatenessOfWakeUps;
   Duration longest{};
-  std::span<const std::uint64_t> counts;   // by bin, to the last that is not empty
+  std::span<const std::uint64_t> counts;  // by bin, to the last that is not empty
 };
 
 // What the medium of a node's process has counted since that began, as LatenessHistogram: of runs in real time.
@@ -356,19 +356,19 @@ struct MediumCounts {
   Stamp stamp;
   std::uint64_t sent = 0;
   std::uint64_t received = 0;
-  std::uint64_t not_sent = 0;        // there was no room
-  std::uint64_t lost = 0;            // never heard, as the medium knows
-  std::uint64_t foreign = 0;         // not of this program
-  std::uint64_t malformed = 0;       // of its form, but wrong
-  std::uint64_t dropped = 0;         // no room in the process itself, on its way in or out
+  std::uint64_t not_sent = 0;   // there was no room
+  std::uint64_t lost = 0;       // never heard, as the medium knows
+  std::uint64_t foreign = 0;    // not of this program
+  std::uint64_t malformed = 0;  // of its form, but wrong
+  std::uint64_t dropped = 0;    // no room in the process itself, on its way in or out
 };
 
 // The port. One function per kind of record; an implementation overrides what it cares for.
 class Sink {
  public:
   virtual ~Sink() = default;
-  // Whether SlotFrameSent and ChannelFrame are looked at, nearly all that a drive records. Where nobody does, a drive tells of
-  // none, and its FlexRay carries what frames say instead of their bits; every other record is the same.
+  // Whether SlotFrameSent and ChannelFrame are looked at, nearly all that a drive records. Where nobody does, a drive
+  // tells of none, and its FlexRay carries what frames say instead of their bits; every other record is the same.
   virtual bool wants_frames() const { return true; }
   virtual void on(const Measured&) {}
   virtual void on(const CanFrameSent&) {}

@@ -15,8 +15,7 @@ class Tee final : public Every<Tee> {
   bool wants_frames() const override {
     return std::any_of(sinks_.begin(), sinks_.end(), [](const Sink* sink) { return sink->wants_frames(); });
   }
-  template <class Record>
-  void each(const Record& record) {
+  template <class Record> void each(const Record& record) {
     for (Sink* sink : sinks_) sink->on(record);
   }
 

@@ -31,8 +31,8 @@ class FaultLog {
 
 // What every fault is given; all of it outlives the fault.
 struct FaultSetting {
-  const nodes::Fault& fault;             // resolved
-  std::uint32_t index = 0;               // in the plan
+  const nodes::Fault& fault;  // resolved
+  std::uint32_t index = 0;    // in the plan
   const schedules::Cluster& cluster;
   Plant& plant;
   FaultLog& log;
@@ -74,13 +74,12 @@ class ActiveFault {
 
   // One of the fault's own streams, of the `index`-th draw; what one draws never depends on what another drew.
   RandomStream draws(std::uint32_t index) const {
-    return RandomStream({setting_.seed, setting_.replication, Purpose::kFault,
-                         static_cast<std::uint16_t>(setting_.index), index});
+    return RandomStream(
+        {setting_.seed, setting_.replication, Purpose::kFault, static_cast<std::uint16_t>(setting_.index), index});
   }
 
   // Counts and records that the fault does something, now, with one sentence about it. Allocates nothing.
-  template <class... Args>
-  void acted(fmt::format_string<Args...> sentence, Args&&... args) {
+  template <class... Args> void acted(fmt::format_string<Args...> sentence, Args&&... args) {
     std::array<char, FaultLog::kMostText> text;
     const auto end = fmt::format_to_n(text.begin(), text.size(), sentence, std::forward<Args>(args)...).out;
     setting_.log.acted(setting_.index, setting_.plant.now(),

@@ -62,7 +62,7 @@ class BitFlips final : public FrameFault {
     if (!fault().bits.empty()) {
       int flips = 0;
       for (const int bit : fault().bits)
-        if (bit < where.count) invert(frame, where.first + bit), ++flips;   // a dynamic frame may be shorter
+        if (bit < where.count) invert(frame, where.first + bit), ++flips;  // a dynamic frame may be shorter
       return flips;
     }
     const int flips = std::min(fault().flips, where.count);
@@ -82,7 +82,7 @@ class BitFlips final : public FrameFault {
     frame.bytes[static_cast<std::size_t>(bit / kBitsOfAByte)] ^= std::byte{0x80} >> (bit % kBitsOfAByte);
   }
 
-  std::array<Frame, 2> frames_;   // by channel, the last one befallen, with its bits inverted
+  std::array<Frame, 2> frames_;  // by channel, the last one befallen, with its bits inverted
 };
 
 }  // namespace

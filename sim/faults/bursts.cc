@@ -119,7 +119,7 @@ class BabblingIdiot final : public NodeBursts {
                 std::span<const std::byte>(frame.bytes).first(frame.size));
   }
 
-  std::array<Frame, 2> last_;   // by channel
+  std::array<Frame, 2> last_;  // by channel
 };
 
 class RepeatedCas final : public NodeBursts {

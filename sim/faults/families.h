@@ -21,7 +21,7 @@ std::unique_ptr<ActiveFault> make_bit_flips(const FaultSetting& setting);
 std::unique_ptr<ActiveFault> make_channel_swap(const FaultSetting& setting);
 std::unique_ptr<ActiveFault> make_byzantine_clock(const FaultSetting& setting);
 std::unique_ptr<ActiveFault> make_masquerading(const FaultSetting& setting);
-std::unique_ptr<ActiveFault> make_wrong_schedule(const FaultSetting& setting);   // and the same key slot
+std::unique_ptr<ActiveFault> make_wrong_schedule(const FaultSetting& setting);  // and the same key slot
 
 // What comes out of nothing.
 std::unique_ptr<ActiveFault> make_babbling_idiot(const FaultSetting& setting);

@@ -44,7 +44,7 @@ class FrameFault : public ActiveFault {
   static constexpr std::uint32_t kPartStride = 1U << 23;
 
   Occasions occasions_;
-  std::array<bool, 2> befallen_{};   // by channel, its last frame
+  std::array<bool, 2> befallen_{};  // by channel, its last frame
 };
 
 }  // namespace ttf::sim

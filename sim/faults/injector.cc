@@ -16,7 +16,7 @@ Injector::Injector(nodes::FaultPlan plan, const schedules::Cluster& cluster, Pla
     const nodes::Fault& fault = plan_.faults[i];
     TTF_CHECK(!nodes::has_node(fault.kind) || fault.node != kNoNode, "{} of a node that was not looked up: {}",
               nodes::name_of(fault.kind), fault.node_name);
-    const bool always = nodes::changes_schedule(fault);   // what a node believes in, it always does
+    const bool always = nodes::changes_schedule(fault);  // what a node believes in, it always does
     const TrueTime from = always ? origin : origin + fault.from;
     const TrueTime until = always || fault.duration == nodes::Fault::kToTheEnd ? kNever : from + fault.duration;
     entries_.push_back({make_active_fault({fault, static_cast<std::uint32_t>(i), cluster_, plant_, *this, from, until,
@@ -77,7 +77,7 @@ void Injector::acted(std::uint32_t fault, TrueTime at, std::string_view text) {
     std::copy_n(text.begin(), foreseen.size, foreseen.text.begin());
     return;
   }
-  if (begins != kNever) begin(fault, at);   // what leaves at that very instant, before the faults act
+  if (begins != kNever) begin(fault, at);  // what leaves at that very instant, before the faults act
   Activation& activation = activations_[fault];
   if (activation.times++ == 0) activation.first = at;
   activation.last = at;
@@ -88,8 +88,8 @@ void Injector::emit(const Leaving& signal, std::optional<NodeId> source) { plant
 
 void Injector::report(std::size_t fault, std::uint8_t what, TrueTime at, std::string_view text) {
   const nodes::Fault& one = plan_.faults[fault];
-  sink_.on(records::FaultActivity{at, static_cast<std::uint32_t>(fault), what, one.node, nodes::name_of(one.kind),
-                                  text});
+  sink_.on(
+      records::FaultActivity{at, static_cast<std::uint32_t>(fault), what, one.node, nodes::name_of(one.kind), text});
 }
 
 void Injector::plan_next() {

@@ -38,7 +38,7 @@ class Injector final : public Disturbance, private FaultLog {
   // changed.
   struct Activation {
     std::uint64_t times = 0;
-    TrueTime first{}, last{};       // where times > 0
+    TrueTime first{}, last{};  // where times > 0
   };
   std::span<const Activation> activations() const { return activations_; }
 
@@ -60,7 +60,7 @@ class Injector final : public Disturbance, private FaultLog {
     std::array<char, kMostText> text{};
     std::size_t size = 0;
   };
-  static constexpr std::size_t kForeseen = 64;   // room for: some signals of one propagation delay
+  static constexpr std::size_t kForeseen = 64;  // room for: some signals of one propagation delay
   void acted(std::uint32_t fault, TrueTime at, std::string_view text) override;
   void emit(const Leaving& signal, std::optional<NodeId> source) override;
   void report(std::size_t fault, std::uint8_t what, TrueTime at, std::string_view text);
@@ -71,7 +71,7 @@ class Injector final : public Disturbance, private FaultLog {
   const schedules::Cluster& cluster_;
   Plant& plant_;
   records::Sink& sink_;
-  std::vector<Entry> entries_;               // by index in the plan, as what follows
+  std::vector<Entry> entries_;  // by index in the plan, as what follows
   std::vector<Activation> activations_;
   std::vector<Foreseen> foreseen_;
   TrueTime next_ = kNever;

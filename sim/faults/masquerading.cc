@@ -103,7 +103,7 @@ class InAnothersSlot final : public FrameFault {
     if (due_ >= until()) due_ = Disturbance::kNever;
   }
 
-  TrueTime key_slot_ = Disturbance::kNever;   // start of its last frame there
+  TrueTime key_slot_ = Disturbance::kNever;  // start of its last frame there
   TrueTime due_ = Disturbance::kNever;
   int counter_ = 0, due_counter_ = 0;
   std::array<std::byte, wire::kMaxPayloadBytes> payload_{};

@@ -15,8 +15,7 @@ class Occasions {
   Occasions(int every, double probability) : every_(static_cast<std::uint32_t>(every)), probability_(probability) {}
 
   // Whether what `sender` sends now is befallen; `draws(index)` makes the stream of that index.
-  template <class Draws>
-  bool chosen(TrueTime now, NodeId sender, const Draws& draws) {
+  template <class Draws> bool chosen(TrueTime now, NodeId sender, const Draws& draws) {
     if (now == now_ && sender == sender_) return chosen_;
     now_ = now;
     sender_ = sender;

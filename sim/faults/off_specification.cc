@@ -12,8 +12,7 @@ namespace {
 using nodes::ByzantinePattern;
 
 // Nothing ends before it is sent.
-template <class Signal>
-void shift_by(Signal& signal, Duration shift, TrueTime now) {
+template <class Signal> void shift_by(Signal& signal, Duration shift, TrueTime now) {
   const Duration possible = std::max(shift, now - signal.end);
   signal.start += possible;
   signal.end += possible;
@@ -48,8 +47,7 @@ class SosValue final : public FrameFault {
 
   bool leaving(Leaving& signal) override {
     if (befalls(signal))
-      acted("a frame of {} on {} can be made out by some receivers only", name(signal.sender),
-            letter(signal.channel));
+      acted("a frame of {} on {} can be made out by some receivers only", name(signal.sender), letter(signal.channel));
     return true;
   }
   bool arriving(Arriving& signal) override {
@@ -71,8 +69,7 @@ class ByzantineClock final : public FrameFault {
     if (!befalls(signal)) return true;
     // The cycle's counter is the frame's last six bits of header.
     other_way_ = (static_cast<unsigned>(signal.bytes[wire::kHeaderBytes - 1]) & 1U) != 0;
-    acted("a frame of {} on {} says another time to every receiver", name(signal.sender),
-          letter(signal.channel));
+    acted("a frame of {} on {} says another time to every receiver", name(signal.sender), letter(signal.channel));
     return true;
   }
   bool arriving(Arriving& signal) override {

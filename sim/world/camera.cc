@@ -13,8 +13,8 @@ namespace {
 // What the pair matches of an object: the middle of its silhouette, at the mean depth of the outline that shows.
 struct Seen {
   double bearing = 0.0;
-  double depth = 0.0;        // along the optical axis
-  double silhouette = 0.0;   // [rad]
+  double depth = 0.0;       // along the optical axis
+  double silhouette = 0.0;  // [rad]
 };
 std::optional<Seen> see(const ObjectState& state) {
   const auto span = azimuth_span(state);
@@ -89,7 +89,8 @@ void measure_camera(const CameraConfig& config, std::span<const ObjectState> obj
     if (range > config.max_range_m) continue;
     const double c = std::cos(seen->bearing), s = std::sin(seen->bearing);
     const bool hidden = std::any_of(objects.begin(), objects.end(), [&](const ObjectState& other) {
-      // Cheap bound, no tighter than rounding: the line of sight passes further from the centre than the outline reaches.
+      // Cheap bound, no tighter than rounding: the line of sight passes further from the centre than the outline
+      // reaches.
       const double across = -s * other.x + c * other.y;
       if (other.id == object.id || std::abs(across) > 0.5 * (other.length + other.width) + 1e-6) return false;
       const auto distance = RayTarget(other).ray_to(seen->bearing);

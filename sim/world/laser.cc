@@ -24,7 +24,7 @@ constexpr int kMostBeamsOfASide = 1400;
 // What a beam meets first.
 struct Echo {
   double range;
-  const ObjectState* object;   // null: nothing
+  const ObjectState* object;  // null: nothing
 };
 
 // The beams of -half..half that may meet the object, first and last: those that pass its centre no further than its
@@ -65,8 +65,8 @@ LaserConfig in_drive(LaserConfig config, const DriveKey& key) {
 }
 
 void measure_laser(const LaserConfig& config, std::span<const ObjectState> objects, std::uint64_t seed,
-                   std::uint32_t replication, std::uint16_t sensor, std::uint32_t sequence,
-                   std::vector<HitPoint>& hits, std::vector<ObjectId>& truth) {
+                   std::uint32_t replication, std::uint16_t sensor, std::uint32_t sequence, std::vector<HitPoint>& hits,
+                   std::vector<ObjectId>& truth) {
   TTF_CHECK(config.layers <= LaserConfig::kMostLayers, "{} layers", config.layers);
   hits.clear();
   truth.clear();

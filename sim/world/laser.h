@@ -1,10 +1,11 @@
 // A four-layer automotive laser scanner.
 //
-// Defaults are of the class of the paper's Ibeo ALASCA XT as its maker's data sheet and papers that used it describe it:
-// 12.5 Hz, four layers within 3.2 degrees, 0.25 degree azimuth steps ahead, single-shot range noise of some centimetres, range
-// of dark targets far below the 200 m of bright ones. Rays are cast at the objects' outlines; the nearest one is hit, so
-// objects hide each other. Noise is keyed by the measurement's number and the beam's: a beam's draws are the same whatever else the scan
-// meets, so that paradigms which see the scene a little earlier or later see the same noise.
+// Defaults are of the class of the paper's Ibeo ALASCA XT as its maker's data sheet and papers that used it describe
+// it: 12.5 Hz, four layers within 3.2 degrees, 0.25 degree azimuth steps ahead, single-shot range noise of some
+// centimetres, range of dark targets far below the 200 m of bright ones. Rays are cast at the objects' outlines; the
+// nearest one is hit, so objects hide each other. Noise is keyed by the measurement's number and the beam's: a beam's
+// draws are the same whatever else the scan meets, so that paradigms which see the scene a little earlier or later see
+// the same noise.
 #pragma once
 
 #include <cstdint>
@@ -18,17 +19,17 @@
 namespace ttf::world {
 
 struct LaserConfig {
-  static constexpr int kMostLayers = 4;    // as many have draws of their own
+  static constexpr int kMostLayers = 4;  // as many have draws of their own
   int layers = kMostLayers;
-  double azimuth_step_rad = 0.00436;       // 0.25 degrees
-  double half_field_rad = 1.05;            // 60 degrees to either side
+  double azimuth_step_rad = 0.00436;  // 0.25 degrees
+  double half_field_rad = 1.05;       // 60 degrees to either side
   double range_sigma_m = 0.06;
   double max_range_m = 120.0;
-  double miss_at_100m = 0.3;               // probability that a ray's echo is lost at 100 m; grows with the range squared
-  DriveError range_bias;                   // systematic errors, none unless stated: [m]
-  DriveError azimuth_bias;                 // [rad]
+  double miss_at_100m = 0.3;  // probability that a ray's echo is lost at 100 m; grows with the range squared
+  DriveError range_bias;      // systematic errors, none unless stated: [m]
+  DriveError azimuth_bias;    // [rad]
   Device device;
-  int max_hits = 1300;                     // what one raw list carries; of more, the first are kept
+  int max_hits = 1300;  // what one raw list carries; of more, the first are kept
 };
 LaserConfig load_laser(YamlMap& yaml);
 // With the systematic errors of one drive.
@@ -36,14 +37,14 @@ LaserConfig in_drive(LaserConfig config, const DriveKey& key);
 
 struct HitPoint {
   int layer = 0;
-  double azimuth = 0;   // [rad]
-  double range = 0;     // [m]
+  double azimuth = 0;  // [rad]
+  double range = 0;    // [m]
 };
 
 // `objects`: in the sensor's axes. Replaces `hits` by the scan, by azimuth then layer, and `truth` by the object each
 // hit is of.
 void measure_laser(const LaserConfig& config, std::span<const ObjectState> objects, std::uint64_t seed,
-                   std::uint32_t replication, std::uint16_t sensor, std::uint32_t sequence,
-                   std::vector<HitPoint>& hits, std::vector<ObjectId>& truth);
+                   std::uint32_t replication, std::uint16_t sensor, std::uint32_t sequence, std::vector<HitPoint>& hits,
+                   std::vector<ObjectId>& truth);
 
 }  // namespace ttf::world

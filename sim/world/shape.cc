@@ -15,8 +15,7 @@ std::array<Corner, 4> corners(const ObjectState& state) {
   return {at(l, w), at(-l, w), at(-l, -w), at(l, -w)};
 }
 
-RayTarget::RayTarget(const ObjectState& state)
-    : heading_(state.heading), half_{0.5 * state.length, 0.5 * state.width} {
+RayTarget::RayTarget(const ObjectState& state) : heading_(state.heading), half_{0.5 * state.length, 0.5 * state.width} {
   const double c = std::cos(state.heading), s = std::sin(state.heading);
   origin_[0] = -(c * state.x + s * state.y);
   origin_[1] = -(-s * state.x + c * state.y);

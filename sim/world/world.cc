@@ -17,7 +17,7 @@ constexpr std::int64_t kStep_ns = 10'000'000;
 void advance_position(ObjectState& state, double dt) {
   const double v = state.speed, a = state.acceleration, w = state.yaw_rate, h = state.heading;
   const double turn = w * dt;
-  double along, across;   // in the frame of the initial heading
+  double along, across;  // in the frame of the initial heading
   if (std::abs(turn) < 1e-3) {
     // Series in the turn angle, to the second order: exact to 1e-10 m for a car within a step.
     along = v * dt * (1.0 - turn * turn / 6.0) + a * dt * dt * (0.5 - turn * turn / 8.0);
@@ -71,8 +71,8 @@ World::World(const WorldConfig& config, std::uint64_t seed, std::uint32_t replic
       }
       const bool steered = segment < object.segments.size();
       const double acceleration_noise = noise.normal(), yaw_rate_noise = noise.normal();
-      state.acceleration = (steered ? object.segments[segment].acceleration : 0.0) +
-                           config.acceleration_noise * acceleration_noise;
+      state.acceleration =
+          (steered ? object.segments[segment].acceleration : 0.0) + config.acceleration_noise * acceleration_noise;
       state.yaw_rate = (steered ? object.segments[segment].yaw_rate : 0.0) + config.yaw_rate_noise * yaw_rate_noise;
       trajectory.push_back(state);
       state = moved(state, 1e-9 * static_cast<double>(kStep_ns));
@@ -91,8 +91,7 @@ ObjectState World::state_of(ObjectId object, TrueTime since_start) const {
 
 void World::states_at(TrueTime since_start, std::vector<ObjectState>& out) const {
   out.clear();
-  for (std::size_t o = 0; o < trajectories_.size(); ++o)
-    out.push_back(state_of(static_cast<ObjectId>(o), since_start));
+  for (std::size_t o = 0; o < trajectories_.size(); ++o) out.push_back(state_of(static_cast<ObjectId>(o), since_start));
 }
 
 namespace {

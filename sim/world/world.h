@@ -1,8 +1,8 @@
 // The truth: objects that drive through the scene.
 //
-// An object's trajectory is a list of segments of constant acceleration and yaw rate, to which white process noise is added;
-// it is drawn once on a 10 ms grid, with exact motion (constant acceleration, constant turn rate) within each step, so that
-// looking at it any number of times, in any order, gives the same states.
+// An object's trajectory is a list of segments of constant acceleration and yaw rate, to which white process noise is
+// added; it is drawn once on a 10 ms grid, with exact motion (constant acceleration, constant turn rate) within each
+// step, so that looking at it any number of times, in any order, gives the same states.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,8 @@
 
 namespace ttf::world {
 
-// Centre [m], heading [rad] from x to y, speed [m/s] along it, acceleration [m/s^2] along it, yaw rate [rad/s], size [m].
+// Centre [m], heading [rad] from x to y, speed [m/s] along it, acceleration [m/s^2] along it, yaw rate [rad/s], size
+// [m].
 struct ObjectState {
   ObjectId id{};
   double x = 0, y = 0, heading = 0, speed = 0, acceleration = 0, yaw_rate = 0, length = 0, width = 0;
@@ -23,16 +24,16 @@ struct ObjectState {
 
 struct TrajectorySegment {
   Duration duration{};
-  double acceleration = 0;   // [m/s^2]
-  double yaw_rate = 0;       // [rad/s]
+  double acceleration = 0;  // [m/s^2]
+  double yaw_rate = 0;      // [rad/s]
 };
 
 struct ObjectConfig {
   std::string name;
-  double x = 0, y = 0, heading = 0, speed = 0;   // at the start of the drive
-  double length = 4.39, width = 1.79;            // a Volkswagen Touran, the paper's car
-  std::vector<TrajectorySegment> segments;       // after the last one: straight on at constant speed
-  bool reference = false;                        // carries the DGPS antenna
+  double x = 0, y = 0, heading = 0, speed = 0;  // at the start of the drive
+  double length = 4.39, width = 1.79;           // a Volkswagen Touran, the paper's car
+  std::vector<TrajectorySegment> segments;      // after the last one: straight on at constant speed
+  bool reference = false;                       // carries the DGPS antenna
 };
 
 struct WorldConfig {
@@ -51,11 +52,11 @@ WorldConfig load_world(YamlMap& yaml);
 // its middle.
 struct FieldConfig {
   int objects = 0;
-  double nearest = 40.0, row = 6.0, across = 4.0;   // [m]
-  double half_angle = 0.7;                          // [rad]
-  ObjectConfig each;                                // all but where it is
+  double nearest = 40.0, row = 6.0, across = 4.0;  // [m]
+  double half_angle = 0.7;                         // [rad]
+  ObjectConfig each;                               // all but where it is
 };
-inline constexpr double kFarthest_m = 500.0;        // that an object may be from either axis
+inline constexpr double kFarthest_m = 500.0;  // that an object may be from either axis
 // As many as there is room for.
 std::vector<ObjectConfig> placed(const FieldConfig& field);
 
@@ -73,7 +74,7 @@ class World {
   std::size_t size() const { return trajectories_.size(); }
 
  private:
-  std::vector<std::vector<ObjectState>> trajectories_;   // per object, a state per grid step
+  std::vector<std::vector<ObjectState>> trajectories_;  // per object, a state per grid step
 };
 
 }  // namespace ttf::world

@@ -1,6 +1,6 @@
 // Predictions and updates of many constant-velocity filters at once, four to a register, against one filter at a time.
-// `pairs` counts prediction + update: of 100 filters, and of 1,000 with their measurements, which the second-level cache
-// holds.
+// `pairs` counts prediction + update: of 100 filters, and of 1,000 with their measurements, which the second-level
+// cache holds.
 #include <benchmark/benchmark.h>
 
 #include <cstddef>
@@ -52,8 +52,7 @@ void OneAtATime(benchmark::State& state) {
   count(state);
 }
 
-template <template <class> class Form>
-void AtOnce(benchmark::State& state) {
+template <template <class> class Form> void AtOnce(benchmark::State& state) {
   const auto filters_there = static_cast<std::size_t>(state.range(0));
   Gaussian<4> prior;
   prior.p.setIdentity();

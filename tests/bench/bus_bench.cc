@@ -1,7 +1,8 @@
 // How fast the simulated FlexRay goes: controllers without hosts, every static slot owned and sent on both channels.
 //
-// A slot here is one static slot of the schedule with all that belongs to it: one frame on channel A and one on channel B, each
-// encoded, put on its way, and received, judged and stored by every other node. Items per second are such slots.
+// A slot here is one static slot of the schedule with all that belongs to it: one frame on channel A and one on channel
+// B, each encoded, put on its way, and received, judged and stored by every other node. Items per second are such
+// slots.
 #include <benchmark/benchmark.h>
 
 #include <memory>
@@ -19,7 +20,8 @@ namespace {
 schedules::Cluster full_cluster(int nodes) {
   schedules::Cluster cluster = bus_cluster(nodes, 3, nodes < 15 ? nodes : 15);
   for (int slot = nodes + 1; slot <= cluster.flexray.gNumberOfStaticSlots; ++slot)
-    cluster.frames.push_back({slot, schedules::Channels::kAB, 0, 1, static_cast<NodeId>((slot - 1) % nodes), kNoPdu, 0, 0});
+    cluster.frames.push_back(
+        {slot, schedules::Channels::kAB, 0, 1, static_cast<NodeId>((slot - 1) % nodes), kNoPdu, 0, 0});
   return cluster;
 }
 
@@ -31,8 +33,8 @@ struct Problems final : bus::ControllerEvents {
 
 void report(benchmark::State& state, const schedules::Cluster& cluster, int slots_per_cycle, std::int64_t cycles) {
   state.SetItemsProcessed(cycles * slots_per_cycle);
-  state.counters["x real time"] = benchmark::Counter(static_cast<double>(cycles) * cluster.cycle().seconds(),
-                                                     benchmark::Counter::kIsRate);
+  state.counters["x real time"] =
+      benchmark::Counter(static_cast<double>(cycles) * cluster.cycle().seconds(), benchmark::Counter::kIsRate);
 }
 
 void run(benchmark::State& state, const schedules::Cluster& cluster, int slots_per_cycle, bool transparent = false) {

@@ -9,9 +9,9 @@
 #include <array>
 #include <chrono>
 #include <cstdint>
+#include <exception>
 #include <map>
 #include <optional>
-#include <exception>
 #include <string>
 #include <thread>
 #include <utility>
@@ -28,7 +28,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::size_t kBytes = 100;
-constexpr std::uint32_t kDomain = 18;   // nobody else's
+constexpr std::uint32_t kDomain = 18;  // nobody else's
 using Message = std::array<std::byte, kBytes>;
 
 dds::Session session_of(const std::string& name, std::size_t members) {
@@ -77,7 +77,7 @@ class RoundMember {
 
   dds::Exchange exchange_;
   std::size_t others_;
-  std::size_t ahead_ = 0;   // whose message of the next round has been heard
+  std::size_t ahead_ = 0;  // whose message of the next round has been heard
   std::uint64_t round_ = 0;
   std::map<NodeId, std::uint64_t> count_;
   Message message_{};
@@ -123,7 +123,7 @@ void DdsRounds(benchmark::State& state) {
     self.reset();
     for (const pid_t process : processes) waitpid(process, nullptr, 0);
   }
-  state.SetItemsProcessed(state.iterations() * state.range(0));   // messages
+  state.SetItemsProcessed(state.iterations() * state.range(0));  // messages
 }
 BENCHMARK(DdsRounds)->ArgName("processes")->Arg(2)->Arg(6)->UseRealTime()->Unit(benchmark::kMicrosecond);
 
@@ -151,7 +151,7 @@ void PipeThereAndBack(benchmark::State& state) {
   Message message{};
   const pid_t child = fork();
   TTF_CHECK(child >= 0);
-  if (child == 0) {   // only calls that may follow a fork
+  if (child == 0) {  // only calls that may follow a fork
     close(there[1]);
     while (read(there[0], message.data(), kBytes) == static_cast<ssize_t>(kBytes))
       if (write(back[1], message.data(), kBytes) < 0) break;
@@ -178,7 +178,7 @@ int main(int count, char** arguments) {
     try {
       return ttf::bench::be_member(arguments);
     } catch (const std::exception&) {
-      return 1;   // whoever measures notices that it has gone
+      return 1;  // whoever measures notices that it has gone
     }
   }
   benchmark::Initialize(&count, arguments);

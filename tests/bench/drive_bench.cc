@@ -56,8 +56,8 @@ void DriveWithoutLog(benchmark::State& state) {
     benchmark::DoNotOptimize(drive.run(nobody, ++seed).frames_sent);
   }
   state.counters["drives/s"] = benchmark::Counter(1, benchmark::Counter::kIsIterationInvariantRate);
-  state.counters["x real time"] = benchmark::Counter(drive.scenario.duration.seconds(),
-                                                     benchmark::Counter::kIsIterationInvariantRate);
+  state.counters["x real time"] =
+      benchmark::Counter(drive.scenario.duration.seconds(), benchmark::Counter::kIsIterationInvariantRate);
 }
 BENCHMARK(DriveWithoutLog)->Arg(0)->Arg(1)->Arg(2)->ArgName("strategy")->Unit(benchmark::kMillisecond);
 

@@ -16,7 +16,7 @@ namespace ttf::fusion {
 namespace {
 
 constexpr double kDt = 0.05;
-constexpr int kBatch = 100;   // steps between looks at the clock
+constexpr int kBatch = 100;  // steps between looks at the clock
 
 // Positions along a wavy line.
 struct Seen {
@@ -31,8 +31,7 @@ void count(benchmark::State& state) {
       benchmark::Counter(kBatch * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
 }
 
-template <class F, class M>
-void Interface(benchmark::State& state) {
+template <class F, class M> void Interface(benchmark::State& state) {
   const Seen seen;
   const M model(2.0);
   const F filter;
@@ -53,8 +52,7 @@ void Interface(benchmark::State& state) {
 }
 
 // F and Q of the model, as matrices.
-template <int N>
-LinearStep<N> written_out(double dt) {
+template <int N> LinearStep<N> written_out(double dt) {
   LinearStep<N> step;
   const double q = 2.0;
   for (int a = 0; a < 2; ++a) {
@@ -81,8 +79,7 @@ LinearStep<N> written_out(double dt) {
 enum class Form { kJoseph, kShort };
 
 // Short: P - K H P and the inverse of S in closed form, the fastest that is usually written.
-template <int N, Form form>
-void PlainEigen(benchmark::State& state) {
+template <int N, Form form> void PlainEigen(benchmark::State& state) {
   const Seen seen;
   Gaussian<N> estimate;
   estimate.p.setIdentity();

@@ -70,8 +70,7 @@ BENCHMARK(HeaderCrc);
 void Encode(benchmark::State& state) {
   Sample sample(state.range(0));
   for (auto _ : state)
-    benchmark::DoNotOptimize(
-        encode_frame(sample.header, Channel::kA, sample.bytes(state.range(0)), sample.frame));
+    benchmark::DoNotOptimize(encode_frame(sample.header, Channel::kA, sample.bytes(state.range(0)), sample.frame));
   report(state, sample.size);
 }
 BENCHMARK(Encode)->Arg(8)->Arg(28)->Arg(127)->ArgName("words");

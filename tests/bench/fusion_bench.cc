@@ -92,9 +92,7 @@ void CycleWithALateList(benchmark::State& state) {
 }
 BENCHMARK(CycleWithALateList)->DenseRange(0, oosm::kKinds.size() - 1)->ArgName("late")->Unit(benchmark::kMicrosecond);
 
-void CycleOfThousand(benchmark::State& state) {
-  cycle(state, thousand(), StrategyKind::kAdva, for_thousand());
-}
+void CycleOfThousand(benchmark::State& state) { cycle(state, thousand(), StrategyKind::kAdva, for_thousand()); }
 BENCHMARK(CycleOfThousand)->Unit(benchmark::kMicrosecond);
 
 // One laser list of 25 observations that comes `scans` scans late.

@@ -1,5 +1,5 @@
-// The hot paths, one at a time, for counting their instructions (tools/instruction_counts.sh): what is inside counted() is
-// counted, what prepares it is not.
+// The hot paths, one at a time, for counting their instructions (tools/instruction_counts.sh): what is inside counted()
+// is counted, what prepares it is not.
 //   ttf_hot_paths --list     their names
 //   ttf_hot_paths NAME
 #include <cstdio>
@@ -31,8 +31,7 @@ extern "C" [[gnu::noinline]] void counted(const std::function<void()>& path) { p
 
 // ---- one object
 
-template <class F, class M>
-void filter_pairs() {
+template <class F, class M> void filter_pairs() {
   const F filter;
   const M model{};
   fusion::Gaussian<M::kStates> state;
@@ -62,8 +61,7 @@ void batch_axes() {
 using Plane = fusion::oosm::ConstantVelocity<2>;
 
 // Some scans late, among fifteen that are 40 ms apart.
-template <class X, int lag>
-void late_by() {
+template <class X, int lag> void late_by() {
   using namespace fusion::oosm;
   constexpr int kScans = 15;
   fusion::LinearMeasurement<4, 2> seen;

@@ -38,10 +38,10 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::size_t kSenders = 5;
-constexpr std::int64_t kFramesPerSecond = 4200;   // on each channel, of all together
+constexpr std::int64_t kFramesPerSecond = 4200;  // on each channel, of all together
 constexpr std::int64_t kSecond = 1'000'000'000;
 constexpr std::int64_t kPeriod = kSecond * kSenders / kFramesPerSecond;
-constexpr std::uint32_t kLiveDomain = 19;         // nobody else's
+constexpr std::uint32_t kLiveDomain = 19;  // nobody else's
 constexpr std::size_t kPayload = 32;
 
 struct Totals {
@@ -125,7 +125,7 @@ class Member {
       const bool more = sends && next < end;
       if (more && now >= next) {
         send(next);
-        next += Duration::nanoseconds(kPeriod / 2);   // A and B in turn
+        next += Duration::nanoseconds(kPeriod / 2);  // A and B in turn
         continue;
       }
       sleep((more ? next : silence) - now);
@@ -165,7 +165,7 @@ class Member {
   dds::LiveMedium medium_;
   Job job_;
   schedules::Channel channel_ = schedules::Channel::kB;
-  std::vector<std::int64_t> ways_, sends_;   // ns
+  std::vector<std::int64_t> ways_, sends_;  // ns
 };
 
 // Told the instant at which to begin once it is ready, in nanoseconds.
@@ -181,8 +181,13 @@ int be_member(char** words) {
 
 std::vector<std::string> words_of(const std::string& session, std::size_t self, std::size_t members, bool reliable,
                                   std::int64_t seconds) {
-  return {"/proc/self/exe",        "--member", session, std::to_string(self), std::to_string(members),
-          reliable ? "reliable" : "best-effort", std::to_string(seconds)};
+  return {"/proc/self/exe",
+          "--member",
+          session,
+          std::to_string(self),
+          std::to_string(members),
+          reliable ? "reliable" : "best-effort",
+          std::to_string(seconds)};
 }
 
 double share_us(std::vector<std::int64_t>& values, double share) {

@@ -32,8 +32,7 @@ Measurement position(double x, double y) {
 }
 
 // A method that took kScans scans, 40 ms apart, and knows that one from between will come `lag` late (0: in order).
-template <class X>
-X prepared(X method, const Stamp& awaited) {
+template <class X> X prepared(X method, const Stamp& awaited) {
   method.start(GlobalTime{}, {Vector<4>::Zero(), Matrix<4>::Identity()});
   for (int i = 1; i <= kScans; ++i) {
     method.announce(awaited);
@@ -42,8 +41,7 @@ X prepared(X method, const Stamp& awaited) {
   return method;
 }
 
-template <class X>
-void Take(benchmark::State& state) {
+template <class X> void Take(benchmark::State& state) {
   const auto lag = state.range(0);
   const Stamp stamp = stamp_at(after_ms(40 * (kScans - lag) + 20), 1);
   const Measurement measurement = position(kScans, -kScans);

@@ -21,7 +21,11 @@ struct NoPort final : FlexRayPort {
   }
   bool carrier(Channel channel) const override { return busy[index_of(channel)]; }
 
-  struct Sent { Channel channel; Signal signal; Microticks start, end; };
+  struct Sent {
+    Channel channel;
+    Signal signal;
+    Microticks start, end;
+  };
   std::vector<Sent> sent;
   std::array<bool, 2> busy{};
 };
@@ -43,9 +47,7 @@ struct Alone {
     controller.start_integrated({{1000}, 0});
   }
 
-  static Microticks at(std::int64_t cycle, std::int64_t macrotick) {
-    return {1000 + 40 * (1000 * cycle + macrotick)};
-  }
+  static Microticks at(std::int64_t cycle, std::int64_t macrotick) { return {1000 + 40 * (1000 * cycle + macrotick)}; }
   void run_to(std::int64_t cycle, std::int64_t macrotick = 0) { controller.advance(at(cycle, macrotick)); }
   std::vector<Heard::Sent> sent_in(std::int64_t cycle) const {
     std::vector<Heard::Sent> frames;

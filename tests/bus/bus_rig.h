@@ -25,7 +25,7 @@
 namespace ttf::bus {
 
 inline constexpr PduId kList{0}, kOddList{1};
-inline constexpr int kMicroPerCycle = 40'000;   // of 25 ns
+inline constexpr int kMicroPerCycle = 40'000;  // of 25 ns
 // (34 + 20 * gClusterDriftDamping) * gdMaxMicrotick: the assumed precision without propagation delay.
 inline constexpr Duration kAssumedPrecision{(34 + 20 * 2) * 25};
 
@@ -47,32 +47,58 @@ inline schedules::Cluster small_cluster(int nodes) {
     node.flexray->pKeySlotId = n + 1;
     node.flexray->pKeySlotUsedForSync = node.flexray->pKeySlotUsedForStartup = true;
     node.flexray->pOffsetCorrectionOut = 400;
-    node.flexray->pRateCorrectionOut = 121;   // 40'000 * 0.003 / 0.9985
+    node.flexray->pRateCorrectionOut = 121;  // 40'000 * 0.003 / 0.9985
     cluster.nodes.push_back(node);
     cluster.frames.push_back({n + 1, schedules::Channels::kAB, 0, 1, static_cast<NodeId>(n), kNoPdu, 0, 0});
   }
   cluster.pdus = {list_layout(4, 10, 3), list_layout(4, 3, 3)};
-  for (int f = 0; f < 4; ++f)
-    cluster.frames.push_back({5 + f, schedules::Channels::kAB, 0, 1, NodeId{0}, kList, f, 0});
+  for (int f = 0; f < 4; ++f) cluster.frames.push_back({5 + f, schedules::Channels::kAB, 0, 1, NodeId{0}, kList, f, 0});
   if (nodes > 1) cluster.frames.push_back({9, schedules::Channels::kA, 1, 2, NodeId{1}, kOddList, 0, 0});
   return cluster;
 }
 
 // Everything a controller says.
 struct Heard final : ControllerEvents {
-  struct Problem { std::int64_t cycle; int slot; schedules::Channel channel; int status; };
-  struct Sent { std::int64_t cycle; int slot; schedules::Channel channel; Microticks start; bool null_frame; PduId pdu;
-                std::uint32_t sequence; int fragment; bool last; std::vector<std::byte> bytes; };
-  struct Arrived { PduId pdu; ArrivalEffect effect; std::uint32_t sequence; Microticks at;
-                   std::optional<std::uint32_t> torn; };
-  struct Corrected { std::int64_t cycle; timebase::Correction offset, rate; };
+  struct Problem {
+    std::int64_t cycle;
+    int slot;
+    schedules::Channel channel;
+    int status;
+  };
+  struct Sent {
+    std::int64_t cycle;
+    int slot;
+    schedules::Channel channel;
+    Microticks start;
+    bool null_frame;
+    PduId pdu;
+    std::uint32_t sequence;
+    int fragment;
+    bool last;
+    std::vector<std::byte> bytes;
+  };
+  struct Arrived {
+    PduId pdu;
+    ArrivalEffect effect;
+    std::uint32_t sequence;
+    Microticks at;
+    std::optional<std::uint32_t> torn;
+  };
+  struct Corrected {
+    std::int64_t cycle;
+    timebase::Correction offset, rate;
+  };
   std::vector<Problem> problems;
   std::vector<Sent> sent;
   std::vector<Arrived> arrived;
   std::vector<Corrected> corrected;
-  std::vector<std::int64_t> static_segments;   // cycles whose static segment has ended
+  std::vector<std::int64_t> static_segments;  // cycles whose static segment has ended
   std::function<void(std::int64_t)> on_static_segment_ended;
-  struct Changed { PocKind from, to; PocReason reason, consequence; Microticks at; };
+  struct Changed {
+    PocKind from, to;
+    PocReason reason, consequence;
+    Microticks at;
+  };
   std::vector<std::int64_t> cycles;
   std::vector<Changed> changed;
 
@@ -90,7 +116,15 @@ struct Heard final : ControllerEvents {
   }
   void frame_sent(const Transmission& t, std::int64_t cycle, bool null_frame, PduId pdu, std::uint32_t sequence,
                   int fragment, bool last) override {
-    sent.push_back({cycle, t.slot, t.channel, t.start, null_frame, pdu, sequence, fragment, last,
+    sent.push_back({cycle,
+                    t.slot,
+                    t.channel,
+                    t.start,
+                    null_frame,
+                    pdu,
+                    sequence,
+                    fragment,
+                    last,
                     {t.bytes.begin(), t.bytes.end()}});
   }
   void list_arrived(PduId pdu, ArrivalEffect effect, std::uint32_t sequence, std::optional<std::uint32_t> torn,
@@ -125,7 +159,7 @@ class TestMedium {
   }
   FlexRayPort& port(std::size_t node) { return *ports_[node]; }
   const timebase::Oscillator& oscillator(std::size_t node) const { return oscillators_[node]; }
-  void set_now(TrueTime now) { now_ = now; }   // what carrier() goes by
+  void set_now(TrueTime now) { now_ = now; }  // what carrier() goes by
 
   std::optional<TrueTime> next() const {
     if (pending_.empty()) return std::nullopt;

@@ -67,8 +67,7 @@ TEST(CanController, AListTravelsAsFramesOfOneIdentifierInOrder) {
       ASSERT_TRUE(arrival.has_value());
       EXPECT_EQ(arrival->pdu, kUp);
       EXPECT_EQ(arrival->sequence, 5u);
-      EXPECT_EQ(arrival->effect,
-                f == list.fragments - 1 ? ArrivalEffect::kCompleted : ArrivalEffect::kIncomplete);
+      EXPECT_EQ(arrival->effect, f == list.fragments - 1 ? ArrivalEffect::kCompleted : ArrivalEffect::kIncomplete);
     }
     const auto latest = host.incoming(kUp).latest();
     ASSERT_TRUE(latest.has_value());
@@ -93,7 +92,7 @@ TEST(CanController, WhatTheScheduleDoesNotLayDownIsCountedAndIgnored) {
   CanController host(c, kHost, 0, wire);
   const std::vector<std::byte> data(12), cut_off(8), longer(16);
   EXPECT_FALSE(host.receive({0x7FF, true, data}).has_value());
-  EXPECT_FALSE(host.receive({0x100, true, data}).has_value());   // its own identifier, from somebody else
+  EXPECT_FALSE(host.receive({0x100, true, data}).has_value());  // its own identifier, from somebody else
   EXPECT_EQ(host.refused().foreign, 2u);
   EXPECT_FALSE(host.receive({0x123, true, cut_off}).has_value());
   EXPECT_FALSE(host.receive({0x123, true, {}}).has_value());
@@ -138,7 +137,7 @@ TEST(CanController, ArrivalNamesTheListOfItsFragment) {
   CanController device(c, kDevice, 0, wire), host(c, kHost, 0, wire);
   MadeList first(c.pdus[0], 1, 1, 0), second(c.pdus[0], 2, 8, 0), third(c.pdus[0], 3, 8, 0);
   for (const MadeList* list : {&first, &second, &third}) device.send(kUp, list->view());
-  ASSERT_EQ(wire.frames.size(), 5u);   // 1 + 2 + 2
+  ASSERT_EQ(wire.frames.size(), 5u);  // 1 + 2 + 2
   EXPECT_EQ(host.receive(wire.frames[0].view())->sequence, 1u);
   EXPECT_EQ(host.receive(wire.frames[1].view())->sequence, 2u);
   const auto repeated = host.receive(wire.frames[0].view());

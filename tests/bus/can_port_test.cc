@@ -11,8 +11,7 @@
 namespace ttf::laws {
 namespace {
 
-template <bool kFlexibleDataRate>
-class TestCanBench final : public CanBench {
+template <bool kFlexibleDataRate> class TestCanBench final : public CanBench {
  public:
   bool flexible_data_rate() const override { return kFlexibleDataRate; }
   std::size_t controllers() const override { return can_.controllers(); }
@@ -23,9 +22,11 @@ class TestCanBench final : public CanBench {
 
  private:
   std::vector<CanReached> reached_;
-  bus::TestCan can_{4, [this](std::size_t controller, const bus::CanFrame& frame) {
-    reached_.push_back({controller, frame.identifier, frame.flexible_data_rate, {frame.data.begin(), frame.data.end()}});
-  }};
+  bus::TestCan can_{
+      4, [this](std::size_t controller, const bus::CanFrame& frame) {
+        reached_.push_back(
+            {controller, frame.identifier, frame.flexible_data_rate, {frame.data.begin(), frame.data.end()}});
+      }};
 };
 
 using CanBenches = testing::Types<TestCanBench<false>, TestCanBench<true>>;
@@ -52,7 +53,7 @@ TEST(CanControllers, ListsThatInterleaveArriveWhole) {
   cluster.can_buses = {bus};
 
   std::vector<std::unique_ptr<CanController>> nodes;
-  std::vector<PduId> order;   // of the frames that node 2 hears
+  std::vector<PduId> order;  // of the frames that node 2 hears
   TestCan can(3, [&](std::size_t node, const CanFrame& frame) {
     const auto arrival = nodes[node]->receive(frame);
     if (node == 2) order.push_back(arrival.value().pdu);

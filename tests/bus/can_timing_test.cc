@@ -31,7 +31,8 @@ schedules::CanBus fast() {
 
 constexpr int kFdLengths[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 12, 16, 20, 24, 32, 48, 64};
 
-// The oracle writes the whole frame as it stands on the wire, bit by bit: each with its rate, stuff bits in their places.
+// The oracle writes the whole frame as it stands on the wire, bit by bit: each with its rate, stuff bits in their
+// places.
 class WireFrame {
  public:
   struct Bit {
@@ -40,9 +41,9 @@ class WireFrame {
 
   static WireFrame classic_frame(std::uint32_t id, const std::vector<std::byte>& data) {
     WireFrame frame;
-    frame.field(0, 1);               // start of frame
+    frame.field(0, 1);  // start of frame
     frame.field(id, 11);
-    frame.field(0, 3);               // RTR, IDE, r0
+    frame.field(0, 3);  // RTR, IDE, r0
     frame.field(static_cast<std::uint32_t>(data.size()), 4);
     for (const std::byte byte : data) frame.field(static_cast<std::uint32_t>(byte), 8);
     frame.field(remainder(frame.plain_, 15, 0x4599, 0), 15);
@@ -54,9 +55,9 @@ class WireFrame {
     WireFrame frame;
     frame.field(0, 1);
     frame.field(id, 11);
-    frame.field(0b00101, 5);         // RRS, IDE, FDF, res, BRS
+    frame.field(0b00101, 5);  // RRS, IDE, FDF, res, BRS
     frame.fast_ = true;
-    frame.field(0, 1);               // ESI
+    frame.field(0, 1);  // ESI
     std::uint32_t code = 0;
     while (static_cast<std::size_t>(kFdLengths[code]) != data.size()) ++code;
     frame.field(code, 4);
@@ -93,7 +94,7 @@ class WireFrame {
   }
 
   const std::vector<Bit>& bits() const { return bits_; }
-  Duration at(std::int64_t nominal, std::int64_t data) const {   // rates that divide a second's nanoseconds
+  Duration at(std::int64_t nominal, std::int64_t data) const {  // rates that divide a second's nanoseconds
     std::int64_t ns = 0;
     for (const Bit& bit : bits_) ns += 1'000'000'000 / (bit.fast ? data : nominal);
     return {ns};
@@ -228,7 +229,7 @@ TEST(CanTiming, RatesSwitchAtBrsAndBackAtTheCrcDelimiter) {
 
 TEST(CanTiming, RoundsUpToWholeNanoseconds) {
   schedules::CanBus odd = classic();
-  odd.nominal_bit_rate = odd.data_bit_rate = 300'000;   // 3333.3 ns
+  odd.nominal_bit_rate = odd.data_bit_rate = 300'000;  // 3333.3 ns
   int rounded = 0;
   for (std::uint32_t id = 0; id < 64; ++id) {
     const auto bits = static_cast<std::int64_t>(WireFrame::classic_frame(id, {}).bits().size());

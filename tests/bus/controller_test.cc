@@ -17,12 +17,12 @@ TEST(ControllerSends, L3_InItsSlotsOnlyAndAlways) {
   node1.run_to(4);
   for (std::int64_t cycle = 0; cycle < 4; ++cycle) {
     const auto zero = node0.sent_in(cycle), one = node1.sent_in(cycle);
-    ASSERT_EQ(zero.size(), 10u);   // slots 1, 5..8 on A and B
+    ASSERT_EQ(zero.size(), 10u);  // slots 1, 5..8 on A and B
     for (std::size_t i = 0; i < zero.size(); ++i) {
       const int slot = i < 2 ? 1 : 5 + static_cast<int>(i / 2) - 1;
       EXPECT_EQ(zero[i].slot, slot);
       EXPECT_EQ(zero[i].channel, i % 2 == 0 ? Channel::kA : Channel::kB);
-      EXPECT_EQ(zero[i].start, Alone::at(cycle, 84 * (slot - 1) + 7));   // at the action point
+      EXPECT_EQ(zero[i].start, Alone::at(cycle, 84 * (slot - 1) + 7));  // at the action point
     }
     // Slot 9 on channel A in odd cycles only.
     ASSERT_EQ(one.size(), cycle % 2 == 1 ? 3u : 2u);
@@ -42,8 +42,8 @@ TEST(ControllerSends, EveryFrameIsValidOnItsChannelWithTheClustersPayloadLength)
     ASSERT_EQ(decoded.error, wire::FrameError::kNone);
     ASSERT_EQ(decoded.header.frame_id, sent.slot);
     ASSERT_EQ(decoded.header.payload_words, 8);
-    ASSERT_EQ(decoded.header.cycle, sent.cycle % 64);   // the counter wraps
-    ASSERT_EQ(decoded.header.sync, sent.slot == 1);     // the key slot
+    ASSERT_EQ(decoded.header.cycle, sent.cycle % 64);  // the counter wraps
+    ASSERT_EQ(decoded.header.sync, sent.slot == 1);    // the key slot
     ASSERT_EQ(decoded.header.startup, sent.slot == 1);
     ASSERT_FALSE(decoded.header.payload_preamble);
     ASSERT_TRUE(std::all_of(decoded.payload.begin(), decoded.payload.end(),
@@ -62,7 +62,7 @@ TEST(ControllerSends, AStatusFrameIsNoNullFrameAndAnUnwrittenListIsOne) {
 
 TEST(ControllerSends, FragmentsPaddedWithZerosAndNullFramesBeyondTheList) {
   Alone node;
-  MadeList list(node.cluster.pdus[0], 1, 5, 0xABC0);   // two fragments of 8 bytes
+  MadeList list(node.cluster.pdus[0], 1, 5, 0xABC0);  // two fragments of 8 bytes
   node.controller.outgoing(kList).write(list.view());
   node.run_to(1);
   for (const auto& sent : node.sent_in(0)) {
@@ -84,7 +84,7 @@ TEST(ControllerSends, AListWrittenWhileItsSlotsAreSentWaitsForTheNextCycle) {
   Alone node;
   MadeList old_list(node.cluster.pdus[0], 1, 10, 100), new_list(node.cluster.pdus[0], 2, 10, 200);
   node.controller.outgoing(kList).write(old_list.view());
-  node.run_to(0, 84 * 5);   // slot 5 is out, slots 6..8 are not
+  node.run_to(0, 84 * 5);  // slot 5 is out, slots 6..8 are not
   node.controller.outgoing(kList).write(new_list.view());
   node.run_to(2);
   for (const auto& sent : node.heard.sent) {
@@ -110,9 +110,9 @@ TEST(ControllerSends, AListWrittenAtTheActionPointOfItsFirstSlotStillGoesOut) {
 TEST(ControllerSends, LastIsSaidOncePerListWithItsLastFragmentOnItsLastChannel) {
   Alone node;
   for (std::uint32_t sequence = 1; sequence <= 3; ++sequence) {
-    MadeList list(node.cluster.pdus[0], sequence, 7, 0);   // three fragments
+    MadeList list(node.cluster.pdus[0], sequence, 7, 0);  // three fragments
     node.controller.outgoing(kList).write(list.view());
-    node.run_to(4 * sequence);   // four cycles each: sent again and again
+    node.run_to(4 * sequence);  // four cycles each: sent again and again
   }
   std::vector<std::uint32_t> finished;
   for (const auto& sent : node.heard.sent) {
@@ -144,11 +144,11 @@ TEST(Controller, L1_NextEventIsNeverInThePast) {
   for (int step = 0; step < 3000; ++step) {
     const Microticks next = node.controller.next_event();
     ASSERT_GT(next, now);
-    now = next + Microticks{step % 7 == 0 ? 5000 : 0};   // now and then late
+    now = next + Microticks{step % 7 == 0 ? 5000 : 0};  // now and then late
     const std::int64_t cycle = node.controller.clock()->cycle();
     node.controller.advance(now);
     ASSERT_GE(node.controller.clock()->cycle(), cycle);
-    ASSERT_LE(node.controller.clock()->cycle(), cycle + 1);   // none is passed over
+    ASSERT_LE(node.controller.clock()->cycle(), cycle + 1);  // none is passed over
   }
   EXPECT_GT(node.controller.clock()->cycle(), 100);
 }
@@ -181,7 +181,7 @@ TEST(Controller, L4_NothingAllocatesAfterConstruction) {
     const int slot_start = 84 * (4 + fragment);
     controller.advance(Alone::at(0, slot_start + 80));
     controller.receive(received(Channel::kA, Alone::at(0, slot_start + 7), Alone::at(0, slot_start + 33),
-                        frames[static_cast<std::size_t>(fragment)]));
+                                frames[static_cast<std::size_t>(fragment)]));
   }
   const bool complete = controller.incoming(kList).latest().has_value();
   controller.advance(Alone::at(50, 0));

@@ -9,7 +9,8 @@ namespace ttf::bus {
 
 using schedules::Channel;
 
-inline constexpr std::int64_t kSegment = 840 + 4;   // macrotick of the first minislot: 10 static slots, difference of action points
+inline constexpr std::int64_t kSegment =
+    840 + 4;  // macrotick of the first minislot: 10 static slots, difference of action points
 
 // small_cluster with 24 minislots of 5 MT; dynamic slot 11 + n is node n's, one fragment of 8 bytes.
 inline schedules::Cluster dynamic_cluster(int nodes, schedules::Channels channels = schedules::Channels::kAB) {

@@ -60,13 +60,15 @@ TEST(DynamicMultiplexing, TheWrongCycleIsAContentError) {
     frame.payload.resize(8);
     const MadeList list(cluster.pdus[3], 1, 3, 0);
     std::copy(list.bytes.begin(), list.bytes.end(), frame.payload.begin());
-    frame.start = Alone::at(cycle, kSegment + 5 + 3).value;   // in minislot 2
+    frame.start = Alone::at(cycle, kSegment + 5 + 3).value;  // in minislot 2
     frame.length = 17 * 40;
     node.run_to(cycle, 841);
     node.heard.problems.clear();
     frame.arrive(node);
     ASSERT_EQ(node.heard.problems.size(), cycle == 0 ? 1u : 0u);
-    if (cycle == 0) { EXPECT_EQ(node.heard.problems[0].status, kContentError); }
+    if (cycle == 0) {
+      EXPECT_EQ(node.heard.problems[0].status, kContentError);
+    }
     EXPECT_EQ(node.heard.arrived.size(), cycle == 0 ? 0u : 1u);
   }
 }
@@ -134,7 +136,7 @@ TEST(KeySlotOnlyMode, HoldsInBothSegments) {
   write(rig, 0, 1);
   rig.run_cycles(4);
   for (const auto& sent : rig.heard(0).sent) EXPECT_EQ(sent.slot, 1);
-  EXPECT_EQ(rig.heard(0).sent.size(), 8u);   // four cycles, two channels
+  EXPECT_EQ(rig.heard(0).sent.size(), 8u);  // four cycles, two channels
   const TrueTime middle = Rig::kStart + Duration::microseconds(4'020);
   rig.run_until(middle);
   rig.controller(0).command(PocEventKind::kAllSlots, {middle.ns / 25});
@@ -179,7 +181,7 @@ TEST(MessageId, StandsFirstInThePayloadAndTellsListsApart) {
     EXPECT_EQ(decoded.payload[0], i == 0 ? std::byte{0x12} : std::byte{0xFE});
     EXPECT_EQ(decoded.payload[1], i == 0 ? std::byte{0x34} : std::byte{0xDC});
     EXPECT_EQ(wire::message_id(decoded), i == 0 ? 0x1234 : 0xFEDC);
-    EXPECT_EQ(sent[i].cycle, 2 + static_cast<std::int64_t>(i));   // one slot, one frame a cycle
+    EXPECT_EQ(sent[i].cycle, 2 + static_cast<std::int64_t>(i));  // one slot, one frame a cycle
   }
   for (const std::size_t node : {0u, 2u}) {
     EXPECT_EQ(arrived(rig, node, PduId{3}), std::vector<std::uint32_t>{4});
@@ -191,7 +193,12 @@ TEST(MessageId, StandsFirstInThePayloadAndTellsListsApart) {
 }
 
 TEST(MessageId, AnUnknownMissingOrUnexpectedOneIsAContentError) {
-  struct Case { int slot; bool preamble; std::vector<int> first; int status; };
+  struct Case {
+    int slot;
+    bool preamble;
+    std::vector<int> first;
+    int status;
+  };
   for (const Case& one : {Case{12, true, {0x12, 0x34}, kValidFrame}, Case{12, true, {0x34, 0x12}, kContentError},
                           Case{12, false, {}, kContentError}, Case{12, false, {0x12, 0x34}, kContentError},
                           Case{13, false, {}, kValidFrame}, Case{13, true, {0x12, 0x34}, kContentError}}) {

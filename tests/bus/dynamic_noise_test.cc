@@ -87,7 +87,7 @@ TEST(DynamicNoise, WhatBeginsInTheSegmentTakesTheSlotOfItsMinislot) {
 TEST(DynamicNoise, WhatLastsTheWholeSegmentLeavesTheNextOneAlone) {
   Noisy noisy(at(kCycle, 800), at(kCycle, 990));
   EXPECT_EQ(noisy.turns(), (std::vector<int>{0, 0, 0}));
-  noisy.expect_all_there();   // in the next cycle, on B in this one
+  noisy.expect_all_there();  // in the next cycle, on B in this one
 }
 
 }  // namespace

@@ -88,8 +88,7 @@ TEST(DynamicSlotCounter, AgreesWithCountingMinislotByMinislot) {
       const int last = m + static_cast<int>(draw.integer(0, 20));
       last_of[static_cast<std::size_t>(m)] = last;
       const std::vector<int> expected = slots_one_by_one(g, last_of);
-      ASSERT_EQ(counter.slot_in(m), expected[static_cast<std::size_t>(m)])
-          << "minislot " << m << ", seed " << seed;
+      ASSERT_EQ(counter.slot_in(m), expected[static_cast<std::size_t>(m)]) << "minislot " << m << ", seed " << seed;
       ASSERT_EQ(counter.minislot_of(expected[static_cast<std::size_t>(m)]), m);
       counter.occupied(m, last);
       m = last + 1 + g.gdDynamicSlotIdlePhase + static_cast<int>(draw.integer(0, 9));

@@ -1,4 +1,5 @@
-// The dynamic segment as whole clusters play it: priority by frame id, what does not fit waits, channels count on their own.
+// The dynamic segment as whole clusters play it: priority by frame id, what does not fit waits, channels count on their
+// own.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,8 +28,9 @@ TEST(DynamicSegment, AListIsSentOnceAndArrives) {
   for (std::size_t n = 0; n < 3; ++n) EXPECT_TRUE(rig.heard(n).problems.empty());
 }
 
-// A frame of 8 bytes lasts 172 bits = 17.2 us: begun at the action point of minislot 1 (3 MT in) it would end at 20.2 MT of the
-// segment, so its DTS goes to the action point of minislot 5 (23 MT); 6 is idle, and the next slot begins in 7.
+// A frame of 8 bytes lasts 172 bits = 17.2 us: begun at the action point of minislot 1 (3 MT in) it would end at 20.2
+// MT of the segment, so its DTS goes to the action point of minislot 5 (23 MT); 6 is idle, and the next slot begins
+// in 7.
 TEST(DynamicSegment, TheLowerIdentifierGoesFirstAndTheOthersWaitForItsEnd) {
   Rig rig(dynamic_cluster(3), {0, 0, 0});
   rig.run_cycles(2);
@@ -42,7 +44,7 @@ TEST(DynamicSegment, TheLowerIdentifierGoesFirstAndTheOthersWaitForItsEnd) {
                                     [&](const auto& started) { return started.first == sent.cycle; });
     ASSERT_NE(cycle, rig.heard(node).cycle_starts.end());
     const std::int64_t macrotick = ((sent.start - cycle->second).value + 20) / 40;
-    EXPECT_EQ((macrotick - kSegment) % 5, 3);   // the minislot's action point
+    EXPECT_EQ((macrotick - kSegment) % 5, 3);  // the minislot's action point
     minislots.push_back((macrotick - kSegment) / 5 + 1);
   }
   EXPECT_EQ(minislots, (std::vector<std::int64_t>{1, 7, 13}));
@@ -67,7 +69,7 @@ TEST(DynamicSegment, WhatDoesNotFitWaitsForTheNextCycle) {
 
 TEST(DynamicSegment, TheChannelsCountOnTheirOwn) {
   schedules::Cluster cluster = dynamic_cluster(3);
-  cluster.frames[cluster.frames.size() - 3].channels = Channels::kA;   // slot 11 on A only
+  cluster.frames[cluster.frames.size() - 3].channels = Channels::kA;  // slot 11 on A only
   Rig rig(cluster, {0, 0, 0});
   rig.run_cycles(2);
   write(rig, 0, 1);
@@ -87,7 +89,7 @@ TEST(DynamicSegment, RandomLoadOnDriftingClocks) {
     std::vector<std::int64_t> drifts;
     for (int n = 0; n < 4; ++n) drifts.push_back(draw.integer(-300'000, 300'000));
     Rig rig(dynamic_cluster(4), drifts, Duration{draw.integer(0, 800)});
-    rig.run_cycles(20);   // until the rates agree
+    rig.run_cycles(20);  // until the rates agree
     for (std::size_t n = 0; n < 4; ++n) rig.heard(n).problems.clear();
     std::vector<std::uint32_t> written(4, 0);
     for (int cycle = 20; cycle < 80; ++cycle) {
@@ -97,8 +99,9 @@ TEST(DynamicSegment, RandomLoadOnDriftingClocks) {
     }
     rig.run_cycles(90);
     for (std::size_t n = 0; n < 4; ++n) {
-      ASSERT_TRUE(rig.heard(n).problems.empty()) << "seed " << seed << " node " << n << " slot "
-          << rig.heard(n).problems[0].slot << " status " << rig.heard(n).problems[0].status;
+      ASSERT_TRUE(rig.heard(n).problems.empty())
+          << "seed " << seed << " node " << n << " slot " << rig.heard(n).problems[0].slot << " status "
+          << rig.heard(n).problems[0].status;
       for (std::size_t m = 0; m < 4; ++m) {
         if (m == n) continue;
         std::vector<std::uint32_t> all(written[m]);

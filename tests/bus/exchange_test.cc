@@ -7,8 +7,7 @@
 namespace ttf::laws {
 namespace {
 
-template <std::size_t kMembers>
-class MemoryExchangeBench : public ExchangeBench {
+template <std::size_t kMembers> class MemoryExchangeBench : public ExchangeBench {
  public:
   MemoryExchangeBench() {
     for (std::size_t i = 0; i < kMembers; ++i) members_.push_back(hub_.join(NodeId{static_cast<std::uint8_t>(i)}));

@@ -35,8 +35,9 @@ TEST(ExternalCorrection, TheOffsetTermIsAddedInOddCycles) {
     node.controller.set_external_correction(asked, 0);
     node.run_to(6, 100);
     // cycle_starts begins with cycle 1
-    EXPECT_EQ(lengths(node.heard), (std::vector<std::int64_t>{40'000 + given, 40'000, 40'000 + given, 40'000,
-                                                              40'000 + given})) << asked;
+    EXPECT_EQ(lengths(node.heard),
+              (std::vector<std::int64_t>{40'000 + given, 40'000, 40'000 + given, 40'000, 40'000 + given}))
+        << asked;
   }
 }
 
@@ -88,7 +89,7 @@ TEST(ExternalCorrection, TheRateTermStaysWithoutDampingAndAddsUp) {
   node.controller.set_external_correction(0, 0);
   node.run_to(8, 100);
   EXPECT_EQ(node.controller.clock()->rate_correction(), 4);
-  node.controller.set_external_correction(0, -9);   // -5
+  node.controller.set_external_correction(0, -9);  // -5
   node.run_to(10, 100);
   EXPECT_EQ(node.controller.clock()->rate_correction(), -1);
 }
@@ -132,7 +133,8 @@ TEST(ExternalCorrection, IsNotForStartup) {
   EXPECT_TRUE(later);
 }
 
-// +1 microtick of 25 ns per double cycle in every node: after 200 of them all are 5 us behind the same cluster left alone.
+// +1 microtick of 25 ns per double cycle in every node: after 200 of them all are 5 us behind the same cluster left
+// alone.
 TEST(ExternalCorrection, ClustersShiftTogether) {
   constexpr std::int64_t kCycles = 400;
   const TrueTime end = Rig::kStart + Duration::milliseconds(kCycles);
@@ -149,8 +151,8 @@ TEST(ExternalCorrection, ClustersShiftTogether) {
   }
 }
 
-// A host compares the cluster's time with a reference that runs 20 ppm fast, once per double cycle, and tells all controllers
-// the sign of what to do: 7 microticks are 175 ns, the reference gains 40 ns.
+// A host compares the cluster's time with a reference that runs 20 ppm fast, once per double cycle, and tells all
+// controllers the sign of what to do: 7 microticks are 175 ns, the reference gains 40 ns.
 TEST(ExternalCorrection, AClusterFollowsAnExternalTime) {
   const auto furthest = [](bool followed) {
     Rig rig(correctable(small_cluster(4)), {50'000, 20'000, -20'000, -50'000});

@@ -61,7 +61,7 @@ Bytes encoded(const FrameHeader& header, Channel channel, const Bytes& payload) 
 }
 
 TEST(HeaderCrc, KnownVectors) {
-  EXPECT_EQ(header_crc(false, false, 9, 16), 0x3FC);   // Freescale MC9S12XF, the manufacturer's example for slot 9
+  EXPECT_EQ(header_crc(false, false, 9, 16), 0x3FC);  // Freescale MC9S12XF, the manufacturer's example for slot 9
   EXPECT_EQ(header_crc(true, true, 1, 8), 0x11B);
   EXPECT_EQ(header_crc(true, true, 7, 16), 0x4CC);
   EXPECT_EQ(header_crc(true, true, 9, 16), 0x4DF);
@@ -259,7 +259,7 @@ TEST(Frame, ANullFrameHasNoPayloadPreamble) {
   header.payload_preamble = true;
   Bytes frame = encoded(header, Channel::kB, counting(8));
   EXPECT_EQ(decode_frame(Channel::kB, frame).error, FrameError::kNone);
-  frame[0] &= ~std::byte{0x20};   // null frame, inverted on the wire
+  frame[0] &= ~std::byte{0x20};  // null frame, inverted on the wire
   const auto covered = std::span(frame).first(frame.size() - kTrailerBytes);
   const std::uint32_t crc = oracle_frame_crc(Channel::kB, covered);
   for (std::size_t byte = 0; byte < 3; ++byte)
@@ -297,7 +297,7 @@ TEST(Frame, LengthOnTheWire) {
   EXPECT_EQ(frame_duration_ps(flexray, 28), 65'200'000);
   EXPECT_EQ(frame_duration(flexray, 28), Duration{65'200});
   EXPECT_EQ(words_in_frame(kHeaderBytes + 56 + kTrailerBytes), 28);
-  flexray.gdBit_ps = 12'345;   // no bit rate of the standard, but one that does not end on a whole nanosecond
+  flexray.gdBit_ps = 12'345;  // no bit rate of the standard, but one that does not end on a whole nanosecond
   EXPECT_EQ(frame_duration_ps(flexray, 28), 652 * 12'345);
   EXPECT_EQ(frame_duration(flexray, 28), Duration{8'049}) << "8048.94 ns";
   EXPECT_EQ(frame_bits(flexray, 127), 9 + 1 + 80 + 2540 + 2);

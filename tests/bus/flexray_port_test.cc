@@ -16,8 +16,8 @@ class TestMediumBench final : public FlexRayBench {
     while (medium_.next() && medium_.oscillator(0).ticks_at(*medium_.next()) <= now) {
       const auto arrival = medium_.pop();
       const bus::Reception reception = medium_.reception(arrival);
-      reached_.push_back({arrival.receiver, reception.channel, reception.signal, reception.start, reception.end,
-                          arrival.bytes});
+      reached_.push_back(
+          {arrival.receiver, reception.channel, reception.signal, reception.start, reception.end, arrival.bytes});
     }
     medium_.set_now(medium_.oscillator(0).time_of(now));
   }

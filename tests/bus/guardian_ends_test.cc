@@ -1,5 +1,5 @@
-// Where a guardian ends what it forwards in the dynamic segment (bus/guardian.h G9), as a pure rule; in a running cluster:
-// tests/sim/guardian_ends_test.cc.
+// Where a guardian ends what it forwards in the dynamic segment (bus/guardian.h G9), as a pure rule; in a running
+// cluster: tests/sim/guardian_ends_test.cc.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 namespace ttf::bus {
 namespace {
 
-constexpr std::int64_t kDelay = 25;   // to the coupler, as it is compensated for: half of two nodes'
+constexpr std::int64_t kDelay = 25;  // to the coupler, as it is compensated for: half of two nodes'
 constexpr int kMicroPerMacro = 40;
 
 // Minislots of 7 macroticks with the action point 3 in, of 25 ns microticks.
@@ -37,7 +37,7 @@ struct Ends {
   MinislotGrid grid{g};
   timebase::CycleClock clock = at_cycle(0, 0);
   Microticks tolerance{3 * kMicroPerMacro / 2};
-  std::vector<Microticks> action_points;   // at the coupler
+  std::vector<Microticks> action_points;  // at the coupler
 
   Ends() {
     for (int minislot = 1; minislot <= grid.count(); ++minislot) action_points.push_back(action_point(minislot));
@@ -45,7 +45,9 @@ struct Ends {
   timebase::CycleClock at_cycle(std::int64_t later, int rate) const {
     return {{1000, 1'000'000, 40'000, g.gOffsetCorrectionStart}, Microticks{1000 + later}, rate, 0};
   }
-  Microticks action_point(int minislot) const { return clock.start_of(grid.action_point(minislot)) + Microticks{kDelay}; }
+  Microticks action_point(int minislot) const {
+    return clock.start_of(grid.action_point(minislot)) + Microticks{kDelay};
+  }
   Microticks last() const { return action_points.back(); }
   bool near_one(Microticks at) const {
     return std::any_of(action_points.begin(), action_points.end(),
@@ -83,14 +85,16 @@ TEST(GuardianEnds, G9_WhatEndsNearAnActionPointIsLeftAloneWhatEndsElsewhereGoesO
   EXPECT_GT(held, 10'000);
 }
 
-// Of the minislot's 3 macroticks before its action point, and of its 4 behind it, G9 takes 1.5; the rest is the receivers'.
+// Of the minislot's 3 macroticks before its action point, and of its 4 behind it, G9 takes 1.5; the rest is the
+// receivers'.
 TEST(GuardianEnds, G9_ReceiversThatAreOffByTheRestOfAMinislotCountAlike) {
   const Ends ends;
   const int room = 3 * kMicroPerMacro - static_cast<int>(ends.tolerance.value);
   RandomStream draw({1, 0, Purpose::kTest, 0, 0});
   for (int n = 0; n < 20'000; ++n) {
     const Microticks start = ends.action_point(static_cast<int>(draw.integer(1, 12)));
-    const Microticks end = ends.guardian.end_of(ends.clock, start, start + Microticks{draw.integer(1, 3000)}, ends.last());
+    const Microticks end =
+        ends.guardian.end_of(ends.clock, start, start + Microticks{draw.integer(1, 3000)}, ends.last());
     const int counted = ends.grid.minislot_at(ends.clock, end - Microticks{kDelay});
     for (const std::int64_t late : {-static_cast<std::int64_t>(room), draw.integer(-room, room), std::int64_t{room}})
       ASSERT_EQ(ends.grid.minislot_at(ends.at_cycle(late, 0), end - Microticks{kDelay}), counted)
@@ -101,7 +105,7 @@ TEST(GuardianEnds, G9_ReceiversThatAreOffByTheRestOfAMinislotCountAlike) {
 TEST(GuardianEnds, G9_NoFrameOfAFaultFreeNodeIsTouched) {
   const Ends ends;
   RandomStream draw({2, 0, Purpose::kTest, 0, 0});
-  constexpr int kWords = 5;   // the layout's, and a message id
+  constexpr int kWords = 5;  // the layout's, and a message id
   const Microticks close{ends.tolerance.value - 4};
   for (int n = 0; n < 50'000; ++n) {
     const auto sender = static_cast<std::size_t>(draw.integer(0, 3));
@@ -120,8 +124,8 @@ TEST(GuardianEnds, G9_NoFrameOfAFaultFreeNodeIsTouched) {
     ASSERT_LE(last, ends.grid.count());
     const Microticks delay{kDelay}, start = begin + delay;
     const Microticks end = clock.start_of(ends.grid.action_point(last)) + delay;
-    const GuardianAnswer answer = ends.guardian.judge(
-        ends.clock, counter, {static_cast<NodeId>(sender), Signal::kFrame, start, &frame});
+    const GuardianAnswer answer =
+        ends.guardian.judge(ends.clock, counter, {static_cast<NodeId>(sender), Signal::kFrame, start, &frame});
     ASSERT_EQ(answer.reason, GuardianReason::kForwarded);
     ASSERT_EQ(ends.guardian.end_of(ends.clock, start, end, answer.until), end)
         << "minislots " << minislot << " to " << last << ", " << int{frame.header.payload_words} << " words";
@@ -150,7 +154,8 @@ TEST(GuardianEnds, G9_WhatLastsTooLongIsCutAtAnActionPointOfTheSegment) {
 TEST(GuardianEnds, G9_WhatDoesNotBeginInTheDynamicSegmentHasNoGrid) {
   const Ends ends;
   const Microticks segment_end = ends.clock.start_of(ends.grid.start_of(ends.grid.count() + 1)) + Microticks{kDelay};
-  for (const Microticks start : {Microticks{1000 + 7 * kMicroPerMacro}, Microticks{1000 + 800 * kMicroPerMacro}, segment_end})
+  for (const Microticks start :
+       {Microticks{1000 + 7 * kMicroPerMacro}, Microticks{1000 + 800 * kMicroPerMacro}, segment_end})
     for (std::int64_t length = 1; length < 1000; ++length)
       ASSERT_EQ(ends.guardian.end_of(ends.clock, start, start + Microticks{length}, start + Microticks{600}),
                 start + Microticks{std::min<std::int64_t>(length, 600)});

@@ -1,5 +1,5 @@
-// The laws of the central guardian's pure part (bus/guardian.h G1 to G8, bus/guardian_startup.h S1 to S6), over every node, slot,
-// channel and cycle of a schedule, at the edges of every window. G9 is guardian_ends_test.cc's.
+// The laws of the central guardian's pure part (bus/guardian.h G1 to G8, bus/guardian_startup.h S1 to S6), over every
+// node, slot, channel and cycle of a schedule, at the edges of every window. G9 is guardian_ends_test.cc's.
 #include "bus/guardian.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,8 @@ using schedules::FrameSlot;
 constexpr std::array kBoth = {Channel::kA, Channel::kB};
 constexpr NodeId kFirst{0}, kSecond{1}, kThird{2}, kFourth{3};
 
-// Four nodes in eight static slots of 43 us, twenty minislots, a symbol window; cycle multiplexing, and slots of one channel.
+// Four nodes in eight static slots of 43 us, twenty minislots, a symbol window; cycle multiplexing, and slots of one
+// channel.
 schedules::Cluster small() {
   schedules::Cluster cluster;
   schedules::GlobalParameters& g = cluster.flexray;
@@ -53,14 +54,15 @@ schedules::Cluster small() {
   cluster.frames.push_back({5, Channels::kA, 1, 2, kSecond, kNoPdu, 0, 0});
   cluster.frames.push_back({5, Channels::kB, 0, 1, kThird, kNoPdu, 0, 0});
   cluster.frames.push_back({7, Channels::kB, 3, 4, kFourth, kNoPdu, 0, 0});
-  cluster.frames.push_back({9, Channels::kAB, 0, 1, kFourth, PduId{0}, 0, 0});    // the first dynamic slot
+  cluster.frames.push_back({9, Channels::kAB, 0, 1, kFourth, PduId{0}, 0, 0});  // the first dynamic slot
   cluster.frames.push_back({11, Channels::kA, 0, 2, kFirst, PduId{1}, 0, 0});
   return cluster;
 }
 
 struct Bench {
   schedules::Cluster cluster = small();
-  std::array<schedules::Cluster, 2> with{guardian_cluster(cluster, Channel::kA), guardian_cluster(cluster, Channel::kB)};
+  std::array<schedules::Cluster, 2> with{guardian_cluster(cluster, Channel::kA),
+                                         guardian_cluster(cluster, Channel::kB)};
   std::array<std::unique_ptr<Guardian>, 2> guardian;
   Bench() {
     for (const Channel channel : kBoth) {
@@ -74,7 +76,7 @@ struct Bench {
   static timebase::CycleClock clock(int cycle) {
     return {{1000, 1'000'000, 40'000, 900}, Microticks{1000 + 40'000 * cycle}, 0, cycle};
   }
-  static constexpr std::int64_t kCompensation = 25;   // half of two nodes'
+  static constexpr std::int64_t kCompensation = 25;  // half of two nodes'
   static Microticks at(int cycle, std::int64_t macrotick, std::int64_t microticks = 0) {
     return {1000 + 40'000 * cycle + 40 * macrotick + kCompensation + microticks};
   }
@@ -94,12 +96,14 @@ struct Bench {
                      std::optional<DynamicSlotCounter> counter = std::nullopt) const {
     return guardian[index_of(channel)]->judge(clock(cycle), counter ? *counter : DynamicSlotCounter(g()), signal);
   }
-  GuardianReason reason(Channel channel, int cycle, NodeId node, Microticks start, const wire::DecodedFrame& frame) const {
+  GuardianReason reason(Channel channel, int cycle, NodeId node, Microticks start,
+                        const wire::DecodedFrame& frame) const {
     return ask(channel, cycle, {node, Signal::kFrame, start, &frame}).reason;
   }
   bool owns(NodeId node, int slot, int cycle, Channel channel) const {
     return std::any_of(cluster.frames.begin(), cluster.frames.end(), [&](const FrameSlot& one) {
-      return one.slot == slot && one.sender == node && includes(one.channels, channel) && cycle % one.repetition == one.base_cycle;
+      return one.slot == slot && one.sender == node && includes(one.channels, channel) &&
+             cycle % one.repetition == one.base_cycle;
     });
   }
 };
@@ -156,10 +160,10 @@ TEST(Guardian, G2_AFrameBeginsWithinHalfAnActionPointOffset) {
         if (slot.slot > 8 || !bench.owns(slot.sender, slot.slot, cycle, channel)) continue;
         const wire::DecodedFrame frame = bench.frame(slot.slot, cycle, slot.sender);
         for (std::int64_t off = -400; off <= 400; ++off) {
-          const auto answer = bench.ask(channel, cycle, {slot.sender, Signal::kFrame,
-                                                         Bench::at(cycle, 43 * (slot.slot - 1) + 7, off), &frame});
-          const bool within = off >= -140 && off <= 140;   // 3.5 us
-          const bool in_slot = off >= -280;                // 7 us before lies in the slot before
+          const auto answer = bench.ask(
+              channel, cycle, {slot.sender, Signal::kFrame, Bench::at(cycle, 43 * (slot.slot - 1) + 7, off), &frame});
+          const bool within = off >= -140 && off <= 140;  // 3.5 us
+          const bool in_slot = off >= -280;               // 7 us before lies in the slot before
           if (within) {
             ASSERT_EQ(answer.reason, GuardianReason::kForwarded) << "slot " << slot.slot << " off by " << off;
           } else if (in_slot) {
@@ -179,20 +183,24 @@ TEST(Guardian, G3_DynamicSlotsAreCountedAndBelongToTheirNodes) {
       for (int minislot = 1; minislot <= 20; ++minislot)
         for (std::size_t n = 0; n < 4; ++n) {
           const auto node = static_cast<NodeId>(n);
-          const int slot = 8 + minislot;   // nothing was sent before
+          const int slot = 8 + minislot;  // nothing was sent before
           const auto frame = bench.frame(slot, cycle, node);
           const GuardianReason reason =
               bench.reason(channel, cycle, node, Bench::at(cycle, grid.action_point(minislot).value), frame);
-          ASSERT_EQ(reason, bench.owns(node, slot, cycle, channel) ? GuardianReason::kForwarded : GuardianReason::kNotItsSlot)
+          ASSERT_EQ(reason,
+                    bench.owns(node, slot, cycle, channel) ? GuardianReason::kForwarded : GuardianReason::kNotItsSlot)
               << "minislot " << minislot << " node " << n;
         }
   // After slot 9 took minislots 1 to 4 and an idle one, slot 11 comes in minislot 7.
   DynamicSlotCounter counter(bench.g());
   const auto clock = Bench::clock(0);
-  bench.guardian[0]->count(clock, counter, Bench::at(0, grid.action_point(1).value), Bench::at(0, grid.action_point(4).value));
+  bench.guardian[0]->count(clock, counter, Bench::at(0, grid.action_point(1).value),
+                           Bench::at(0, grid.action_point(4).value));
   const auto frame = bench.frame(11, 0, kFirst);
   for (int minislot = 1; minislot <= 20; ++minislot)
-    EXPECT_EQ(bench.ask(Channel::kA, 0, {kFirst, Signal::kFrame, Bench::at(0, grid.action_point(minislot).value), &frame}, counter)
+    EXPECT_EQ(bench
+                  .ask(Channel::kA, 0,
+                       {kFirst, Signal::kFrame, Bench::at(0, grid.action_point(minislot).value), &frame}, counter)
                   .forwards(),
               minislot == 7)
         << minislot;
@@ -209,7 +217,7 @@ TEST(Guardian, G3_CountsWhatBeganBeforeTheSegmentAsNodesDo) {
   };
   const auto in = [&](int minislot) { return Bench::at(1, grid.action_point(minislot).value); };
   const std::int64_t static_end = 8 * 43;
-  ASSERT_GT(grid.start_of(1).value, static_end);   // something may begin between the two
+  ASSERT_GT(grid.start_of(1).value, static_end);  // something may begin between the two
   for (const Microticks start : {Bench::at(1, static_end - 20), Bench::at(1, static_end + 1), Bench::at(0, 990)}) {
     EXPECT_EQ(count(1, start, in(5)).slot_in(7), 10) << start.value;
     EXPECT_EQ(count(1, start, in(5)).slot_in(6), 0) << start.value;
@@ -226,10 +234,13 @@ TEST(Guardian, G3_NotLaterThanPLatestTxNotLongerThanItsPduNotBeyondTheSegment) {
   DynamicSlotCounter counter(bench.g());
   const auto clock = Bench::clock(0);
   // Slot 10 was taken until minislot 11: slot 11 begins in 13, after pLatestTx.
-  bench.guardian[0]->count(clock, counter, Bench::at(0, grid.action_point(2).value), Bench::at(0, grid.action_point(11).value));
+  bench.guardian[0]->count(clock, counter, Bench::at(0, grid.action_point(2).value),
+                           Bench::at(0, grid.action_point(11).value));
   auto frame = bench.frame(11, 0, kFirst);
-  EXPECT_EQ(bench.ask(Channel::kA, 0, {kFirst, Signal::kFrame, Bench::at(0, grid.action_point(13).value), &frame}, counter).reason,
-            GuardianReason::kOutsideWindow);
+  EXPECT_EQ(
+      bench.ask(Channel::kA, 0, {kFirst, Signal::kFrame, Bench::at(0, grid.action_point(13).value), &frame}, counter)
+          .reason,
+      GuardianReason::kOutsideWindow);
 
   auto first = bench.frame(9, 0, kFourth);
   const Microticks start = Bench::at(0, grid.action_point(1).value);
@@ -237,7 +248,8 @@ TEST(Guardian, G3_NotLaterThanPLatestTxNotLongerThanItsPduNotBeyondTheSegment) {
   for (int length = 0; length <= 20; ++length) {
     first.header.payload_words = static_cast<std::uint8_t>(length);
     EXPECT_EQ(bench.reason(Channel::kA, 0, kFourth, start, first),
-              length <= words + 1 ? GuardianReason::kForwarded : GuardianReason::kWrongHeader) << length;
+              length <= words + 1 ? GuardianReason::kForwarded : GuardianReason::kWrongHeader)
+        << length;
   }
   first.header.payload_words = 3;
   first.header.sync = true;
@@ -254,13 +266,15 @@ TEST(Guardian, G4_AMediaAccessTestSymbolInTheSymbolWindowOnly) {
   for (const Channel channel : kBoth)
     for (std::size_t n = 0; n < 4; ++n)
       for (std::int64_t macrotick = 0; macrotick < 1000; ++macrotick) {
-        const auto answer = bench.ask(channel, 2, {static_cast<NodeId>(n), Signal::kCas, Bench::at(2, macrotick), nullptr});
+        const auto answer =
+            bench.ask(channel, 2, {static_cast<NodeId>(n), Signal::kCas, Bench::at(2, macrotick), nullptr});
         const bool in_window = macrotick >= window && macrotick < window + 30;
         ASSERT_EQ(answer.reason, in_window ? GuardianReason::kForwarded : GuardianReason::kNoSymbolNow) << macrotick;
         if (in_window) {
           ASSERT_LE(answer.until, Bench::at(2, window + 30));
         }
-        ASSERT_FALSE(bench.ask(channel, 2, {static_cast<NodeId>(n), Signal::kWakeup, Bench::at(2, macrotick), nullptr}).forwards());
+        ASSERT_FALSE(bench.ask(channel, 2, {static_cast<NodeId>(n), Signal::kWakeup, Bench::at(2, macrotick), nullptr})
+                         .forwards());
       }
 }
 
@@ -286,7 +300,7 @@ TEST(Guardian, G7_AFrameMayLastAsLongAsASlowNodesAndEndsInItsSlot) {
     const Microticks start = Bench::at(0, 2 * 43 + 7, off);
     const auto answer = bench.ask(Channel::kB, 0, {kThird, Signal::kFrame, start, &frame});
     EXPECT_GE((answer.until - start).value, 4 * bits + 4 * bits * 3 / 1000);
-    EXPECT_LE(answer.until, Bench::at(0, 3 * 43 - 3));   // half an action point offset before the slot's end
+    EXPECT_LE(answer.until, Bench::at(0, 3 * 43 - 3));  // half an action point offset before the slot's end
   }
 }
 
@@ -302,7 +316,9 @@ struct Startup : Bench {
                                     StartupTurns(with[1], Channel::kB, *with[1].nodes.back().flexray)};
   wire::DecodedFrame made;
   static Microticks cycles(double count) { return {static_cast<std::int64_t>(40'000 * count)}; }
-  GuardianSignal symbol(NodeId node, double at, Signal kind = Signal::kCas) const { return {node, kind, cycles(at), nullptr}; }
+  GuardianSignal symbol(NodeId node, double at, Signal kind = Signal::kCas) const {
+    return {node, kind, cycles(at), nullptr};
+  }
   GuardianSignal startup_frame(NodeId node, double at, int cycle = 0) {
     made = frame(cluster.node(node).flexray->pKeySlotId, cycle, node);
     return {node, Signal::kFrame, cycles(at), &made};
@@ -360,20 +376,21 @@ TEST(GuardianStartupTurns, S2_OneFrameInACycleAndNoSecondSymbol) {
   EXPECT_EQ(s.pass(s.symbol(kFirst, 1.01)), GuardianReason::kTooSoon);
   EXPECT_EQ(s.pass(s.startup_frame(kFirst, 1.02)), GuardianReason::kForwarded);
   EXPECT_EQ(s.pass(s.startup_frame(kFirst, 1.5)), GuardianReason::kTooSoon);
-  EXPECT_EQ(s.pass(s.startup_frame(kFirst, 2.017, 1)), GuardianReason::kForwarded);   // a clock may be fast
+  EXPECT_EQ(s.pass(s.startup_frame(kFirst, 2.017, 1)), GuardianReason::kForwarded);  // a clock may be fast
 }
 
 TEST(GuardianStartupTurns, S3_ALeadThatCameToNothingIsNotSoonRepeated) {
   Startup s;
   EXPECT_EQ(s.pass(s.symbol(kFirst, 1.0)), GuardianReason::kForwarded);
   EXPECT_EQ(s.pass(s.symbol(kFirst, 3.0)), GuardianReason::kLeadFailed);
-  EXPECT_EQ(s.pass(s.symbol(kSecond, 3.0)), GuardianReason::kForwarded);   // others may
+  EXPECT_EQ(s.pass(s.symbol(kSecond, 3.0)), GuardianReason::kForwarded);  // others may
   EXPECT_EQ(s.pass(s.symbol(kFirst, 13.9)), GuardianReason::kLeadFailed);
   EXPECT_EQ(s.pass(s.symbol(kFirst, 14.2)), GuardianReason::kForwarded);
   // Frames without end that nobody can derive a schedule from.
   Startup endless;
   int passed = 0;
-  for (int n = 0; n < 10; ++n) passed += endless.pass(endless.startup_frame(kFirst, 1.0 + n)) == GuardianReason::kForwarded;
+  for (int n = 0; n < 10; ++n)
+    passed += endless.pass(endless.startup_frame(kFirst, 1.0 + n)) == GuardianReason::kForwarded;
   EXPECT_EQ(passed, StartupTurns::kLeadCycles);
   // A schedule that was taken and dropped.
   Startup dropped;
@@ -387,8 +404,9 @@ TEST(GuardianStartupTurns, S4_WhoLedAsItShouldWaitsForTheSilentCycleOnly) {
   for (const bool as_it_should : {true, false}) {
     Startup s;
     s.pass(s.symbol(kFirst, 0.99));
-    for (int cycle = 0; cycle < (as_it_should ? 5 : 4); ++cycle) s.pass(s.startup_frame(kFirst, 1.01 + cycle, cycle), cycle >= 2);
-    s.turns[0].schedule_dropped(Startup::cycles(6.0));   // the end of its cycle 4
+    for (int cycle = 0; cycle < (as_it_should ? 5 : 4); ++cycle)
+      s.pass(s.startup_frame(kFirst, 1.01 + cycle, cycle), cycle >= 2);
+    s.turns[0].schedule_dropped(Startup::cycles(6.0));  // the end of its cycle 4
     EXPECT_EQ(s.reason(s.symbol(kFirst, 6.5)), GuardianReason::kLeadFailed);
     EXPECT_EQ(s.reason(s.symbol(kFirst, 7.0)), as_it_should ? GuardianReason::kForwarded : GuardianReason::kLeadFailed);
   }
@@ -399,7 +417,8 @@ TEST(GuardianStartupTurns, S4_WhoLedAsItShouldWaitsForTheSilentCycleOnly) {
   EXPECT_EQ(middle.reason(middle.symbol(kFirst, 7.0)), GuardianReason::kLeadFailed);
   Startup wrong;
   wrong.pass(wrong.symbol(kFirst, 0.99));
-  for (int cycle = 0; cycle < 5; ++cycle) wrong.pass(wrong.startup_frame(kFirst, 1.01 + cycle, cycle == 3 ? 4 : cycle), cycle >= 2);
+  for (int cycle = 0; cycle < 5; ++cycle)
+    wrong.pass(wrong.startup_frame(kFirst, 1.01 + cycle, cycle == 3 ? 4 : cycle), cycle >= 2);
   wrong.turns[0].schedule_dropped(Startup::cycles(6.0));
   EXPECT_EQ(wrong.reason(wrong.symbol(kFirst, 7.0)), GuardianReason::kLeadFailed);
 }
@@ -419,7 +438,9 @@ TEST(GuardianStartupTurns, S5_AWakeupPatternOnItsChannelOnceInAWhile) {
 
 TEST(GuardianStartupTurns, S6_NothingLastsLongerThanItMay) {
   Startup s;
-  const auto length = [&](const GuardianSignal& signal) { return (s.turns[0].judge(signal).until - signal.start).value; };
+  const auto length = [&](const GuardianSignal& signal) {
+    return (s.turns[0].judge(signal).until - signal.start).value;
+  };
   EXPECT_NEAR(static_cast<double>(length(s.symbol(kFirst, 1.0))), 4.0 * 91, 8.0);
   EXPECT_NEAR(static_cast<double>(length(s.startup_frame(kFirst, 1.0))), 4.0 * schedules::frame_bits(s.g(), 8), 10.0);
   EXPECT_NEAR(static_cast<double>(length(s.symbol(kFirst, 1.0, Signal::kWakeup))), 4.0 * 2 * 240, 12.0);

@@ -27,7 +27,7 @@ TEST(ControllerJudges, ARightFrameIsNoProblem) {
 
 TEST(ControllerJudges, SilenceInAnOwnedSlotPerChannel) {
   Alone node;
-  Frame::status(2, 0).arrive(node);   // channel A only
+  Frame::status(2, 0).arrive(node);  // channel A only
   node.run_to(1);
   std::vector<std::pair<int, Channel>> silent;
   for (const auto& problem : node.heard.problems) {
@@ -35,16 +35,16 @@ TEST(ControllerJudges, SilenceInAnOwnedSlotPerChannel) {
     silent.emplace_back(problem.slot, problem.channel);
   }
   // Slots 1 and 5..8 are its own, 9 is sent in odd cycles, 10 is nobody's.
-  EXPECT_EQ(silent, (std::vector<std::pair<int, Channel>>{{2, Channel::kB}, {3, Channel::kA}, {3, Channel::kB},
-                                                          {4, Channel::kA}, {4, Channel::kB}}));
+  EXPECT_EQ(silent, (std::vector<std::pair<int, Channel>>{
+                        {2, Channel::kB}, {3, Channel::kA}, {3, Channel::kB}, {4, Channel::kA}, {4, Channel::kB}}));
   node.run_to(2);
   const auto& last = node.heard.problems.back();
   EXPECT_EQ(last.slot, 9);
-  EXPECT_EQ(last.channel, Channel::kA);   // B is not expected to carry it
+  EXPECT_EQ(last.channel, Channel::kA);  // B is not expected to carry it
 }
 
 TEST(ControllerJudges, SyntaxErrors) {
-  for (const std::size_t byte : {1u, 7u, 22u}) {   // header, payload, trailer
+  for (const std::size_t byte : {1u, 7u, 22u}) {  // header, payload, trailer
     Alone node;
     const Frame frame = Frame::status(2, 0);
     auto bytes = frame.bytes();
@@ -84,17 +84,17 @@ TEST(ControllerJudges, ContentErrors) {
   startup_only.header.sync = false;
   EXPECT_EQ(wire::decode_frame(Channel::kA, startup_only.bytes()).error, wire::FrameError::kNone);
   EXPECT_EQ(status_of(startup_only, 2), kContentError);
-  EXPECT_EQ(status_of(Frame::status(10, 0), 10), kContentError);              // nobody's slot
+  EXPECT_EQ(status_of(Frame::status(10, 0), 10), kContentError);  // nobody's slot
   // The receiver's own: it is sending itself, and cannot make out anything.
   EXPECT_EQ(status_of(Frame::status(5, 0), 5), kTransmissionConflict | kSyntaxError);
-  EXPECT_EQ(status_of(Frame::status(9, 0), 9), kContentError);                // not in even cycles
-  EXPECT_EQ(status_of(Frame::status(9, 1, Channel::kB), 9, 1), kContentError);   // not on B
+  EXPECT_EQ(status_of(Frame::status(9, 0), 9), kContentError);                  // not in even cycles
+  EXPECT_EQ(status_of(Frame::status(9, 1, Channel::kB), 9, 1), kContentError);  // not on B
   EXPECT_EQ(status_of(Frame::status(9, 1), 9, 1), kValidFrame);
 }
 
 // A frame must lie within the receiver's own slot, both ends included.
 TEST(ControllerJudges, BoundaryViolations) {
-  const std::int64_t begin = Alone::at(0, 84).value, end = Alone::at(0, 168).value;   // slot 2
+  const std::int64_t begin = Alone::at(0, 84).value, end = Alone::at(0, 168).value;  // slot 2
   Frame frame = Frame::status(2, 0);
   frame.start = begin;
   EXPECT_EQ(status_of(frame, 2), kValidFrame);
@@ -135,7 +135,7 @@ TEST(ControllerJudges, WrongFramesReachNeitherTheHostNorTheClock) {
   }
   node.run_to(2);
   ASSERT_EQ(node.heard.corrected.size(), 1u);
-  EXPECT_EQ(node.heard.corrected[0].offset.value, 0);   // only its own sync frame counts
+  EXPECT_EQ(node.heard.corrected[0].offset.value, 0);  // only its own sync frame counts
 }
 
 // Slot 5 is for fragment 0 of the list, slot 6 for fragment 1.
@@ -160,7 +160,9 @@ TEST(ControllerJudges, AFragmentInAnotherOnesSlotIsAContentError) {
       EXPECT_EQ(problem.status, kContentError);
       ++errors;
     }
-    if (problem.slot == 6) { EXPECT_NE(problem.channel, Channel::kA); }
+    if (problem.slot == 6) {
+      EXPECT_NE(problem.channel, Channel::kA);
+    }
   }
   EXPECT_EQ(errors, 1);
 }

@@ -63,8 +63,7 @@ struct MadeList {
       wire::write_header_raw(of, payload, 1, number & mask);
       wire::write_header_raw(of, payload, 2, static_cast<std::uint32_t>(count));
       for (int e = 0; e < of.elements_per_fragment && f * of.elements_per_fragment + e < count; ++e)
-        wire::write_element_raw(of, payload, e, 0,
-                                seed + static_cast<std::uint32_t>(f * of.elements_per_fragment + e));
+        wire::write_element_raw(of, payload, e, 0, seed + static_cast<std::uint32_t>(f * of.elements_per_fragment + e));
     }
   }
 

@@ -79,9 +79,9 @@ TEST(IncomingList, ChannelsCompleteEachOther) {
   const auto layout = list_layout();
   IncomingList incoming(layout);
   MadeList list(layout, 1, 7, 5);
-  EXPECT_EQ(incoming.arrive(list.fragment(0)), kIncomplete);   // A
-  EXPECT_EQ(incoming.arrive(list.fragment(2)), kIncomplete);   // B
-  EXPECT_EQ(incoming.arrive(list.fragment(1)), kCompleted);    // A
+  EXPECT_EQ(incoming.arrive(list.fragment(0)), kIncomplete);  // A
+  EXPECT_EQ(incoming.arrive(list.fragment(2)), kIncomplete);  // B
+  EXPECT_EQ(incoming.arrive(list.fragment(1)), kCompleted);   // A
   expect_latest(incoming, list);
 }
 
@@ -93,7 +93,7 @@ TEST(IncomingList, ARepeatedListIsNotCollectedAgain) {
   EXPECT_TRUE(incoming.mark_read());
   for (int repetition = 0; repetition < 5; ++repetition)
     for (int f = 0; f < 3; ++f) EXPECT_EQ(incoming.arrive(list.fragment(f)), kDuplicate);
-  EXPECT_FALSE(incoming.mark_read());   // read once, it stays read
+  EXPECT_FALSE(incoming.mark_read());  // read once, it stays read
   // And the next list does not find a half-collected repetition in its way.
   incoming.arrive(list.fragment(0));
   MadeList next(layout, 3, 9, 2);
@@ -154,7 +154,7 @@ TEST(IncomingList, ARepeatedOlderListDoesNotTearTheNewer) {
   MadeList whole(layout, 1, 9, 10), next(layout, 2, 9, 20);
   for (int f = 0; f < 3; ++f) incoming.arrive(whole.fragment(f));
   EXPECT_EQ(incoming.arrive(next.fragment(0)), kIncomplete);
-  EXPECT_EQ(incoming.arrive(whole.fragment(2)), kDuplicate);   // the second channel's copy, late
+  EXPECT_EQ(incoming.arrive(whole.fragment(2)), kDuplicate);  // the second channel's copy, late
   EXPECT_EQ(incoming.arrived(), 1u);
   EXPECT_EQ(incoming.arrive(next.fragment(1)), kIncomplete);
   EXPECT_EQ(incoming.arrive(next.fragment(2)), kCompleted);
@@ -166,10 +166,10 @@ TEST(IncomingList, MalformedHeadersAreIgnored) {
   MadeList list(layout, 1, 9, 10);
   EXPECT_EQ(incoming.arrive(list.fragment(0)), kIncomplete);
   std::vector<std::byte> bad(list.fragment(1).begin(), list.fragment(1).end());
-  wire::write_header_raw(layout, bad, 2, 11);   // more elements than there may be
+  wire::write_header_raw(layout, bad, 2, 11);  // more elements than there may be
   EXPECT_EQ(incoming.arrive(bad), kMalformed);
   wire::write_header_raw(layout, bad, 2, 9);
-  wire::write_header_raw(layout, bad, 0, 3);    // a fourth fragment of nine elements
+  wire::write_header_raw(layout, bad, 0, 3);  // a fourth fragment of nine elements
   EXPECT_EQ(incoming.arrive(bad), kMalformed);
   wire::write_header_raw(layout, bad, 0, 15);
   EXPECT_EQ(incoming.arrive(bad), kMalformed);
@@ -213,7 +213,7 @@ TEST(IncomingList, L2_AnOlderListNeverReplacesANewerOne) {
       for (std::uint32_t back = 1; back < circle && newest >= circle; ++back) {
         IncomingList incoming = counting;
         MadeList latest(layout, newest, 1, newest), other(layout, newest - back, 1, 9999);
-        const bool older = back < circle / 2;   // else it is as far ahead, on the circle
+        const bool older = back < circle / 2;  // else it is as far ahead, on the circle
         ASSERT_EQ(incoming.arrive(other.fragment(0)), older ? kStale : kCompleted) << newest << " then -" << back;
         if (!older) continue;
         ASSERT_EQ(incoming.arrived(), newest - back);
@@ -230,7 +230,7 @@ TEST(IncomingList, L2_AStragglerDoesNotTearTheListBegunAfterIt) {
   for (int f = 0; f < 3; ++f) incoming.arrive(one.fragment(f));
   EXPECT_EQ(incoming.arrive(two.fragment(0)), kIncomplete);
   EXPECT_EQ(incoming.arrive(three.fragment(0)), kTorn);
-  EXPECT_EQ(incoming.arrive(two.fragment(1)), kStale);   // its list is lost already
+  EXPECT_EQ(incoming.arrive(two.fragment(1)), kStale);  // its list is lost already
   EXPECT_EQ(incoming.arrive(two.fragment(2)), kStale);
   expect_latest(incoming, one);
   EXPECT_EQ(incoming.arrive(three.fragment(1)), kIncomplete);
@@ -248,7 +248,7 @@ int lists_until_believed(const schedules::PduLayout& layout, std::uint32_t befor
   for (std::uint32_t sequence = 0; sequence < 40; ++sequence) {
     MadeList list(layout, sequence, 4, 1000 + sequence);
     incoming.arrive(list.fragment(0));
-    incoming.arrive(list.fragment(0));   // the other channel
+    incoming.arrive(list.fragment(0));  // the other channel
     if (incoming.arrive(list.fragment(1)) != kCompleted) continue;
     const auto latest = incoming.latest()->bytes;
     EXPECT_TRUE(std::equal(latest.begin(), latest.end(), list.bytes.begin(), list.bytes.end()));
@@ -280,10 +280,10 @@ TEST(IncomingList, L3_StragglersAreNoRestart) {
       EXPECT_EQ(incoming.arrive(MadeList(layout, sequence, 1, 0).fragment(0)), kStale) << sequence;
   };
   IncomingList backwards = incoming_at(50), repeated = incoming_at(50), between = incoming_at(50);
-  expect_stale(backwards, {40, 39, 38, 37, 36});       // each older than the one before
-  expect_stale(repeated, {40, 40, 40, 41, 41, 40, 41});   // two lists only
+  expect_stale(backwards, {40, 39, 38, 37, 36});         // each older than the one before
+  expect_stale(repeated, {40, 40, 40, 41, 41, 40, 41});  // two lists only
   expect_stale(between, {40, 41});
-  EXPECT_EQ(between.arrive(MadeList(layout, 50, 1, 50).fragment(0)), kDuplicate);   // the sender still is at 50
+  EXPECT_EQ(between.arrive(MadeList(layout, 50, 1, 50).fragment(0)), kDuplicate);  // the sender still is at 50
   expect_stale(between, {42, 43});
   EXPECT_EQ(between.arrive(MadeList(layout, 51, 1, 51).fragment(0)), kCompleted);
   expect_stale(between, {44, 45});
@@ -306,8 +306,8 @@ TEST(IncomingList, L4_CodesAboveTheRangeAreRefused) {
   auto layout = list_layout();
   layout.element[0].high = 1000.0;
   IncomingList incoming(layout);
-  MadeList list(layout, 1, 5, 990);   // 990..994
-  wire::write_element_raw(layout, list.fragment(1), 2, 0, 0xFFFF);   // there is no sixth element
+  MadeList list(layout, 1, 5, 990);                                 // 990..994
+  wire::write_element_raw(layout, list.fragment(1), 2, 0, 0xFFFF);  // there is no sixth element
   EXPECT_EQ(incoming.arrive(list.fragment(0)), kIncomplete);
   for (const int element : {0, 1}) {
     std::vector<std::byte> bad(list.fragment(1).begin(), list.fragment(1).end());
@@ -327,7 +327,9 @@ TEST(IncomingList, L4_AFragmentInAnotherOnesSlotIsRefused) {
   MadeList list(layout, 1, 9, 10);
   for (int slot = 0; slot < 3; ++slot)
     for (int f = 0; f < 3; ++f)
-      if (f != slot) { EXPECT_EQ(incoming.arrive(list.fragment(f), slot), kMalformed); }
+      if (f != slot) {
+        EXPECT_EQ(incoming.arrive(list.fragment(f), slot), kMalformed);
+      }
   for (int f = 0; f < 3; ++f) EXPECT_EQ(incoming.arrive(list.fragment(f), f), f == 2 ? kCompleted : kIncomplete);
   expect_latest(incoming, list);
 }
@@ -366,7 +368,7 @@ TEST(IncomingList, WhateverTheNetworkDoesAListIsWholeOrNotThere) {
       if (!latest) continue;
       const auto match = std::find_if(sent.begin(), sent.end(),
                                       [&](const MadeList& list) { return list.sequence == latest->sequence; });
-      if (match == sent.end()) continue;   // an older one is still the latest
+      if (match == sent.end()) continue;  // an older one is still the latest
       ASSERT_EQ(match->fragments, latest->fragments);
       ASSERT_TRUE(std::equal(latest->bytes.begin(), latest->bytes.end(), match->bytes.begin(), match->bytes.end()));
     }
@@ -391,7 +393,7 @@ TEST(OutgoingList, OffersTheFragmentsOfTheNewestWrite) {
     const auto offered = outgoing.fragment(f);
     EXPECT_TRUE(std::equal(offered.begin(), offered.end(), expected.begin(), expected.end()));
   }
-  EXPECT_TRUE(outgoing.fragment(2).empty());   // nothing of the longer list is left
+  EXPECT_TRUE(outgoing.fragment(2).empty());  // nothing of the longer list is left
   EXPECT_TRUE(outgoing.fragment(-1).empty());
 }
 

@@ -19,8 +19,7 @@ namespace ttf::laws {
 namespace {
 
 // Two channels, a CAN and a CAN FD; the last member is not on the first CAN.
-template <std::size_t kMembers, test::Told kTold>
-class MemoryLiveBench : public LiveBench {
+template <std::size_t kMembers, test::Told kTold> class MemoryLiveBench : public LiveBench {
  public:
   MemoryLiveBench() {
     for (std::size_t i = 0; i < kMembers; ++i) {
@@ -48,16 +47,34 @@ class MemoryLiveBench : public LiveBench {
   std::vector<std::unique_ptr<bus::LiveMedium>> members_;
 };
 
-using MemoryLiveBenches = testing::Types<MemoryLiveBench<2, test::Told::kWithTheFrame>,
-                                         MemoryLiveBench<5, test::Told::kWithTheFrame>,
-                                         MemoryLiveBench<2, test::Told::kInAFollowUp>,
-                                         MemoryLiveBench<5, test::Told::kInAFollowUp>>;
+using MemoryLiveBenches =
+    testing::Types<MemoryLiveBench<2, test::Told::kWithTheFrame>, MemoryLiveBench<5, test::Told::kWithTheFrame>,
+                   MemoryLiveBench<2, test::Told::kInAFollowUp>, MemoryLiveBench<5, test::Told::kInAFollowUp>>;
 INSTANTIATE_TYPED_TEST_SUITE_P(Memory, LiveMediumLaws, MemoryLiveBenches);
 
 enum class Defect {
-  kDrops, kDoubles, kAlters, kEchoes, kSwaps, kStampsEarly, kStampsWhenAskedFor, kReadsBytesLater, kReusesBytes,
-  kBlocks, kAllocates, kHandsStrangersOver, kCountsNoStrangers, kCountsNoLosses, kSilentDescriptor, kLoudDescriptor,
-  kForgetsWhatCameBefore, kTellsNothing, kTellsWrong, kTellsTwice, kMiscounts, kOtherLine,
+  kDrops,
+  kDoubles,
+  kAlters,
+  kEchoes,
+  kSwaps,
+  kStampsEarly,
+  kStampsWhenAskedFor,
+  kReadsBytesLater,
+  kReusesBytes,
+  kBlocks,
+  kAllocates,
+  kHandsStrangersOver,
+  kCountsNoStrangers,
+  kCountsNoLosses,
+  kSilentDescriptor,
+  kLoudDescriptor,
+  kForgetsWhatCameBefore,
+  kTellsNothing,
+  kTellsWrong,
+  kTellsTwice,
+  kMiscounts,
+  kOtherLine,
 };
 
 // A medium that keeps the laws but for one thing.
@@ -72,7 +89,7 @@ class DefectiveMedium final : public bus::LiveMedium {
     if (defect_ == Defect::kEchoes) echo_ = true;
     if (defect_ == Defect::kReusesBytes) std::ranges::copy(signal.bytes, common_->begin());
     bus::LiveSignal sent = signal;
-    if (defect_ == Defect::kReadsBytesLater && signal.signal == bus::Signal::kFrame) {   // sends the one before
+    if (defect_ == Defect::kReadsBytesLater && signal.signal == bus::Signal::kFrame) {  // sends the one before
       const auto before = std::exchange(later_, sent);
       return before ? sound_->send(*before, due) : bus::LiveStatus::kDone;
     }
@@ -109,7 +126,7 @@ class DefectiveMedium final : public bus::LiveMedium {
     }
     if (defect_ == Defect::kSwaps && received_ == 5)
       if (auto next = sound_->receive()) {
-        kept_ = *heard;   // its bytes are another's by now
+        kept_ = *heard;  // its bytes are another's by now
         again_ = kept_;
         return next;
       }

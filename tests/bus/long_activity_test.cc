@@ -9,7 +9,7 @@
 namespace ttf::bus {
 namespace {
 
-constexpr int kFound = kSyntaxError | kBoundaryViolation;   // where it began; elsewhere the boundary alone
+constexpr int kFound = kSyntaxError | kBoundaryViolation;  // where it began; elsewhere the boundary alone
 using Statuses = std::map<int, int>;
 
 // Node 1 hears slots 1 and 3..8, sends in slot 2 and, in odd cycles, in slot 9; slot 10 is nobody's.
@@ -17,7 +17,8 @@ struct Listener : Alone {
   Listener() : Alone(1) {}
 
   // The channel is taken by something that nobody can make out; it begins and ends between two slots' boundaries.
-  void noise(std::int64_t from_cycle, int from_slot, std::int64_t to_cycle, int to_slot, Channel channel = Channel::kA) {
+  void noise(std::int64_t from_cycle, int from_slot, std::int64_t to_cycle, int to_slot,
+             Channel channel = Channel::kA) {
     const Microticks start = middle(from_cycle, from_slot), end = middle(to_cycle, to_slot);
     controller.advance(start);
     port.busy[index_of(channel)] = true;
@@ -28,7 +29,7 @@ struct Listener : Alone {
   void frames(std::int64_t cycle, std::vector<int> in_slots) {
     for (const int slot : in_slots) {
       Frame frame = Frame::status(slot, cycle);
-      frame.header.null_frame = slot > 4;   // without a fragment
+      frame.header.null_frame = slot > 4;  // without a fragment
       frame.arrive(*this);
     }
   }
@@ -71,7 +72,9 @@ TEST(LongActivity, OfWhoeverTheSlotIs) {
   node.noise(1, 7, 1, 10);
   node.run_to(2);
   EXPECT_EQ(node.told(1), (Statuses{{7, kFound | kTransmissionConflict},
-                                    {8, kBoundaryViolation}, {9, kBoundaryViolation}, {10, kBoundaryViolation}}));
+                                    {8, kBoundaryViolation},
+                                    {9, kBoundaryViolation},
+                                    {10, kBoundaryViolation}}));
 }
 
 TEST(LongActivity, AFrameBehindItInItsLastSlotIsValidAllTheSame) {
@@ -113,7 +116,7 @@ TEST(LongActivity, AcrossACycleStart) {
   const Statuses slots{{1, kBoundaryViolation}, {2, kBoundaryViolation}, {3, kBoundaryViolation}};
   EXPECT_EQ(node.read(), slots);
   Statuses with_outside = slots;
-  with_outside[0] = kFound | kTransmissionConflict;   // its own frame in slot 2
+  with_outside[0] = kFound | kTransmissionConflict;  // its own frame in slot 2
   EXPECT_EQ(node.told(1), with_outside);
 }
 
@@ -131,8 +134,8 @@ TEST(LongActivity, OverWholeCycles) {
   // It is taken to have begun behind slot 3; slots 9 and 10 are not due in cycle 0, but for the boundary where it ends.
   const Statuses first{{4, kBoundaryViolation}, {5, kBoundaryViolation}, {6, kBoundaryViolation},
                        {7, kBoundaryViolation}, {8, kBoundaryViolation}, {10, kBoundaryViolation}};
-  const Statuses last{{1, kBoundaryViolation}, {2, kBoundaryViolation}, {3, kBoundaryViolation},
-                      {4, kBoundaryViolation}};
+  const Statuses last{
+      {1, kBoundaryViolation}, {2, kBoundaryViolation}, {3, kBoundaryViolation}, {4, kBoundaryViolation}};
   EXPECT_EQ(read, (std::vector<Statuses>{first, every, every, last}));
   EXPECT_EQ(node.told(0), first);
   EXPECT_EQ(node.told(1), every);

@@ -31,13 +31,13 @@ schedules::Cluster managed(schedules::Cluster cluster) {
 TEST(NetworkManagementVector, IsTheOrOfACycleShownWhenItIsOver) {
   NetworkManagement vector(2);
   EXPECT_EQ(copy(vector.combined()), bytes({0, 0}));
-  vector.combine(bytes({0x01, 0x80, 0xFF}));   // what follows the vector is no part of it
-  vector.combine(bytes({0x02}));               // cut off
+  vector.combine(bytes({0x01, 0x80, 0xFF}));  // what follows the vector is no part of it
+  vector.combine(bytes({0x02}));              // cut off
   EXPECT_EQ(copy(vector.combined()), bytes({0, 0}));
   vector.end_cycle(true);
   EXPECT_EQ(copy(vector.combined()), bytes({0x03, 0x80}));
   vector.combine(bytes({0x10, 0}));
-  vector.end_cycle(false);                     // not in normal operation: stays, and is not carried over
+  vector.end_cycle(false);  // not in normal operation: stays, and is not carried over
   EXPECT_EQ(copy(vector.combined()), bytes({0x03, 0x80}));
   vector.end_cycle(true);
   EXPECT_EQ(copy(vector.combined()), bytes({0, 0}));
@@ -56,7 +56,7 @@ TEST(NetworkManagementVector, IsTheOrOfACycleShownWhenItIsOver) {
 TEST(NetworkManagement, StandsBeforeTheFragmentAndIsIndicated) {
   Alone node(0, managed(small_cluster(4)));
   node.controller.set_network_management_vector(bytes({0xA1, 0, 0xC3}));
-  MadeList list(node.cluster.pdus[0], 1, 5, 0xABC0);   // two fragments of 8 bytes
+  MadeList list(node.cluster.pdus[0], 1, 5, 0xABC0);  // two fragments of 8 bytes
   node.controller.outgoing(kList).write(list.view());
   node.run_to(1);
   ASSERT_EQ(node.sent_in(0).size(), 10u);
@@ -92,8 +92,7 @@ TEST(NetworkManagement, ANullFrameCarriesNone) {
 // Each node says one bit; one of them changes its mind between cycles 5 and 6.
 TEST(NetworkManagement, AllNodesReadTheSameOneCycleLater) {
   Rig rig(managed(small_cluster(4)), {300'000, -300'000, 0, 100'000}, Duration{500});
-  for (std::size_t n = 0; n < 4; ++n)
-    rig.controller(n).set_network_management_vector(bytes({1 << n, 0, 0x80 >> n}));
+  for (std::size_t n = 0; n < 4; ++n) rig.controller(n).set_network_management_vector(bytes({1 << n, 0, 0x80 >> n}));
   const auto all_read = [&](const Bytes& expected) {
     for (std::size_t n = 0; n < 4; ++n) EXPECT_EQ(copy(rig.controller(n).network_management_vector()), expected) << n;
   };
@@ -101,7 +100,7 @@ TEST(NetworkManagement, AllNodesReadTheSameOneCycleLater) {
   all_read(bytes({0, 0, 0}));
   rig.run_until(Rig::kStart + Duration::microseconds(1100));
   all_read(bytes({0x0F, 0, 0xF0}));
-  rig.run_until(Rig::kStart + Duration::microseconds(5900));   // cycle 5, all status frames are out
+  rig.run_until(Rig::kStart + Duration::microseconds(5900));  // cycle 5, all status frames are out
   rig.controller(2).set_network_management_vector(bytes({0, 0x55, 0}));
   rig.run_until(Rig::kStart + Duration::microseconds(6500));
   all_read(bytes({0x0F, 0, 0xF0}));
@@ -139,13 +138,13 @@ TEST(NetworkManagement, OnlyValidFramesWithTheIndicatorCount) {
   std::fill_n(frame.payload.begin(), 4, std::byte{0x42});
   const Bytes silent = bytes({0, 0, 0}), said = bytes({0x42, 0x42, 0x42});
   EXPECT_EQ(read_after(frame), said);
-  EXPECT_EQ(read_after(frame, true), silent);           // syntax error
+  EXPECT_EQ(read_after(frame, true), silent);  // syntax error
   Frame plain = frame, wrong_cycle = frame, in_list = frame;
   plain.header.payload_preamble = false;
   EXPECT_EQ(read_after(plain), silent);
   wrong_cycle.header.cycle = 3;
-  EXPECT_EQ(read_after(wrong_cycle), silent);           // content error
-  in_list.header.frame_id = 9;                          // a slot of which the schedule does not say so
+  EXPECT_EQ(read_after(wrong_cycle), silent);  // content error
+  in_list.header.frame_id = 9;                 // a slot of which the schedule does not say so
   in_list.header.sync = in_list.header.startup = false;
   in_list.header.cycle = 1;
   in_list.start = Alone::at(1, 84 * 8 + 7).value;
@@ -170,7 +169,7 @@ TEST(NetworkManagement, IsOfNormalOperation) {
     }
   }
   EXPECT_TRUE(in_startup_zero);
-  EXPECT_TRUE(someone_earlier);   // others spoke while the last one was still starting
+  EXPECT_TRUE(someone_earlier);  // others spoke while the last one was still starting
   EXPECT_EQ(copy(rig.controller(3).network_management_vector()), bytes({0x0F, 0, 0}));
   rig.controller(3).command(PocEventKind::kFreeze, {rig.controller(3).next_event()});
   rig.run_until(Rig::kStart + Duration::milliseconds(60));

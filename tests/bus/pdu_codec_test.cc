@@ -40,7 +40,11 @@ TEST(PduCodec, SignalsAreMostSignificantBitFirstWithoutGaps) {
   write_header_raw(layout, payload, 1, 0b0110011);
   write_element_raw(layout, payload, 0, 0, 0b10001);
   write_element_raw(layout, payload, 1, 1, 0b110101);
-  EXPECT_EQ(bit_text(payload), "1010110011000000" "10001000000" "00000110101" "00");
+  EXPECT_EQ(bit_text(payload),
+            "1010110011000000"
+            "10001000000"
+            "00000110101"
+            "00");
   EXPECT_EQ(read_header_raw(layout, payload, 1), 0b0110011u);
   EXPECT_EQ(read_element_raw(layout, payload, 1, 1), 0b110101u);
 }
@@ -48,7 +52,7 @@ TEST(PduCodec, SignalsAreMostSignificantBitFirstWithoutGaps) {
 // Any widths at any offsets, in payloads of two bytes and of many: what is written is read, and nothing else changes.
 TEST(PduCodec, RoundTripLeavesTheNeighboursAlone) {
   RandomStream stream({5, 0, Purpose::kTest, 1, 0});
-  int shorter = 0, as_long = 0, longer = 0;   // than the 64 bits that are handled at once
+  int shorter = 0, as_long = 0, longer = 0;  // than the 64 bits that are handled at once
   for (int run = 0; run < 600; ++run) {
     schedules::PduLayout layout;
     layout.name = "drawn";
@@ -117,7 +121,7 @@ TEST(PduCodec, SaturatesAndCounts) {
   EXPECT_EQ(saturated, 4);
   EXPECT_EQ(to_raw(s, 10.0, &saturated), 200u);
   EXPECT_EQ(saturated, 4);
-  EXPECT_EQ(to_raw(s, 99.0), 200u);   // without a counter
+  EXPECT_EQ(to_raw(s, 99.0), 200u);  // without a counter
 }
 
 // The loader admits a `high` half a resolution above the last code; it must not wrap round to zero.

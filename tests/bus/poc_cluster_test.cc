@@ -76,7 +76,7 @@ class Node {
   }
 
   Kind kind() const { return poc_.state.kind; }
-  int active_in() const { return active_in_; }   // cycle, -1: not yet
+  int active_in() const { return active_in_; }  // cycle, -1: not yet
   bool exhausted() const { return exhausted_; }
   int cycle() const { return has_clock_ ? cycle_ : -1; }
   int slot() const { return slot_; }
@@ -111,7 +111,7 @@ class Node {
     // Two cycles as pdListenTimeout; timers begin with the next slot when restarted at the end of one.
     if (actions.has(PocAction::kRestartListenTimer)) listen_until_ = now + 2 * cycle_slots_ + 1;
     if (actions.has(PocAction::kRestartNoiseTimer)) noise_until_ = now + 4 * cycle_slots_ + 1;
-    if (actions.has(PocAction::kSendCas)) {   // in this slot; cycle 0 begins with the next
+    if (actions.has(PocAction::kSendCas)) {  // in this slot; cycle 0 begins with the next
       cas_at_ = now;
       has_clock_ = true;
       cycle_ = -1;
@@ -130,7 +130,7 @@ class Node {
   bool has_clock_ = false;
   int slot_ = 0;
   int cycle_ = 0;
-  std::array<std::set<int>, 2> seen_;   // startup frames of the even and the odd cycle
+  std::array<std::set<int>, 2> seen_;  // startup frames of the even and the odd cycle
   int listen_until_ = -1, noise_until_ = -1, cas_at_ = -1, derived_at_ = -1;
   int active_in_ = -1;
   bool exhausted_ = false;
@@ -160,9 +160,12 @@ class Bus {
       }
       for (std::size_t i = 0; i < nodes.size(); ++i) {
         if (sent[i] || frames + symbols == 0) continue;
-        if (frames == 0) nodes[i].hear_cas(now);   // symbols over symbols are still one
-        else if (frames + symbols == 1) nodes[i].hear(frame, now);
-        else nodes[i].hear_noise(now);
+        if (frames == 0)
+          nodes[i].hear_cas(now);  // symbols over symbols are still one
+        else if (frames + symbols == 1)
+          nodes[i].hear(frame, now);
+        else
+          nodes[i].hear_noise(now);
       }
     }
   }
@@ -207,11 +210,13 @@ TEST(PocCluster, SimultaneousSymbolsLeaveOneLeader) {
 }
 
 TEST(PocCluster, RandomPowerOnInTimeGivesTheSameNumbers) {
-  struct Case { int size, runs; };
+  struct Case {
+    int size, runs;
+  };
   for (const auto [size, runs] : {Case{2, 2'000}, Case{4, 2'000}, Case{16, 500}, Case{64, 100}}) {
     RandomStream draw({.seed = static_cast<std::uint64_t>(size), .purpose = Purpose::kTest});
     const int coldstart = std::max(2, size / 4);
-    const std::int64_t listen_timeout = 2 * (std::int64_t{size} + 2);   // [slots]
+    const std::int64_t listen_timeout = 2 * (std::int64_t{size} + 2);  // [slots]
     for (int run = 0; run < runs; ++run) {
       std::vector<int> power_on(static_cast<std::size_t>(size));
       for (int& slot : power_on) slot = static_cast<int>(draw.integer(0, listen_timeout));
@@ -222,8 +227,10 @@ TEST(PocCluster, RandomPowerOnInTimeGivesTheSameNumbers) {
       int leaders = 0;
       for (int i = 0; i < size; ++i) {
         const int active_in = bus.nodes[static_cast<std::size_t>(i)].active_in();
-        if (active_in == 6 && i < coldstart) ++leaders;
-        else EXPECT_EQ(active_in, i < coldstart ? 7 : 8) << size << " nodes, run " << run << ", node " << i;
+        if (active_in == 6 && i < coldstart)
+          ++leaders;
+        else
+          EXPECT_EQ(active_in, i < coldstart ? 7 : 8) << size << " nodes, run " << run << ", node " << i;
       }
       EXPECT_EQ(leaders, 1) << size << " nodes, run " << run;
       expect_one_schedule(bus);
@@ -234,9 +241,9 @@ TEST(PocCluster, RandomPowerOnInTimeGivesTheSameNumbers) {
 // A second coldstart node that comes within the attempts' window starts the cluster with the first one.
 // Beyond it the first one's attempts are exhausted; it then follows the second one's attempt.
 TEST(PocCluster, ASecondColdstartNodeWithinAndBeyondTheAttemptsWindow) {
-  constexpr int kSlots = 6;              // 4 nodes, one free, the NIT
+  constexpr int kSlots = 6;  // 4 nodes, one free, the NIT
   constexpr int kListen = 2 * kSlots + 1;
-  constexpr int kAttempt = 1 + 6 * kSlots;   // CAS, four cycles of resolution, one of check, one of gap
+  constexpr int kAttempt = 1 + 6 * kSlots;  // CAS, four cycles of resolution, one of check, one of gap
   constexpr int kLastSymbol = kListen + 3 * kAttempt;
   // To send in cycle 4 of an attempt its startup frame of cycle 0 must be heard: the leader's slot is the first one.
   constexpr int kLastFrame = kLastSymbol + 1;
@@ -260,7 +267,7 @@ TEST(PocCluster, ALoneColdstartNodeExhaustsItsAttempts) {
 }
 
 TEST(PocCluster, LateNodesJoinTheRunningCluster) {
-  Bus bus({0, 2, 100, 171, 202}, 3);   // a coldstart node and two others come when the cluster runs
+  Bus bus({0, 2, 100, 171, 202}, 3);  // a coldstart node and two others come when the cluster runs
   bus.run(60);
   EXPECT_TRUE(bus.all_active());
   EXPECT_EQ(bus.nodes[0].active_in(), 6);

@@ -19,7 +19,7 @@ TEST(PocClock, PassiveAtItsThresholdAndNotBefore) {
   EXPECT_EQ(node.state.vClockCorrectionFailed, 1);
   node.tell(PocEvent::clock_corrected(true, false));
   EXPECT_EQ(node.state.vClockCorrectionFailed, 2);
-  EXPECT_EQ(node.state.kind, Kind::kNormalActive);   // until the cycle has ended
+  EXPECT_EQ(node.state.kind, Kind::kNormalActive);  // until the cycle has ended
   node.tell(PocEvent::cycle_started(10, kTwoNodes));
   EXPECT_EQ(node.state.kind, Kind::kNormalPassive);
   EXPECT_EQ(node.last.reason, PocReason::kPassiveByMissingTerms);
@@ -71,7 +71,7 @@ TEST(PocClock, BeyondTheLimitHaltsAtOnceOrMakesPassive) {
   node = active(parameters);
   node.double_cycles(1, false, true);
   EXPECT_EQ(node.state.kind, Kind::kNormalPassive);
-  EXPECT_EQ(node.state.vClockCorrectionFailed, 0);   // no term was missing
+  EXPECT_EQ(node.state.vClockCorrectionFailed, 0);  // no term was missing
   node = active(parameters);
   node.double_cycles(1, true, true);
   EXPECT_EQ(node.state.kind, Kind::kNormalPassive);
@@ -84,7 +84,7 @@ TEST(PocClock, BackToActiveAfterConsecutiveGoodDoubleCycles) {
   ASSERT_EQ(node.state.kind, Kind::kNormalPassive);
   node.double_cycles(2, false);
   EXPECT_EQ(node.state.vAllowPassiveToActive, 2);
-  node.double_cycles(1, true);   // breaks the row
+  node.double_cycles(1, true);  // breaks the row
   EXPECT_EQ(node.state.vAllowPassiveToActive, 0);
   node.double_cycles(2, false);
   EXPECT_EQ(node.state.kind, Kind::kNormalPassive);

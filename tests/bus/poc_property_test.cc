@@ -51,7 +51,7 @@ class Draws {
       }
       case Event::kPowerOn:
       case Event::kFreeze:
-      case Event::kFatalError: return chance(0.1) ? event : PocEvent{Event::kChannelsIdle};   // else nothing lasts
+      case Event::kFatalError: return chance(0.1) ? event : PocEvent{Event::kChannelsIdle};  // else nothing lasts
       default: return event;
     }
   }
@@ -79,8 +79,7 @@ class Draws {
 };
 
 // Calls check(parameters, before, event, step) for every step of every seed's run.
-template <class Check>
-void walk(Check check) {
+template <class Check> void walk(Check check) {
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     Draws draws(seed);
     const PocParameters parameters = draws.parameters();
@@ -106,12 +105,12 @@ TEST(PocProperties, TheWalksReachEveryStateFromMoreThanOneSide) {
     if (step.next.kind != before.kind) entered_from[step.next.kind].insert(before.kind);
   });
   EXPECT_EQ(entered_from.size(), kAllPocKinds.size());
-  EXPECT_EQ(entered_from[Kind::kNormalActive].size(), 4u);   // three ways of starting up, and back from passive
+  EXPECT_EQ(entered_from[Kind::kNormalActive].size(), 4u);  // three ways of starting up, and back from passive
   EXPECT_EQ(entered_from[Kind::kHalt].size(), kAllPocKinds.size() - 1);
 }
 
 TEST(PocProperties, NormalActiveOnlyThroughStartup) {
-  std::vector<Kind> way;   // since the last listen state
+  std::vector<Kind> way;  // since the last listen state
   int cycle_starts = 0;
   walk([&](const PocParameters& p, const PocState& before, const PocEvent& event, const PocStep& step) {
     if (event.kind == Event::kCycleStarted) ++cycle_starts;
@@ -130,8 +129,8 @@ TEST(PocProperties, NormalActiveOnlyThroughStartup) {
     // The gap may have been passed any number of times.
     std::vector<Kind> leading{Kind::kColdstartListen, Kind::kColdstartCollisionResolution};
     while (way.size() > leading.size() + 2) {
-      leading.insert(leading.end(), {Kind::kColdstartConsistencyCheck, Kind::kColdstartGap,
-                                     Kind::kColdstartCollisionResolution});
+      leading.insert(leading.end(),
+                     {Kind::kColdstartConsistencyCheck, Kind::kColdstartGap, Kind::kColdstartCollisionResolution});
     }
     leading.insert(leading.end(), {Kind::kColdstartConsistencyCheck, Kind::kNormalActive});
     const std::vector<Kind> following{way.front(), Kind::kInitialiseSchedule, Kind::kIntegrationColdstartCheck,
@@ -140,13 +139,13 @@ TEST(PocProperties, NormalActiveOnlyThroughStartup) {
                                         Kind::kIntegrationConsistencyCheck, Kind::kNormalActive};
     if (!p.pKeySlotUsedForStartup) {
       EXPECT_EQ(way, integrating);
-      EXPECT_GE(cycle_starts, 5);   // 2 and then four whole cycles
+      EXPECT_GE(cycle_starts, 5);  // 2 and then four whole cycles
     } else if (way.size() > 1 && way[1] == Kind::kInitialiseSchedule) {
       EXPECT_EQ(way, following);
-      EXPECT_GE(cycle_starts, 6);   // 2..7
+      EXPECT_GE(cycle_starts, 6);  // 2..7
     } else {
       EXPECT_EQ(way, leading);
-      EXPECT_GE(cycle_starts, 7);   // 0..6
+      EXPECT_GE(cycle_starts, 7);  // 0..6
     }
   });
 }
@@ -163,8 +162,8 @@ TEST(PocProperties, AttemptsAreRefilledByRunAndConfigurationOnly) {
       EXPECT_TRUE((event.kind == Event::kRun && before.kind == Kind::kReady) || event.kind == Event::kConfig ||
                   event.kind == Event::kPowerOn);
     }
-    const bool attempt = step.next.kind == Kind::kColdstartGap || (before.kind == Kind::kColdstartListen &&
-                                                                   step.actions.has(PocAction::kSendCas));
+    const bool attempt = step.next.kind == Kind::kColdstartGap ||
+                         (before.kind == Kind::kColdstartListen && step.actions.has(PocAction::kSendCas));
     if (before.kind != step.next.kind && attempt) {
       EXPECT_EQ(left, before.vRemainingColdstartAttempts - 1);
     }

@@ -13,7 +13,7 @@ namespace ttf::bus {
 using Kind = PocKind;
 using Event = PocEventKind;
 
-inline constexpr int kReference = 1;   // frame id of the node that is followed
+inline constexpr int kReference = 1;  // frame id of the node that is followed
 inline constexpr StartupFramesSeen kNobody{};
 inline constexpr StartupFramesSeen kLeaderOnly{1, 1, true, true};
 inline constexpr StartupFramesSeen kTwoNodes{2, 2, true, true};
@@ -101,8 +101,8 @@ class PocScript {
   PocParameters parameters;
   PocState state;
   PocStep last;
-  int last_cycle = -1;          // that began
-  bool clock_missing = false;   // what cycle() reports of odd cycles
+  int last_cycle = -1;         // that began
+  bool clock_missing = false;  // what cycle() reports of odd cycles
   bool clock_limit = false;
 };
 

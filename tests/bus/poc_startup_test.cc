@@ -33,13 +33,13 @@ TEST(PocStartup, FollowingColdstartNodeIsActiveInCycle7) {
   EXPECT_EQ(node.state.kind, Kind::kIntegrationColdstartCheck);
   EXPECT_EQ(active_in(node, {kNobody, kLeaderOnly, kLeaderOnly, kLeaderOnly, kLeaderOnly, kLeaderOnly}), 7);
   EXPECT_EQ(node.last.reason, PocReason::kJoined);
-  EXPECT_EQ(node.state.vRemainingColdstartAttempts, 4);   // following costs none
+  EXPECT_EQ(node.state.vRemainingColdstartAttempts, 4);  // following costs none
 }
 
 TEST(PocStartup, FollowerSendsFromCycle4On) {
   PocScript node(coldstart_node());
   node.to_check().cycle().cycle(kLeaderOnly);
-  EXPECT_EQ(mac_mode(node.state), MacMode::kNothing);   // cycle 3
+  EXPECT_EQ(mac_mode(node.state), MacMode::kNothing);  // cycle 3
   node.cycle(kLeaderOnly);
   EXPECT_EQ(node.last_cycle, 4);
   EXPECT_EQ(mac_mode(node.state), MacMode::kStartupFrame);
@@ -57,7 +57,7 @@ TEST(PocStartup, IntegratingNodeIsActiveInCycle8) {
 TEST(PocStartup, LateNodesIntegrateIntoARunningCluster) {
   PocScript other(other_node());
   other.to_check();
-  EXPECT_EQ(active_in(other, {kNobody, kTwoNodes, kTwoNodes, kTwoNodes, kTwoNodes}), 6);   // two double cycles
+  EXPECT_EQ(active_in(other, {kNobody, kTwoNodes, kTwoNodes, kTwoNodes, kTwoNodes}), 6);  // two double cycles
   PocScript coldstart(coldstart_node());
   coldstart.to_check();
   EXPECT_EQ(active_in(coldstart, {kNobody, kTwoNodes, kTwoNodes, kTwoNodes, kTwoNodes, kTwoNodes}), 7);
@@ -88,7 +88,7 @@ TEST(PocStartup, AttemptsAreExhaustedAloneOnTheBus) {
     node.cycle(kNobody);
     if (node.last.actions.has(PocAction::kSendCas)) ++symbols;
   }
-  EXPECT_EQ(symbols, 4);   // gColdStartAttempts
+  EXPECT_EQ(symbols, 4);  // gColdStartAttempts
   EXPECT_EQ(node.state.kind, Kind::kIntegrationListen);
   EXPECT_EQ(node.state.vRemainingColdstartAttempts, 0);
   EXPECT_EQ(node.last.reason, PocReason::kNobodyJoined);
@@ -127,7 +127,7 @@ TEST(PocStartup, CollisionsUseUpAttempts) {
   node.tell(Event::kNoiseTimeout);
   EXPECT_TRUE(node.state.coldstart_noise);
   node.tell(Event::kCasReceived);
-  EXPECT_EQ(node.state.kind, Kind::kIntegrationListen);   // one left is not enough to listen for
+  EXPECT_EQ(node.state.kind, Kind::kIntegrationListen);  // one left is not enough to listen for
   EXPECT_EQ(node.last.reason, PocReason::kCollisionCas);
   EXPECT_EQ(node.last.consequence, PocReason::kAttemptsExhausted);
 }
@@ -150,7 +150,7 @@ TEST(PocStartup, ConsistencyCheckNeedsAPairAndAClockInOrder) {
 
 TEST(PocStartup, EachDoubleCycleNeedsItsOwnVerdictOnTheClock) {
   PocScript node(coldstart_node());
-  node.to_join();   // the check's verdict was good
+  node.to_join();  // the check's verdict was good
   node.tell(PocEvent::cycle_started(5, kTwoNodes)).tell(PocEvent::cycle_started(6, kTwoNodes));
   EXPECT_EQ(node.last.reason, PocReason::kStartupClockTermMissing);
   node = PocScript(other_node());
@@ -219,7 +219,7 @@ TEST(PocStartup, ScheduleIsDerivedFromAnEvenAndAnOddFrameOfOneNode) {
   node.tell(PocEvent::startup_frame(3, 6));
   EXPECT_TRUE(node.last.actions.has(PocAction::kDeriveSchedule));
   EXPECT_EQ(node.state.reference, 3);
-  node.tell(PocEvent::startup_frame(3, 6));   // the other channel
+  node.tell(PocEvent::startup_frame(3, 6));  // the other channel
   EXPECT_EQ(node.last.reason, PocReason::kOddFrameAwaited);
   node.tell(PocEvent::startup_frame(4, 7));
   EXPECT_EQ(node.last.reason, PocReason::kOddFrameAwaited);
@@ -253,7 +253,7 @@ TEST(PocStartup, InhibitedNodeFollowsButDoesNotLead) {
   node.tell(Event::kAllowColdstart);
   EXPECT_EQ(node.state.kind, Kind::kColdstartListen);
   EXPECT_TRUE(node.last.actions.has(PocAction::kRestartListenTimer));
-  node.tell(Event::kReady);   // inhibits again
+  node.tell(Event::kReady);  // inhibits again
   EXPECT_EQ(node.state.kind, Kind::kReady);
   EXPECT_TRUE(node.last.actions.has(PocAction::kStopTimers));
   EXPECT_TRUE(node.state.vColdstartInhibit);

@@ -15,12 +15,24 @@ struct Code {
   Kind kind;
 };
 constexpr Code kCodes[] = {
-    {"dc", Kind::kDefaultConfig}, {"cf", Kind::kConfig}, {"rd", Kind::kReady}, {"ha", Kind::kHalt},
-    {"wl", Kind::kWakeupListen}, {"ws", Kind::kWakeupSend}, {"wd", Kind::kWakeupDetect},
-    {"cl", Kind::kColdstartListen}, {"cr", Kind::kColdstartCollisionResolution},
-    {"cc", Kind::kColdstartConsistencyCheck}, {"ga", Kind::kColdstartGap}, {"cj", Kind::kColdstartJoin},
-    {"il", Kind::kIntegrationListen}, {"is", Kind::kInitialiseSchedule}, {"ic", Kind::kIntegrationColdstartCheck},
-    {"in", Kind::kIntegrationConsistencyCheck}, {"na", Kind::kNormalActive}, {"np", Kind::kNormalPassive},
+    {"dc", Kind::kDefaultConfig},
+    {"cf", Kind::kConfig},
+    {"rd", Kind::kReady},
+    {"ha", Kind::kHalt},
+    {"wl", Kind::kWakeupListen},
+    {"ws", Kind::kWakeupSend},
+    {"wd", Kind::kWakeupDetect},
+    {"cl", Kind::kColdstartListen},
+    {"cr", Kind::kColdstartCollisionResolution},
+    {"cc", Kind::kColdstartConsistencyCheck},
+    {"ga", Kind::kColdstartGap},
+    {"cj", Kind::kColdstartJoin},
+    {"il", Kind::kIntegrationListen},
+    {"is", Kind::kInitialiseSchedule},
+    {"ic", Kind::kIntegrationColdstartCheck},
+    {"in", Kind::kIntegrationConsistencyCheck},
+    {"na", Kind::kNormalActive},
+    {"np", Kind::kNormalPassive},
 };
 
 Kind kind_of(const std::string& code) {
@@ -53,11 +65,11 @@ std::vector<PocEvent> columns(int next_cycle) {
 }
 
 struct Row {
-  const char* start;                      // the state's code
+  const char* start;  // the state's code
   const char* what;
   PocParameters parameters;
-  std::function<void(PocScript&)> lead;   // there
-  const char* next;                       // by column; "--" is the same state
+  std::function<void(PocScript&)> lead;  // there
+  const char* next;                      // by column; "--" is the same state
 };
 
 PocParameters with_attempts(int attempts) {
@@ -84,9 +96,7 @@ const std::vector<Row>& rows() {
       {"ws", "", coldstart_node(), [](PocScript& s) { s.to_ready().tell(Event::kWakeup).tell(Event::kListenTimeout); },
        "dc -- -- rd -- -- -- -- -- ha ha  -- -- -- -- --  -- -- --  -- -- rd wd --  -- -- --  -- --"},
       {"wd", "", coldstart_node(),
-       [](PocScript& s) {
-         s.to_ready().tell(Event::kWakeup).tell(Event::kNoiseTimeout).tell(Event::kWakeupCollision);
-       },
+       [](PocScript& s) { s.to_ready().tell(Event::kWakeup).tell(Event::kNoiseTimeout).tell(Event::kWakeupCollision); },
        "dc -- -- rd -- -- -- -- -- ha ha  -- -- -- rd rd  -- -- --  rd -- -- -- --  -- -- --  -- --"},
       {"cl", "", coldstart_node(), [](PocScript& s) { s.to_listen(); },
        "dc -- -- rd -- -- -- -- -- ha ha  -- -- -- -- --  is -- --  cr cr -- -- --  -- -- --  -- --"},
@@ -224,8 +234,8 @@ TEST(PocTable, EveryStepSaysWhyAndDoesWhatTheChangeNeeds) {
     row.lead(script);
     for (const PocEvent& event : columns(script.last_cycle + 1)) {
       const PocStep step = poc_step(script.parameters, script.state, event);
-      const std::string where = std::string(to_text(script.state.kind)) + " (" + row.what + "), " +
-                                std::string(to_text(event.kind));
+      const std::string where =
+          std::string(to_text(script.state.kind)) + " (" + row.what + "), " + std::string(to_text(event.kind));
       EXPECT_FALSE(to_text(step.reason).empty()) << where;
       if (is_ignored(step.reason)) {
         EXPECT_EQ(step.next, script.state) << where;
@@ -246,9 +256,7 @@ TEST(PocTable, OnlyTheListenTimersFollowTheChannel) {
     PocScript script(row.parameters);
     row.lead(script);
     const bool listens = script.state.kind == Kind::kColdstartListen || script.state.kind == Kind::kWakeupListen;
-    const auto actions = [&](Event kind) {
-      return poc_step(script.parameters, script.state, PocEvent{kind}).actions;
-    };
+    const auto actions = [&](Event kind) { return poc_step(script.parameters, script.state, PocEvent{kind}).actions; };
     EXPECT_EQ(listen_timer_follows_channels(script.state.kind), listens) << row.start;
     EXPECT_EQ(actions(Event::kChannelActive), listens ? PocActions(PocAction::kStopListenTimer) : PocActions())
         << row.start;

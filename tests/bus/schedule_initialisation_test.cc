@@ -25,8 +25,7 @@ class ScheduleInitialisationTest : public ::testing::Test {
     const std::int64_t into = ((slot - 1) * 84 + 7) * length;
     return Microticks{origin + cycle * length + (into + 4999) / 5000 + delay};
   }
-  StartupFrame frame(int slot, int cycle, Channel channel = Channel::kA,
-                     std::int64_t length = 200'000) const {
+  StartupFrame frame(int slot, int cycle, Channel channel = Channel::kA, std::int64_t length = 200'000) const {
     return {channel, slot, cycle, arrival(slot, cycle, 7'000, length, channel == Channel::kA ? 50 : 30)};
   }
   schedules::GlobalParameters flexray;
@@ -54,13 +53,11 @@ TEST_F(ScheduleInitialisationTest, TheClockSetGoingExpectsTheNextFrameWhereItCom
   initialisation.hear(frame(3, 62, Channel::kA, 199'937));
   const auto schedule = initialisation.hear(frame(3, 63, Channel::kA, 199'937));
   ASSERT_TRUE(schedule);
-  timebase::CycleClock clock({5000, 1'000'000, 200'000, 4900}, schedule->cycle_start, schedule->rate,
-                             schedule->cycle);
+  timebase::CycleClock clock({5000, 1'000'000, 200'000, 4900}, schedule->cycle_start, schedule->rate, schedule->cycle);
   EXPECT_EQ(clock.cycle(), 63);
   clock.next_cycle(schedule->rate);
   EXPECT_EQ(clock.cycle(), 64);
-  EXPECT_EQ(clock.start_of(Macroticks{2 * 84 + 7}) + Microticks{50},
-            frame(3, 64, Channel::kA, 199'937).start);
+  EXPECT_EQ(clock.start_of(Macroticks{2 * 84 + 7}) + Microticks{50}, frame(3, 64, Channel::kA, 199'937).start);
 }
 
 TEST_F(ScheduleInitialisationTest, OddFramesAloneGiveNothing) {

@@ -5,7 +5,8 @@
 
 namespace ttf::bus {
 
-// small_cluster with `coldstart` coldstart nodes and `others` that only integrate, parameters as a designer would choose.
+// small_cluster with `coldstart` coldstart nodes and `others` that only integrate, parameters as a designer would
+// choose.
 inline schedules::Cluster startup_cluster(int coldstart, int others = 0) {
   schedules::Cluster cluster = small_cluster(coldstart + others);
   for (std::size_t n = 0; n < cluster.nodes.size(); ++n) {

@@ -1,5 +1,5 @@
-// Start-up of whole clusters: who leads, who follows, who integrates, in which cycle each is active, and what happens when
-// that cannot be.
+// Start-up of whole clusters: who leads, who follows, who integrates, in which cycle each is active, and what happens
+// when that cannot be.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -56,8 +56,8 @@ TEST(Startup, AllPoweredOnInTimeLeaderInSixFollowersInSevenIntegratorsInEight) {
     }
 }
 
-// In real time the partner of the first startup frame is handed over when it has come, which may be longer after its end
-// than rates can differ by.
+// In real time the partner of the first startup frame is handed over when it has come, which may be longer after its
+// end than rates can differ by.
 TEST(Startup, APartnerHandedOverWithinTheMediumsTimeMakesASchedule) {
   struct LatePort final : FlexRayPort {
     void transmit(const Transmission&) override {}
@@ -65,7 +65,7 @@ TEST(Startup, APartnerHandedOverWithinTheMediumsTimeMakesASchedule) {
     Microticks handed_over_within() const override { return within; }
     Microticks within{};
   };
-  constexpr std::int64_t kLongest = 9'000, kRateLimit = 121;   // of 40'000 a cycle
+  constexpr std::int64_t kLongest = 9'000, kRateLimit = 121;  // of 40'000 a cycle
   const auto state_after = [](std::int64_t within, std::int64_t late) {
     const schedules::Cluster cluster = startup_cluster(1, 1);
     LatePort port;
@@ -115,15 +115,17 @@ TEST(Startup, ALateNodeIntegratesIntoTheRunningCluster) {
     EXPECT_LT(rig.heard(2).changed.back().at, Microticks{40'000 * 120});
     // Its cycle counter is the cluster's; how often that has wrapped it cannot know.
     EXPECT_EQ(rig.controller(2).clock()->cycle() % 64, rig.controller(0).clock()->cycle() % 64);
-    for (std::size_t n = 0; n < 3; ++n) EXPECT_TRUE(std::all_of(rig.heard(n).problems.begin(), rig.heard(n).problems.end(),
-        [](const auto& problem) { return problem.status == kNoFrame && problem.slot == 3; })) << "node " << n;
+    for (std::size_t n = 0; n < 3; ++n)
+      EXPECT_TRUE(std::all_of(rig.heard(n).problems.begin(), rig.heard(n).problems.end(),
+                              [](const auto& problem) { return problem.status == kNoFrame && problem.slot == 3; }))
+          << "node " << n;
   }
 }
 
 TEST(Startup, ARestartedNodeComesBack) {
   Rig rig(startup_cluster(3), {0, 100'000, -100'000}, Duration{500}, {at_ms(1.0), at_ms(1.1), at_ms(1.2)});
   rig.run_until(at_ms(50));
-  rig.power_on(2, at_ms(50.3));   // out of the middle of a cycle
+  rig.power_on(2, at_ms(50.3));  // out of the middle of a cycle
   rig.run_until(at_ms(90));
   EXPECT_EQ(rig.controller(2).state().kind, PocKind::kNormalActive);
   EXPECT_EQ(rig.controller(0).state().kind, PocKind::kNormalActive);
@@ -134,7 +136,8 @@ TEST(Startup, NoiseDelaysTheColdstartUntilTheNoiseTimerExpires) {
   // Noise on channel A, again and again before a listen time-out of 2 ms is over, until 9 ms.
   for (int i = 0; i < 9; ++i)
     for (const std::size_t node : {0u, 1u})
-      rig.medium().put({at_ms(1.5 + i * 0.9), at_ms(1.6 + i * 0.9), schedules::Channel::kA, 9, node, Signal::kUndecodable, {}});
+      rig.medium().put(
+          {at_ms(1.5 + i * 0.9), at_ms(1.6 + i * 0.9), schedules::Channel::kA, 9, node, Signal::kUndecodable, {}});
   rig.run_until(at_ms(60));
   EXPECT_EQ(rig.controller(0).state().kind, PocKind::kNormalActive);
   const auto lead = std::find_if(rig.heard(0).changed.begin(), rig.heard(0).changed.end(), [](const auto& change) {
@@ -181,9 +184,10 @@ TEST(Startup, RandomPowerOnDelaysWithinTheAttempts) {
     Rig rig(startup_cluster(coldstart, others), drifts, Duration{draw.integer(0, 2'500)}, power_on);
     rig.run_until(at_ms(100));
     for (std::size_t n = 0; n < drifts.size(); ++n)
-      ASSERT_EQ(rig.controller(n).state().kind, PocKind::kNormalActive) << "seed " << seed << " node " << n << ": "
-          << to_text(rig.controller(n).state().kind) << ", " << to_text(rig.heard(n).changed.back().reason);
-    ASSERT_LT(rig.precision(at_ms(100)), Duration{6'850}) << "seed " << seed;   // the assumed precision of the layout
+      ASSERT_EQ(rig.controller(n).state().kind, PocKind::kNormalActive)
+          << "seed " << seed << " node " << n << ": " << to_text(rig.controller(n).state().kind) << ", "
+          << to_text(rig.heard(n).changed.back().reason);
+    ASSERT_LT(rig.precision(at_ms(100)), Duration{6'850}) << "seed " << seed;  // the assumed precision of the layout
   }
 }
 

@@ -21,8 +21,8 @@ TEST(SlotSeen, AValidFrameIsSeenOnItsChannelOnly) {
   node.run_to(0, 840);
   EXPECT_EQ(node.controller.slot_status(2, Channel::kA), kValid);
   EXPECT_EQ(node.controller.slot_status(2, Channel::kB), kNothing);
-  EXPECT_EQ(node.controller.slot_status(3, Channel::kA), kNothing);   // missing
-  EXPECT_EQ(node.controller.slot_status(1, Channel::kA), kNothing);   // the own slot: a controller does not hear itself
+  EXPECT_EQ(node.controller.slot_status(3, Channel::kA), kNothing);  // missing
+  EXPECT_EQ(node.controller.slot_status(1, Channel::kA), kNothing);  // the own slot: a controller does not hear itself
 }
 
 // The very instants at which it is told, and until when it is kept.
@@ -33,7 +33,7 @@ TEST(SlotSeen, StandsFromTheEndOfOneStaticSegmentToTheEndOfTheNext) {
     told.emplace_back(cycle, node.controller.slot_status(2, Channel::kA).valid_frame);
   };
   Frame::status(2, 0).arrive(node);
-  EXPECT_EQ(node.controller.slot_status(2, Channel::kA), kNothing);   // not yet
+  EXPECT_EQ(node.controller.slot_status(2, Channel::kA), kNothing);  // not yet
   node.controller.advance(Alone::at(0, 840) - Microticks{1});
   EXPECT_TRUE(told.empty());
   node.run_to(0, 840);
@@ -58,7 +58,7 @@ TEST(SlotSeen, EveryKindOfError) {
   node.controller.advance({broken.start});
   node.controller.receive(received(Channel::kA, {broken.start}, {broken.start + 1000}, bytes));
   Frame crossing = Frame::status(3, 0, Channel::kB);
-  crossing.start = Alone::at(0, 84 * 3).value - 500;   // into slot 4
+  crossing.start = Alone::at(0, 84 * 3).value - 500;  // into slot 4
   crossing.arrive(node);
   Frame against_own = Frame::status(5, 0);
   against_own.arrive(node);
@@ -67,7 +67,8 @@ TEST(SlotSeen, EveryKindOfError) {
   EXPECT_EQ(node.controller.slot_status(3, Channel::kA), SlotSeen{.syntax_error = true});
   EXPECT_EQ(node.controller.slot_status(3, Channel::kB), SlotSeen{.boundary_violation = true});
   EXPECT_EQ(node.controller.slot_status(4, Channel::kB), SlotSeen{.boundary_violation = true});
-  EXPECT_EQ(node.controller.slot_status(5, Channel::kA), (SlotSeen{.syntax_error = true, .transmission_conflict = true}));
+  EXPECT_EQ(node.controller.slot_status(5, Channel::kA),
+            (SlotSeen{.syntax_error = true, .transmission_conflict = true}));
   EXPECT_EQ(node.controller.slot_status(5, Channel::kB), kNothing);
 }
 
@@ -119,15 +120,15 @@ TEST(SyncStatus, CountsValidSyncFramesByChannelAndCycle) {
   Frame::status(3, 0, Channel::kB).arrive(node);
   node.run_to(0, 840);
   SyncStatus status = node.controller.sync_status();
-  EXPECT_EQ(status, (SyncStatus{.VSAE = 3, .VSBE = 2}));   // with its own
+  EXPECT_EQ(status, (SyncStatus{.VSAE = 3, .VSBE = 2}));  // with its own
   Frame::status(4, 1, Channel::kB).arrive(node);
   Frame wrong = Frame::status(2, 1);
   wrong.header.cycle = 9;
-  Frame odd_list = Frame::status(9, 1);   // valid, but no sync frame
+  Frame odd_list = Frame::status(9, 1);  // valid, but no sync frame
   wrong.arrive(node);
   odd_list.arrive(node);
   node.controller.advance(Alone::at(1, 840) - Microticks{1});
-  EXPECT_EQ(node.controller.sync_status(), status);   // until the segment is over
+  EXPECT_EQ(node.controller.sync_status(), status);  // until the segment is over
   node.run_to(1, 840);
   status = node.controller.sync_status();
   EXPECT_EQ(status, (SyncStatus{.VSAE = 3, .VSAO = 1, .VSBE = 2, .VSBO = 2}));

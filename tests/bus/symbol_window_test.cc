@@ -88,10 +88,10 @@ TEST(MediaTestSymbol, TheWindowFollowsTheDynamicSegment) {
 TEST(MediaTestSymbol, OneAtATimeAndInTheNextWindow) {
   Single node;
   node.controller.advance(Alone::at(0, kPoint) - Microticks{1});
-  EXPECT_TRUE(node.controller.send_media_test_symbol(Channels::kA));    // just in time for cycle 0
-  EXPECT_FALSE(node.controller.send_media_test_symbol(Channels::kA));   // pending
+  EXPECT_TRUE(node.controller.send_media_test_symbol(Channels::kA));   // just in time for cycle 0
+  EXPECT_FALSE(node.controller.send_media_test_symbol(Channels::kA));  // pending
   node.run_to(0, kPoint);
-  EXPECT_TRUE(node.controller.send_media_test_symbol(Channels::kA));    // too late for it
+  EXPECT_TRUE(node.controller.send_media_test_symbol(Channels::kA));  // too late for it
   node.run_to(4);
   ASSERT_EQ(node.symbols().size(), 2u);
   EXPECT_EQ(node.symbols()[0].start, Alone::at(0, kPoint));
@@ -107,7 +107,7 @@ TEST(MediaTestSymbol, IsRefusedWithoutWindowAndInKeySlotOnlyMode) {
   Single node(cluster);
   EXPECT_FALSE(node.controller.send_media_test_symbol());
   node.controller.command(PocEventKind::kAllSlots, Alone::at(0, 10));
-  EXPECT_FALSE(node.controller.send_media_test_symbol());   // from the next cycle on
+  EXPECT_FALSE(node.controller.send_media_test_symbol());  // from the next cycle on
   node.run_to(1);
   EXPECT_TRUE(node.controller.send_media_test_symbol());
   node.run_to(2);
@@ -196,11 +196,12 @@ TEST(SymbolWindow, BothEndsAreBoundaries) {
   };
   EXPECT_EQ(heard(0), valid);
   EXPECT_EQ(heard(-1), violation);
-  EXPECT_EQ(heard(-kSymbol), SymbolWindowSeen{});   // all before it
+  EXPECT_EQ(heard(-kSymbol), SymbolWindowSeen{});  // all before it
   EXPECT_EQ(heard(kLength - kSymbol), valid);
   EXPECT_EQ(heard(kLength - kSymbol + 1), violation);
-  EXPECT_EQ(heard(kLength), SymbolWindowSeen{});    // all behind it
-  EXPECT_EQ(heard(kLength - 1, Signal::kUndecodable), (SymbolWindowSeen{.syntax_error = true, .boundary_violation = true}));
+  EXPECT_EQ(heard(kLength), SymbolWindowSeen{});  // all behind it
+  EXPECT_EQ(heard(kLength - 1, Signal::kUndecodable),
+            (SymbolWindowSeen{.syntax_error = true, .boundary_violation = true}));
 }
 
 TEST(SymbolWindow, StandsFromTheEndOfOneWindowToTheEndOfTheNext) {
@@ -219,8 +220,7 @@ TEST(SymbolWindow, StandsFromTheEndOfOneWindowToTheEndOfTheNext) {
 // Three nodes run and test the medium in every cycle; a fourth integrates: it says nothing of what it hears until it is
 // normal active, and the symbols do not keep it from that.
 TEST(SymbolWindow, SaysNothingDuringStartup) {
-  Rig rig(windowed(startup_cluster(3, 1)), {0, 0, 0, 0}, {},
-          {at_ms(1.0), at_ms(1.2), at_ms(1.4), at_ms(40.0)});
+  Rig rig(windowed(startup_cluster(3, 1)), {0, 0, 0, 0}, {}, {at_ms(1.0), at_ms(1.2), at_ms(1.4), at_ms(40.0)});
   bool silent = true;
   int heard_by_others = 0;
   for (int cycle = 25; cycle < 80; ++cycle) {
@@ -234,7 +234,7 @@ TEST(SymbolWindow, SaysNothingDuringStartup) {
   EXPECT_GT(heard_by_others, 50);
   EXPECT_EQ(rig.controller(3).state().kind, PocKind::kNormalActive);
   EXPECT_TRUE(rig.controller(3).symbol_window_status(Channel::kA).valid_mts);
-  for (const auto& problem : rig.heard(1).problems) EXPECT_EQ(problem.slot, 4);   // the fourth's, before it is there
+  for (const auto& problem : rig.heard(1).problems) EXPECT_EQ(problem.slot, 4);  // the fourth's, before it is there
 }
 
 }  // namespace

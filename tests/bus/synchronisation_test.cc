@@ -68,7 +68,7 @@ TEST(Deviations, TheSmallerChannelCounts) {
   node.sync_frame(1, 30, Channel::kA);
   node.sync_frame(1, 22, Channel::kB);
   node.end_static_segment();
-  EXPECT_EQ(node.heard.corrected[0].offset.value, 11);   // (0 + 22) / 2
+  EXPECT_EQ(node.heard.corrected[0].offset.value, 11);  // (0 + 22) / 2
 }
 
 TEST(Deviations, EvenCyclesDoNotCorrectTheOffset) {
@@ -77,7 +77,7 @@ TEST(Deviations, EvenCyclesDoNotCorrectTheOffset) {
   node.end_static_segment();
   EXPECT_TRUE(node.heard.corrected.empty());
   EXPECT_EQ(node.controller.clock()->offset_correction(), 0);
-  node.next_cycle();   // an odd cycle in which nothing arrives: its own frame only
+  node.next_cycle();  // an odd cycle in which nothing arrives: its own frame only
   node.end_static_segment();
   EXPECT_EQ(node.heard.corrected[0].offset.value, 0);
 }
@@ -88,16 +88,16 @@ TEST(Deviations, DelayCompensationIsTakenOffPerChannel) {
   cluster.nodes[3].flexray->pDelayCompensationB = 4;
   Listener node(cluster);
   node.next_cycle();
-  node.sync_frame(1, 30, Channel::kA);   // 20
-  node.sync_frame(2, 30, Channel::kB);   // 26
+  node.sync_frame(1, 30, Channel::kA);  // 20
+  node.sync_frame(2, 30, Channel::kB);  // 26
   node.end_static_segment();
-  EXPECT_EQ(node.heard.corrected[0].offset.value, 20);   // the middle of 0, 20, 26
+  EXPECT_EQ(node.heard.corrected[0].offset.value, 20);  // the middle of 0, 20, 26
 }
 
 TEST(Deviations, FramesWithoutSyncIndicatorAreNotMeasured) {
   Rig rig(small_cluster(2), {0, 0});
   rig.on_the_way = [](TestMedium::Arrival& frame) {
-    frame.start += Duration{1000};   // all frames that are not in key slots come 40 microticks late
+    frame.start += Duration{1000};  // all frames that are not in key slots come 40 microticks late
     const auto decoded = wire::decode_frame(frame.channel, frame.bytes);
     if (decoded.header.sync) frame.start = frame.start - Duration{1000};
     return true;
@@ -117,13 +117,13 @@ TEST(Rates, ComeFromOddMinusEvenAndHoldFromTheNextEvenCycle) {
   node.both(3, 45);
   node.end_static_segment();
   ASSERT_EQ(node.heard.corrected.size(), 1u);
-  EXPECT_EQ(node.heard.corrected[0].rate.value, 38);   // 40, damped by 2
-  EXPECT_EQ(node.controller.clock()->rate_correction(), 0);   // not yet in force
+  EXPECT_EQ(node.heard.corrected[0].rate.value, 38);         // 40, damped by 2
+  EXPECT_EQ(node.controller.clock()->rate_correction(), 0);  // not yet in force
   node.next_cycle();
   EXPECT_EQ(node.controller.clock()->cycle(), 2);
   EXPECT_EQ(node.controller.clock()->rate_correction(), 38);
   node.next_cycle();
-  EXPECT_EQ(node.controller.clock()->rate_correction(), 38);   // both cycles of the pair
+  EXPECT_EQ(node.controller.clock()->rate_correction(), 38);  // both cycles of the pair
   node.next_cycle();
   // Nobody was heard in the pair; its own frame alone says no change, damping takes two.
   EXPECT_EQ(node.controller.clock()->rate_correction(), 36);
@@ -133,7 +133,7 @@ TEST(Rates, DeviationsOfAnEarlierPairAreForgotten) {
   Listener node;
   node.both(1, 5);
   for (int cycle = 0; cycle < 3; ++cycle) node.next_cycle();
-  node.both(1, 45);   // odd cycle 3; nothing was heard in even cycle 2
+  node.both(1, 45);  // odd cycle 3; nothing was heard in even cycle 2
   node.end_static_segment();
   EXPECT_EQ(node.heard.corrected.back().rate.value, 0);
 }
@@ -168,8 +168,8 @@ INSTANTIATE_TEST_SUITE_P(Drifts, Convergence,
                                          Drifts{{1'500'000, -1'500'000, 1'500'000, -1'500'000}},
                                          Drifts{{1'500'000, 500'000, -500'000, -1'500'000}}, Drifts{{1, 0, 2, -3}}));
 
-// A delay of 100 microticks that is not compensated lengthens every double cycle by as much, 1250 ppm; one that is, does
-// not: then the cluster keeps the mean of its clocks, 0 ppm, but for what damping leaves to the offset correction.
+// A delay of 100 microticks that is not compensated lengthens every double cycle by as much, 1250 ppm; one that is,
+// does not: then the cluster keeps the mean of its clocks, 0 ppm, but for what damping leaves to the offset correction.
 TEST(Convergence, ACompensatedDelayDoesNotSlowTheClusterDown) {
   constexpr std::int64_t kCycles = 400;
   const TrueTime end = Rig::kStart + Duration::milliseconds(kCycles);

@@ -37,7 +37,8 @@ class TestCan {
   void end() {
     if (!sending_) return;
     const Frame frame = std::move(*sending_);
-    sending_.reset();   // the bus is idle before anybody hears the frame, so an answer takes part in the next arbitration
+    sending_
+        .reset();  // the bus is idle before anybody hears the frame, so an answer takes part in the next arbitration
     for (std::size_t c = 0; c < ports_.size(); ++c)
       if (c != frame.sender) hear_(c, {frame.identifier, frame.flexible_data_rate, frame.data});
   }

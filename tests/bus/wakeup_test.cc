@@ -67,7 +67,7 @@ TEST(Wakeup, WhileListeningTheTimerFollowsTheChannels) {
   const Microticks end = node.timeout() + Microticks{300};
   node.hear_noise(node.timeout() - Microticks{100}, end);
   node.controller.advance(end + node.timeout());
-  EXPECT_EQ(node.kind(), PocKind::kWakeupListen);   // since channel idle was recognised: some bits later
+  EXPECT_EQ(node.kind(), PocKind::kWakeupListen);  // since channel idle was recognised: some bits later
   node.controller.advance(end + node.timeout() + Microticks{11 * 4});
   EXPECT_EQ(node.kind(), PocKind::kWakeupSend);
 }

@@ -21,8 +21,8 @@ TEST(DriveEnd, NamesWhoWasNot) {
       drive_end({{"laser", false, kWell, ""}, {"fusion", true, kWell, kActive}, {"feature", true, kWell, kLost}});
   EXPECT_EQ(one.sentence(), "feature was not in operation at the end: integration listen");
   EXPECT_FALSE(one.nobody);
-  const DriveEnd two = drive_end(
-      {{"gateway", true, kWell, kLost}, {"fusion", true, kWell, kActive}, {"feature", true, kWell, kLost}});
+  const DriveEnd two =
+      drive_end({{"gateway", true, kWell, kLost}, {"fusion", true, kWell, kActive}, {"feature", true, kWell, kLost}});
   EXPECT_EQ(two.sentence(), "gateway, feature were not in operation at the end: integration listen");
   EXPECT_EQ(two.json().dump(), R"([{"node":"gateway","state":"integration listen"},)"
                                R"({"node":"feature","state":"integration listen"}])");
@@ -32,7 +32,7 @@ TEST(DriveEnd, SaysWhatEachWas) {
   const DriveEnd end = drive_end({{"laser", false, kKilled, ""},
                                   {"a", true, kWell, "normal passive"},
                                   {"b", true, kWell, kActive},
-                                  {"c", true, kKilled, kActive},   // its last words were of better days
+                                  {"c", true, kKilled, kActive},  // its last words were of better days
                                   {"d", true, std::nullopt, ""},
                                   {"e", true, kWell, ""}});
   EXPECT_EQ(end.sentence(),

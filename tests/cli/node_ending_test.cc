@@ -36,9 +36,9 @@ class NodeEndingTest : public testing::Test {
 
 TEST_F(NodeEndingTest, IsToldAsDone) {
   tell_ending({{{"overruns", 3}}, {{"drops", 4}}, ""}, nodes_, false);
-  EXPECT_THAT(heard(), testing::ElementsAre(
-                           Json{{"health", {{"drops", 4}}}},
-                           Json{{"done", {{"counts", {{"overruns", 3}}}, {"real_time", {{"drops", 4}}}}}}));
+  EXPECT_THAT(heard(),
+              testing::ElementsAre(Json{{"health", {{"drops", 4}}}},
+                                   Json{{"done", {{"counts", {{"overruns", 3}}}, {"real_time", {{"drops", 4}}}}}}));
 }
 
 TEST_F(NodeEndingTest, AFailedRunIsNotDone) {

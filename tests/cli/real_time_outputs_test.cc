@@ -89,15 +89,20 @@ TEST(RealTimeOutputs, JsonTellsTheSame) {
   ASSERT_EQ(json["nodes"].size(), 2u);
   const auto& first = json["nodes"][0];
   EXPECT_EQ(first["node"], name_of_node(result, 0));
-  EXPECT_EQ(first["lateness_us"]["wake_ups"],
-            (nlohmann::ordered_json{
-                {"count", 1000}, {"p50", 11.0}, {"p99", 21.0}, {"p999", 51.0}, {"longest", 3000.0}}));
+  EXPECT_EQ(
+      first["lateness_us"]["wake_ups"],
+      (nlohmann::ordered_json{{"count", 1000}, {"p50", 11.0}, {"p99", 21.0}, {"p999", 51.0}, {"longest", 3000.0}}));
   EXPECT_EQ(first["lateness_us"]["floor"]["p99"], 7.0);
   EXPECT_EQ(first["lateness_us"]["departures"]["count"], 0);
   EXPECT_TRUE(first["lateness_us"]["departures"]["longest"].is_null());
   EXPECT_EQ(first["lateness_us"]["transits"]["count"], 20);
-  EXPECT_EQ(first["medium"], (nlohmann::ordered_json{{"sent", 101}, {"received", 102}, {"not_sent", 103}, {"lost", 104},
-                                                     {"foreign", 105}, {"malformed", 106}, {"dropped", 107}}));
+  EXPECT_EQ(first["medium"], (nlohmann::ordered_json{{"sent", 101},
+                                                     {"received", 102},
+                                                     {"not_sent", 103},
+                                                     {"lost", 104},
+                                                     {"foreign", 105},
+                                                     {"malformed", 106},
+                                                     {"dropped", 107}}));
   EXPECT_EQ(first["late_wake_ups"], 3);
   EXPECT_EQ(first["slots_missed"], 1);
   EXPECT_DOUBLE_EQ(first["largest_offset_correction_us"].get<double>(), 12.345);

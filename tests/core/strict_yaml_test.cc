@@ -25,17 +25,17 @@ std::vector<std::string> read(const std::string& text, const std::function<void(
 }
 
 TEST(StrictYaml, ReadsWhatIsThere) {
-  const auto sentences = read("n: 3\nx: 0.5\nflag: true\nname: fusion\nwait: 2.5 us\nmode: fast\nmicrotick: 12.5\n",
-                              [](YamlMap& map) {
-                                EXPECT_EQ(map.integer("n", {0, 5}), 3);
-                                EXPECT_DOUBLE_EQ(map.number("x", {0, 1}), 0.5);
-                                EXPECT_TRUE(map.boolean("flag"));
-                                EXPECT_EQ(map.text("name"), "fusion");
-                                EXPECT_EQ(map.duration("wait", {Duration{}, Duration::milliseconds(1)}).ns, 2500);
-                                EXPECT_EQ(map.choice<int>("mode", {{"slow", 1}, {"fast", 2}}), 2);
-                                EXPECT_EQ(map.scaled("microtick", 1000, {12'500, 50'000}), 12'500);
-                                EXPECT_EQ(map.integer_or("absent", 7, {0, 9}), 7);
-                              });
+  const auto sentences =
+      read("n: 3\nx: 0.5\nflag: true\nname: fusion\nwait: 2.5 us\nmode: fast\nmicrotick: 12.5\n", [](YamlMap& map) {
+        EXPECT_EQ(map.integer("n", {0, 5}), 3);
+        EXPECT_DOUBLE_EQ(map.number("x", {0, 1}), 0.5);
+        EXPECT_TRUE(map.boolean("flag"));
+        EXPECT_EQ(map.text("name"), "fusion");
+        EXPECT_EQ(map.duration("wait", {Duration{}, Duration::milliseconds(1)}).ns, 2500);
+        EXPECT_EQ(map.choice<int>("mode", {{"slow", 1}, {"fast", 2}}), 2);
+        EXPECT_EQ(map.scaled("microtick", 1000, {12'500, 50'000}), 12'500);
+        EXPECT_EQ(map.integer_or("absent", 7, {0, 9}), 7);
+      });
   EXPECT_TRUE(sentences.empty()) << testing::PrintToString(sentences);
 }
 
@@ -49,20 +49,21 @@ TEST(StrictYaml, OutOfRangeNamesFileLineKeyValueAndRange) {
 }
 
 TEST(StrictYaml, ReportsEverythingAtOnce) {
-  const auto sentences = read("n: many\ntwice: 1\ntwice: 2\nunknown: 3\ninner: {x: 1, y: 2}\nlate: 3 hours\n",
-                              [](YamlMap& map) {
-                                map.integer("n", {0, 5});
-                                map.integer("twice", {0, 5});
-                                map.integer("missing", {0, 5});
-                                YamlMap inner = map.map("inner");
-                                inner.integer("x", {0, 5});
-                                inner.finish();
-                                map.duration("late", {Duration{}, Duration::milliseconds(5)});
-                              });
-  EXPECT_THAT(sentences, ElementsAre(HasSubstr("a.yaml:1: n = many"), HasSubstr("missing: is missing"),
-                                     HasSubstr("a.yaml:5: inner.y: is not a known key"),
-                                     HasSubstr("a.yaml:6: late = 3 hours"), HasSubstr("a.yaml:3: twice: is given twice"),
-                                     HasSubstr("a.yaml:4: unknown: is not a known key")));
+  const auto sentences =
+      read("n: many\ntwice: 1\ntwice: 2\nunknown: 3\ninner: {x: 1, y: 2}\nlate: 3 hours\n", [](YamlMap& map) {
+        map.integer("n", {0, 5});
+        map.integer("twice", {0, 5});
+        map.integer("missing", {0, 5});
+        YamlMap inner = map.map("inner");
+        inner.integer("x", {0, 5});
+        inner.finish();
+        map.duration("late", {Duration{}, Duration::milliseconds(5)});
+      });
+  EXPECT_THAT(
+      sentences,
+      ElementsAre(HasSubstr("a.yaml:1: n = many"), HasSubstr("missing: is missing"),
+                  HasSubstr("a.yaml:5: inner.y: is not a known key"), HasSubstr("a.yaml:6: late = 3 hours"),
+                  HasSubstr("a.yaml:3: twice: is given twice"), HasSubstr("a.yaml:4: unknown: is not a known key")));
 }
 
 TEST(StrictYaml, BrokenYamlAndMissingFilesAreOneSentence) {
@@ -100,11 +101,11 @@ TEST(StrictYaml, OneDocumentToItsEnd) {
 }
 
 TEST(StrictYaml, SentencesStayOneLineWhateverTheInput) {
-  const auto sentences = read("n: |\n  two\n  lines\nm: \"" + std::string(5000, 'x') + "\"\n? \"new\\nline\"\n: 1\n",
-                              [](YamlMap& map) {
-                                map.integer("n", {0, 5});
-                                map.integer("m", {0, 5});
-                              });
+  const auto sentences =
+      read("n: |\n  two\n  lines\nm: \"" + std::string(5000, 'x') + "\"\n? \"new\\nline\"\n: 1\n", [](YamlMap& map) {
+        map.integer("n", {0, 5});
+        map.integer("m", {0, 5});
+      });
   EXPECT_THAT(sentences, ElementsAre(HasSubstr("n = two\\x0alines\\x0a: must be"),
                                      HasSubstr("m = " + std::string(100, 'x') + "...: must be"),
                                      HasSubstr("new\\x0aline: is not a known key")));
@@ -113,7 +114,9 @@ TEST(StrictYaml, SentencesStayOneLineWhateverTheInput) {
 TEST(StrictYaml, ScaledNumbersAreExact) {
   const auto value = [](const std::string& text) {
     std::int64_t result = -1;
-    read("v: " + text + "\n", [&](YamlMap& map) { result = map.scaled("v", 1'000'000, {-5'000'000'000, 5'000'000'000}); });
+    read("v: " + text + "\n", [&](YamlMap& map) {
+      result = map.scaled("v", 1'000'000, {-5'000'000'000, 5'000'000'000});
+    });
     return result;
   };
   EXPECT_EQ(value("1.375"), 1'375'000);
@@ -132,45 +135,95 @@ struct Refusal {
 TEST(StrictYaml, EachGetterNamesWhatItWants) {
   const Range<Duration> kTimes{Duration::microseconds(1), Duration::milliseconds(20)};
   const std::vector<Refusal> refusals{
-      {"v: 3.0", [](YamlMap& m) { EXPECT_EQ(m.integer("v", {1, 5}), 1); }, "a.yaml:1: v = 3.0: must be a whole number 1..5"},
-      {"v: 99999999999999999999", [](YamlMap& m) { EXPECT_EQ(m.integer("v", {1, 5}), 1); },
+      {"v: 3.0",
+       [](YamlMap& m) {
+         EXPECT_EQ(m.integer("v", {1, 5}), 1);
+       },
+       "a.yaml:1: v = 3.0: must be a whole number 1..5"},
+      {"v: 99999999999999999999",
+       [](YamlMap& m) {
+         EXPECT_EQ(m.integer("v", {1, 5}), 1);
+       },
        "a.yaml:1: v = 99999999999999999999: must be a whole number 1..5"},
-      {"v: [1]", [](YamlMap& m) { EXPECT_EQ(m.integer("v", {1, 5}), 1); }, "a.yaml:1: v: must be a whole number 1..5"},
-      {"v: 6", [](YamlMap& m) { EXPECT_EQ(m.integer_or("v", 3, {1, 5}), 1); }, "a.yaml:1: v = 6: must be a whole number 1..5"},
-      {"v: nan", [](YamlMap& m) { EXPECT_EQ(m.number("v", {0.5, 1.5}, "m"), 0.5); },
+      {"v: [1]",
+       [](YamlMap& m) {
+         EXPECT_EQ(m.integer("v", {1, 5}), 1);
+       },
+       "a.yaml:1: v: must be a whole number 1..5"},
+      {"v: 6",
+       [](YamlMap& m) {
+         EXPECT_EQ(m.integer_or("v", 3, {1, 5}), 1);
+       },
+       "a.yaml:1: v = 6: must be a whole number 1..5"},
+      {"v: nan",
+       [](YamlMap& m) {
+         EXPECT_EQ(m.number("v", {0.5, 1.5}, "m"), 0.5);
+       },
        "a.yaml:1: v = nan: must be a number 0.5..1.5 m"},
-      {"v: 1.5m", [](YamlMap& m) { EXPECT_EQ(m.number_or("v", 1.0, {0.5, 1.5}), 0.5); },
+      {"v: 1.5m",
+       [](YamlMap& m) {
+         EXPECT_EQ(m.number_or("v", 1.0, {0.5, 1.5}), 0.5);
+       },
        "a.yaml:1: v = 1.5m: must be a number 0.5..1.5"},
-      {"v: 12.50005", [](YamlMap& m) { EXPECT_EQ(m.scaled("v", 1000, {12'500, 50'000}, "ns"), 12'500); },
+      {"v: 12.50005",
+       [](YamlMap& m) {
+         EXPECT_EQ(m.scaled("v", 1000, {12'500, 50'000}, "ns"), 12'500);
+       },
        "a.yaml:1: v = 12.50005: must be a decimal number 12.5..50 ns, in steps of 0.001"},
-      {"v: 1e1", [](YamlMap& m) { EXPECT_EQ(m.scaled("v", 1000, {0, 50'000}), 0); },
+      {"v: 1e1",
+       [](YamlMap& m) {
+         EXPECT_EQ(m.scaled("v", 1000, {0, 50'000}), 0);
+       },
        "a.yaml:1: v = 1e1: must be a decimal number 0..50, in steps of 0.001"},
-      {"v: 1.2.3", [](YamlMap& m) { EXPECT_EQ(m.scaled("v", 1000, {0, 50'000}), 0); }, "in steps of 0.001"},
-      {"v: '-'", [](YamlMap& m) { EXPECT_EQ(m.scaled("v", 1000, {0, 50'000}), 0); }, "in steps of 0.001"},
-      {"v: 9223372036854775807", [](YamlMap& m) { EXPECT_EQ(m.scaled("v", 1000, {0, 50'000}), 0); }, "in steps of 0.001"},
+      {"v: 1.2.3",
+       [](YamlMap& m) {
+         EXPECT_EQ(m.scaled("v", 1000, {0, 50'000}), 0);
+       },
+       "in steps of 0.001"},
+      {"v: '-'",
+       [](YamlMap& m) {
+         EXPECT_EQ(m.scaled("v", 1000, {0, 50'000}), 0);
+       },
+       "in steps of 0.001"},
+      {"v: 9223372036854775807",
+       [](YamlMap& m) {
+         EXPECT_EQ(m.scaled("v", 1000, {0, 50'000}), 0);
+       },
+       "in steps of 0.001"},
       {"v: yes", [](YamlMap& m) { EXPECT_FALSE(m.boolean("v")); }, "a.yaml:1: v = yes: must be true or false"},
       {"v: ''", [](YamlMap& m) { EXPECT_EQ(m.text("v"), ""); }, "a.yaml:1: v: must be a text"},
       {"v: {a: 1}", [](YamlMap& m) { EXPECT_EQ(m.text_or("v", "x"), ""); }, "a.yaml:1: v: must be a text"},
       {"v: 5", [&](YamlMap& m) { EXPECT_EQ(m.duration("v", kTimes), kTimes.low); },
        "a.yaml:1: v = 5: must be a time with its unit (ns, us, ms or s), 1 us..20 ms"},
       {"v: 1.5 ns", [&](YamlMap& m) { EXPECT_EQ(m.duration("v", kTimes), kTimes.low); }, "v = 1.5 ns: must be a time"},
-      {"v: 21 ms", [&](YamlMap& m) { EXPECT_EQ(m.duration_or("v", kTimes.high, kTimes), kTimes.low); }, "v = 21 ms: must"},
-      {"v: medium", [](YamlMap& m) { EXPECT_EQ(m.choice<int>("v", {{"slow", 1}, {"fast", 2}}), 1); },
+      {"v: 21 ms", [&](YamlMap& m) { EXPECT_EQ(m.duration_or("v", kTimes.high, kTimes), kTimes.low); },
+       "v = 21 ms: must"},
+      {"v: medium",
+       [](YamlMap& m) {
+         EXPECT_EQ(m.choice<int>("v", {{"slow", 1}, {"fast", 2}}), 1);
+       },
        "a.yaml:1: v = medium: must be one of slow, fast"},
       {"v: 3", [](YamlMap& m) { m.map("v").finish(); }, "a.yaml:1: v = 3: must be a mapping"},
       {"v: {a: 1}", [](YamlMap& m) { EXPECT_TRUE(m.maps("v").empty()); }, "a.yaml:1: v: must be a list of mappings"},
       {"v:\n  - 7", [](YamlMap& m) { EXPECT_TRUE(m.maps_if("v").empty()); }, "a.yaml:2: v[0]: must be a mapping"},
-      {"v: a", [](YamlMap& m) { EXPECT_TRUE(m.texts("v").empty()); }, "a.yaml:1: v = a: must be a list with at least one"},
+      {"v: a", [](YamlMap& m) { EXPECT_TRUE(m.texts("v").empty()); },
+       "a.yaml:1: v = a: must be a list with at least one"},
       {"v: []", [](YamlMap& m) { EXPECT_TRUE(m.texts("v").empty()); }, "a.yaml:1: v: must be a list with at least one"},
       {"v:\n  - a\n  - [b]", [](YamlMap& m) { EXPECT_THAT(m.texts("v"), ElementsAre("a")); },
        "a.yaml:3: v[1]: must be a plain value"},
-      {"v:\n  - 1\n  - 6\n  - 5", [](YamlMap& m) { EXPECT_THAT(m.integers("v", {1, 5}, "m"), ElementsAre(1, 5)); },
+      {"v:\n  - 1\n  - 6\n  - 5",
+       [](YamlMap& m) {
+         EXPECT_THAT(m.integers("v", {1, 5}, "m"), ElementsAre(1, 5));
+       },
        "a.yaml:3: v[1] = 6: must be a whole number 1..5 m"},
       {"v:\n  a: 7", [](YamlMap& m) { EXPECT_TRUE(m.named_maps("v").empty()); }, "a.yaml:2: v.a: must be a mapping"},
       {"v:\n  a: {b: 1}", [](YamlMap& m) { EXPECT_TRUE(m.named_texts("v").empty()); }, "a.yaml:2: v.a: must be a text"},
       {"v:\n  a: x\n  a: y", [](YamlMap& m) { EXPECT_EQ(m.named_texts("v").size(), 2u); },
        "a.yaml:3: v.a: is given twice in one mapping"},
-      {"v: 1\n? [a, b]\n: 2", [](YamlMap& m) { EXPECT_EQ(m.integer("v", {0, 5}), 1); },
+      {"v: 1\n? [a, b]\n: 2",
+       [](YamlMap& m) {
+         EXPECT_EQ(m.integer("v", {0, 5}), 1);
+       },
        "a.yaml:2: has a key that is not a plain text"},
   };
   for (const Refusal& refusal : refusals) {
@@ -202,29 +255,30 @@ TEST(StrictYaml, WhatIsMissingIsSaidWithItsRange) {
 }
 
 TEST(StrictYaml, FallbacksStandForWhatIsAbsentOnly) {
-  const auto sentences = read("n: 2\nx: 0.5\nflag: true\nname: a\nwait: 3 ms\nmode: fast\nlist: [{v: 1}, {v: 2}]\n"
-                              "named: {b: {v: 3}, a: {v: 4}}\n",
-                              [](YamlMap& map) {
-                                const Range<Duration> times{Duration{}, Duration::milliseconds(20)};
-                                EXPECT_EQ(map.integer_or("n", 1, {0, 5}), 2);
-                                EXPECT_EQ(map.number_or("x", 0.1, {0, 1}), 0.5);
-                                EXPECT_EQ(map.number_or("y", 0.1, {0, 1}), 0.1);
-                                EXPECT_TRUE(map.boolean_or("flag", false));
-                                EXPECT_TRUE(map.boolean_or("no_flag", true));
-                                EXPECT_EQ(map.text_or("name", "b"), "a");
-                                EXPECT_EQ(map.text_or("no_name", "b"), "b");
-                                EXPECT_EQ(map.duration_or("wait", {}, times), Duration::milliseconds(3));
-                                EXPECT_EQ(map.duration_or("no_wait", {}, times), Duration{});
-                                EXPECT_EQ(map.choice_or<int>("mode", 7, {{"slow", 1}, {"fast", 2}}), 2);
-                                EXPECT_EQ(map.choice_or<int>("no_mode", 7, {{"slow", 1}, {"fast", 2}}), 7);
-                                std::vector<std::int64_t> values;
-                                for (YamlMap& item : map.maps("list")) values.push_back(item.integer("v", {0, 9}));
-                                for (auto& [name, item] : map.named_maps("named")) {
-                                  values.push_back(item.integer("v", {0, 9}));
-                                  EXPECT_EQ(item.path(), "named." + name);
-                                }
-                                EXPECT_THAT(values, ElementsAre(1, 2, 3, 4));   // in file order
-                              });
+  const auto sentences = read(
+      "n: 2\nx: 0.5\nflag: true\nname: a\nwait: 3 ms\nmode: fast\nlist: [{v: 1}, {v: 2}]\n"
+      "named: {b: {v: 3}, a: {v: 4}}\n",
+      [](YamlMap& map) {
+        const Range<Duration> times{Duration{}, Duration::milliseconds(20)};
+        EXPECT_EQ(map.integer_or("n", 1, {0, 5}), 2);
+        EXPECT_EQ(map.number_or("x", 0.1, {0, 1}), 0.5);
+        EXPECT_EQ(map.number_or("y", 0.1, {0, 1}), 0.1);
+        EXPECT_TRUE(map.boolean_or("flag", false));
+        EXPECT_TRUE(map.boolean_or("no_flag", true));
+        EXPECT_EQ(map.text_or("name", "b"), "a");
+        EXPECT_EQ(map.text_or("no_name", "b"), "b");
+        EXPECT_EQ(map.duration_or("wait", {}, times), Duration::milliseconds(3));
+        EXPECT_EQ(map.duration_or("no_wait", {}, times), Duration{});
+        EXPECT_EQ(map.choice_or<int>("mode", 7, {{"slow", 1}, {"fast", 2}}), 2);
+        EXPECT_EQ(map.choice_or<int>("no_mode", 7, {{"slow", 1}, {"fast", 2}}), 7);
+        std::vector<std::int64_t> values;
+        for (YamlMap& item : map.maps("list")) values.push_back(item.integer("v", {0, 9}));
+        for (auto& [name, item] : map.named_maps("named")) {
+          values.push_back(item.integer("v", {0, 9}));
+          EXPECT_EQ(item.path(), "named." + name);
+        }
+        EXPECT_THAT(values, ElementsAre(1, 2, 3, 4));  // in file order
+      });
   EXPECT_TRUE(sentences.empty()) << testing::PrintToString(sentences);
 }
 

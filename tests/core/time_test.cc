@@ -8,9 +8,13 @@ namespace ttf {
 namespace {
 
 template <class A, class B>
-concept Subtractable = requires(A a, B b) { a - b; };
+concept Subtractable = requires(A a, B b) {
+  a - b;
+};
 template <class A, class B>
-concept Addable = requires(A a, B b) { a + b; };
+concept Addable = requires(A a, B b) {
+  a + b;
+};
 
 TEST(Time, TheThreeTimesDoNotMix) {
   static_assert(Subtractable<TrueTime, TrueTime>);

@@ -18,19 +18,19 @@ namespace ttf::dds {
 namespace {
 
 constexpr std::int64_t kUs = 1'000, kMs = 1'000'000, kSecond = 1'000'000'000;
-constexpr std::int64_t kLeast = 60 * kUs;              // on the network
-constexpr std::int64_t kApart = -1'000 * kSecond;      // what the other clock shows beyond this one at the begin
+constexpr std::int64_t kLeast = 60 * kUs;          // on the network
+constexpr std::int64_t kApart = -1'000 * kSecond;  // what the other clock shows beyond this one at the begin
 
-// A host afar, and how late this host's kernel takes its frames in: never early, exponential, now and then by a slice of
-// the scheduler's. One frame after the other, in order, as a socket hands them over.
+// A host afar, and how late this host's kernel takes its frames in: never early, exponential, now and then by a slice
+// of the scheduler's. One frame after the other, in order, as a socket hands them over.
 class Afar {
  public:
   Afar(std::uint64_t seed, double drift_ppm, double jitter_us)
       : random_(seed), drift_ppm_(drift_ppm), jitter_us_(jitter_us) {}
 
   struct Frame {
-    std::int64_t left = 0;       // by this host's clock
-    std::int64_t sent = 0;       // by the other's
+    std::int64_t left = 0;  // by this host's clock
+    std::int64_t sent = 0;  // by the other's
     std::int64_t received = 0;
   };
   Frame at(std::int64_t left) {
@@ -142,14 +142,15 @@ INSTANTIATE_TEST_SUITE_P(Drawn, DdsArrivalInstant, testing::Range<std::uint64_t>
 TEST(DdsLeastDelay, IsTheLeastOfASecond) {
   std::mt19937_64 random(3);
   LeastDelay least;
-  std::vector<std::pair<std::int64_t, std::int64_t>> frames;   // received, delay
+  std::vector<std::pair<std::int64_t, std::int64_t>> frames;  // received, delay
   const auto of_the_last = [&frames](std::int64_t span) {
     std::int64_t found = frames.back().second;
     for (const auto& [received, delay] : frames)
       if (received > frames.back().first - span) found = std::min(found, delay);
     return found;
   };
-  for (std::int64_t received = 0; received < 9 * kSecond; received += static_cast<std::int64_t>(random() % (40 * kMs))) {
+  for (std::int64_t received = 0; received < 9 * kSecond;
+       received += static_cast<std::int64_t>(random() % (40 * kMs))) {
     frames.emplace_back(received, static_cast<std::int64_t>(random() % (2 * kMs)) - kMs);
     const std::int64_t said = least.least(bus::HostTime{received}, Duration{frames.back().second}).ns;
     ASSERT_GE(said, of_the_last(LeastDelay::kWindow.ns)) << received;
@@ -198,9 +199,9 @@ TEST(DdsArrivalInstantHosts, HaveTheirOwnMinima) {
   EXPECT_EQ(delayed(2, 300), 300);
   EXPECT_EQ(delayed(1, 500), 100);
   EXPECT_EQ(delayed(2, 500), 300);
-  EXPECT_EQ(delayed(3, 400), 400);   // 1 is forgotten
+  EXPECT_EQ(delayed(3, 400), 400);  // 1 is forgotten
   EXPECT_EQ(delayed(2, 500), 300);
-  EXPECT_EQ(delayed(1, 500), 500);   // and now 3
+  EXPECT_EQ(delayed(1, 500), 500);  // and now 3
   EXPECT_EQ(delayed(2, 500), 300);
 }
 

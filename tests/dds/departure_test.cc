@@ -47,7 +47,7 @@ TEST(Departure, WhereAllHeardTheSameNobodyHasToSayAnythingAgain) {
   const auto close = departure.report(kB, 1, 5);
   ASSERT_TRUE(close);
   EXPECT_EQ(close->holder, kNoNode);
-  EXPECT_FALSE(departure.without(kA));   // so nothing depends on anybody
+  EXPECT_FALSE(departure.without(kA));  // so nothing depends on anybody
 }
 
 TEST(Departure, BeginsAgainWhereTheHolderDies) {
@@ -60,7 +60,7 @@ TEST(Departure, BeginsAgainWhereTheHolderDies) {
   ASSERT_TRUE(fence);
   EXPECT_EQ(fence->kind, Kind::kFence);
   EXPECT_EQ(fence->round, 2u);
-  departure.closed(kA, 1);   // late, of the round before
+  departure.closed(kA, 1);  // late, of the round before
   departure.closed(kC, 1);
   EXPECT_FALSE(departure.done());
   EXPECT_FALSE(departure.report(kA, 1, 9));
@@ -79,7 +79,7 @@ TEST(Departure, ADyingSurvivorsReportIsNotWaitedFor) {
   const auto close = departure.without(kB);
   ASSERT_TRUE(close);
   EXPECT_EQ(close->end, 5u);
-  EXPECT_FALSE(departure.without(kC));   // was none
+  EXPECT_FALSE(departure.without(kC));  // was none
 }
 
 TEST(Departure, WithoutSurvivorsThereIsNothingToAgreeUpon) {
@@ -143,11 +143,11 @@ class DrawnDeparture {
   struct Survivor {
     Stream stream{NodeId{100}, 1 << 20};
     std::vector<Entry> entries;
-    std::uint64_t in_flight = 0;             // the next sample that still comes from the dead itself
-    std::uint64_t reach = 0;                 // and the first that does not
-    std::deque<Departure::Order> orders;     // of the supervisor, not yet seen
-    std::deque<std::pair<NodeId, std::uint64_t>> again;   // said again, by whom, not yet seen
-    std::uint32_t confirm = 0;               // the round that is to be confirmed
+    std::uint64_t in_flight = 0;                         // the next sample that still comes from the dead itself
+    std::uint64_t reach = 0;                             // and the first that does not
+    std::deque<Departure::Order> orders;                 // of the supervisor, not yet seen
+    std::deque<std::pair<NodeId, std::uint64_t>> again;  // said again, by whom, not yet seen
+    std::uint32_t confirm = 0;                           // the round that is to be confirmed
   };
 
   static void accept(Survivor& survivor, std::uint64_t number) {

@@ -16,8 +16,7 @@ using namespace std::chrono_literals;
 
 enum class Ending { kLeaves, kAnnounced };
 
-template <std::size_t kMembers, Ending kEnding>
-class DdsBench : public ExchangeBench {
+template <std::size_t kMembers, Ending kEnding> class DdsBench : public ExchangeBench {
  public:
   DdsBench() {
     dds::Session session = test::session(kMembers);
@@ -30,7 +29,7 @@ class DdsBench : public ExchangeBench {
     if (supervisor_) supervisor_->wait_ready(30s);
   }
   ~DdsBench() override {
-    std::vector<std::thread> threads;   // each waits for the others
+    std::vector<std::thread> threads;  // each waits for the others
     for (auto& member : members_) threads.emplace_back([&member] { member.reset(); });
     for (std::thread& thread : threads) thread.join();
   }

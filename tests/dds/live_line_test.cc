@@ -31,13 +31,13 @@ TEST(DdsLiveTopic, HasOnlyWhatDdsAllowsAndNoTwoAreTheSame) {
 TEST(DdsLiveNumbering, CountsGapsButNotAcrossABeginning) {
   LiveNumbering numbering;
   const NodeId a{1}, b{2};
-  EXPECT_EQ(numbering.missing_before(a, 7, 100), 0u);   // what it said before is none of ours
+  EXPECT_EQ(numbering.missing_before(a, 7, 100), 0u);  // what it said before is none of ours
   EXPECT_EQ(numbering.missing_before(a, 7, 101), 0u);
   EXPECT_EQ(numbering.missing_before(a, 7, 104), 2u);
   EXPECT_FALSE(numbering.missing_before(a, 7, 104));
   EXPECT_FALSE(numbering.missing_before(a, 7, 102));
   EXPECT_EQ(numbering.missing_before(b, 7, 5), 0u);
-  EXPECT_EQ(numbering.missing_before(a, 8, 0), 0u);     // started anew
+  EXPECT_EQ(numbering.missing_before(a, 8, 0), 0u);  // started anew
   EXPECT_EQ(numbering.missing_before(a, 8, 2), 1u);
   EXPECT_EQ(numbering.missing_before(b, 7, 6), 0u);
 }

@@ -52,13 +52,11 @@ class Stranger {
   dds_entity_t writer_ = 0;
 };
 
-template <std::size_t kMembers, dds::Delivery kDelivery>
-class DdsLiveBench : public LiveBench {
+template <std::size_t kMembers, dds::Delivery kDelivery> class DdsLiveBench : public LiveBench {
  public:
   DdsLiveBench() : session_(test::session(kMembers)), plans_(test::live_lines(kMembers)) {
     for (const NodeId node : session_.members)
-      members_.push_back(
-          std::make_unique<dds::LiveMedium>(session_, node, test::lines_of(plans_, node), kDelivery));
+      members_.push_back(std::make_unique<dds::LiveMedium>(session_, node, test::lines_of(plans_, node), kDelivery));
     for (const auto& member : members_) member->wait_ready(30s);
   }
   std::size_t members() const override { return kMembers; }
@@ -113,20 +111,20 @@ TEST(DdsLiveMalformed, IsCountedInAllItsForms) {
   using Sample = ttf_LiveSample;
   malformed(on_a, 8, [](Sample& s) { s.slot = 0; });
   malformed(on_a, 8, [](Sample& s) { s.slot = 2048; });
-  malformed(on_a, 8, [](Sample& s) { s.kind = 4; });                          // a CAN frame here
+  malformed(on_a, 8, [](Sample& s) { s.kind = 4; });  // a CAN frame here
   malformed(on_a, 8, [](Sample& s) { s.tells_late = 2; });
   malformed(on_a, 7, [](Sample&) {});
   malformed(on_a, 263, [](Sample&) {});
   malformed(on_a, 60'000, [](Sample&) {});
-  malformed(on_a, 0, [](Sample& s) { s.kind = 1; });                          // a symbol of no duration
+  malformed(on_a, 0, [](Sample& s) { s.kind = 1; });  // a symbol of no duration
   malformed(on_a, 0, [](Sample& s) { s.kind = 2, s.duration = 9, s.tells_late = 1; });
   malformed(on_a, 1, [](Sample& s) { s.kind = 3, s.duration = 9; });
-  malformed(on_a, 8, [](Sample& s) { s.sent = -1; });                         // of no clock
+  malformed(on_a, 8, [](Sample& s) { s.sent = -1; });  // of no clock
   malformed(on_a, 8, [](Sample& s) { s.sent = INT64_MAX; });
   malformed(on_a, 8, [](Sample& s) { s.tells_late = 1, s.late = INT64_MIN; });
   malformed(on_a, 8, [](Sample& s) { s.tells_late = 1, s.late = INT64_MAX; });
   malformed(on_a, 0, [](Sample& s) { s.kind = 1, s.duration = INT64_MAX; });
-  malformed(on_can, 8, [](Sample&) {});                                       // a FlexRay frame here
+  malformed(on_can, 8, [](Sample&) {});  // a FlexRay frame here
   malformed(on_can, 8, [](Sample& s) { s.kind = 4, s.identifier = 0x800; });
   malformed(on_can, 9, [](Sample& s) { s.kind = 5; });
   malformed(on_can, 12, [](Sample& s) { s.kind = 4; });

@@ -110,7 +110,7 @@ class LiveMember {
   std::size_t self_, members_, count_;
   std::set<std::size_t> spoilt_;
   std::size_t said_ = 0;
-  std::vector<std::array<std::size_t, 2>> heard_;   // by member and channel
+  std::vector<std::array<std::size_t, 2>> heard_;  // by member and channel
   std::chrono::steady_clock::duration longest_{};
   std::string wrong_;
 };

@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "bus/dds/live_medium.h"
-#include "tests/support/child_process.h"
 #include "tests/dds/live_lines.h"
 #include "tests/dds/sessions.h"
+#include "tests/support/child_process.h"
 
 namespace ttf::dds {
 namespace {
@@ -26,7 +26,7 @@ using namespace std::chrono_literals;
 struct LiveReport {
   std::uint64_t lost = 0, longest_us = 0;
   std::string wrong;
-  std::vector<std::uint64_t> heard;   // by member, on both channels
+  std::vector<std::uint64_t> heard;  // by member, on both channels
 };
 
 LiveReport report_of(const test::ChildProcess& child, std::size_t members) {
@@ -124,7 +124,7 @@ TEST_P(DdsLiveProcesses, DoNotNoticeThatOneIsKilledAndHearItStartedAnew) {
   const LiveReport anew = processes.end(2);
   EXPECT_EQ(anew.lost, 0u);
   for (const std::size_t i : {0, 1, 3}) EXPECT_GT(anew.heard[i], 500u) << i;
-  const auto reports = processes.expect_undisturbed();   // a new beginning is no gap
+  const auto reports = processes.expect_undisturbed();  // a new beginning is no gap
   for (const std::size_t i : {0, 1, 3}) EXPECT_GT(reports[i].heard[2], 2 * 1000u) << i;
 }
 

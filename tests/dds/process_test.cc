@@ -29,8 +29,7 @@ class Launch {
   Launch(const Session& session, Mode mode, std::uint64_t count, Sizes sizes, const std::set<std::size_t>& endless = {})
       : session_(session), sizes_(sizes), count_(count) {
     if (session.supervised) supervisor_.emplace(session);
-    for (const NodeId node : session.members)
-      members_.emplace_back(session, node, mode, count, sizes, endless);
+    for (const NodeId node : session.members) members_.emplace_back(session, node, mode, count, sizes, endless);
   }
   void wait_ready() { supervisor_->wait_ready(30s); }
   MemberProcess& member(std::size_t index) { return *std::next(members_.begin(), static_cast<std::ptrdiff_t>(index)); }
@@ -120,7 +119,7 @@ TEST(DdsKill, AllSurvivorsHearTheSameOfTheDead) {
     const auto gone = launch.await(What::kGone, 1);
     ASSERT_TRUE(gone);
     launch.expect_all_heard({1});
-    EXPECT_EQ(gone->samples, launch.last_heard(1) + 1);   // and its hello
+    EXPECT_EQ(gone->samples, launch.last_heard(1) + 1);  // and its hello
   }
 }
 
@@ -132,7 +131,7 @@ TEST(DdsKill, TheOthersGoOnInRoundsWithoutTheDead) {
   const auto began = std::chrono::steady_clock::now();
   launch.supervisor().announce_gone(NodeId{2});
   ASSERT_TRUE(launch.await(What::kGone, 2));
-  EXPECT_LT(std::chrono::steady_clock::now() - began, 5s);   // without waiting for its lease of 10 s
+  EXPECT_LT(std::chrono::steady_clock::now() - began, 5s);  // without waiting for its lease of 10 s
   launch.expect_all_heard({2});
 }
 

@@ -81,7 +81,7 @@ TEST(DdsSession, WhoIsMissingIsNamedAfterThePatience) {
 TEST(DdsSession, WhoDoesNotHearTheOthersYetIsNamed) {
   const Session session = test::session(2);
   ExchangeSupervisor supervisor(session);
-  Exchange zero(session, NodeId{0}), one(session, NodeId{1});   // one is there, but takes no notice
+  Exchange zero(session, NodeId{0}), one(session, NodeId{1});  // one is there, but takes no notice
   try {
     zero.wait_ready(500ms);
     ADD_FAILURE() << "is ready";
@@ -108,7 +108,7 @@ TEST(DdsSession, WhoDiesBeforeItWasThereIsNotWaitedFor) {
   const Session session = test::session(3);
   ExchangeSupervisor supervisor(session);
   Exchange zero(session, NodeId{0}), one(session, NodeId{1});
-  supervisor.announce_gone(NodeId{2});   // it never came
+  supervisor.announce_gone(NodeId{2});  // it never came
   std::thread thread([&] { one.wait_ready(10s); });
   zero.wait_ready(10s);
   thread.join();
@@ -159,7 +159,7 @@ TEST_F(DdsPair, WhoIsAnnouncedGoneAndLivesIsToldSo) {
   supervisor_->announce_gone(NodeId{1});
   EXPECT_TRUE(zero_->receive().gone);
   EXPECT_EQ(error_of([this] { one_->receive(); }), "exchange: node 1 has been announced gone");
-  one_->send({});   // to nobody
+  one_->send({});  // to nobody
   EXPECT_EQ(error_of([this] { zero_->receive(); }), "exchange: node 0: nobody is left to be heard");
 }
 
@@ -170,9 +170,9 @@ TEST_F(DdsPair, StopsWhenTheSupervisorLeaves) {
 
 TEST_F(DdsPair, TheSupervisorKnowsWhoHasJoinedAndLeft) {
   zero_.reset();
-  supervisor_->announce_gone(NodeId{0});   // as a launch does with whatever ends
+  supervisor_->announce_gone(NodeId{0});  // as a launch does with whatever ends
   EXPECT_TRUE(one_->receive().gone);
-  one_.reset();   // else it would be asked what it has heard, and not answer
+  one_.reset();  // else it would be asked what it has heard, and not answer
   using Happening = ExchangeSupervisor::What;
   std::vector<Happening> of_zero;
   while (of_zero.empty() || of_zero.back() != Happening::kGone) {

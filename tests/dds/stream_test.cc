@@ -71,7 +71,7 @@ TEST_F(StreamTest, BehindTheFenceNothingIsHeardUntilItIsClosed) {
   accept(2);
   EXPECT_EQ(heard(), "0");
   close(2);
-  EXPECT_EQ(heard(), "0 1 bye");   // 2 was heard by no survivor when they reported
+  EXPECT_EQ(heard(), "0 1 bye");  // 2 was heard by no survivor when they reported
   accept(2);
   accept(3);
   EXPECT_EQ(heard(), "0 1 bye");
@@ -105,7 +105,7 @@ TEST_F(StreamTest, ALaterRoundMayEndItEarlier) {
   stream_.fence();
   close(4);
   accept(1);
-  EXPECT_EQ(stream_.fence(), 2u);   // who held the rest has died
+  EXPECT_EQ(stream_.fence(), 2u);  // who held the rest has died
   accept(2);
   EXPECT_EQ(heard(), "0 1");
   close(2);
@@ -134,7 +134,7 @@ TEST_F(StreamTest, KeepsWhatNotEverybodyHasHeard) {
 
 TEST_F(StreamTest, KeepsNoMoreThanItMay) {
   Stream small(kSender, 10'000);
-  for (std::uint64_t i = 0; i < 100; ++i) small.accept(said(i, Kind::kMessage, 904), entries_);   // 1000 each
+  for (std::uint64_t i = 0; i < 100; ++i) small.accept(said(i, Kind::kMessage, 904), entries_);  // 1000 each
   EXPECT_EQ(small.again(90).size(), 10u);
   EXPECT_NE(error_of([&] { small.again(89); }), "none");
   Stream none(kSender, 0);
@@ -160,13 +160,13 @@ TEST(Heard, WhatAllHaveHeardIsTheLeastOfThoseWhoAreStillThere) {
   HeardTable table({a, b, c});
   EXPECT_EQ(table.by_all(a), 0u);
   table.note(b, {{a, 10}, {c, 3}});
-  EXPECT_EQ(table.by_all(a), 0u);   // c has said nothing yet
+  EXPECT_EQ(table.by_all(a), 0u);  // c has said nothing yet
   table.note(c, {{a, 7}, {b, 2}});
   EXPECT_EQ(table.by_all(a), 7u);
-  EXPECT_EQ(table.by_all(c), 0u);   // a has not
+  EXPECT_EQ(table.by_all(c), 0u);  // a has not
   table.without(a);
   EXPECT_EQ(table.by_all(c), 3u);
-  EXPECT_EQ(table.by_all(a), 7u);   // also of one who has gone: it may have to be said again
+  EXPECT_EQ(table.by_all(a), 7u);  // also of one who has gone: it may have to be said again
   table.without(c);
   EXPECT_EQ(table.by_all(a), 10u);
 }

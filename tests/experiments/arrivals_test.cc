@@ -25,10 +25,10 @@ std::vector<std::string> sentences_of(const Findings& findings) {
 
 TEST(Arrivals, RowsOfOneSensorTimeAndArrivalAreAList) {
   ReplayConfig config;
-  const Arrivals arrivals = arrivals_of_rows({position_row("b", 0, 90, 1, 0), position_row("a", 0, 20, 2, 0),
-                                              position_row("b", 0, 90, 3, 0), position_row("a", 50, 70, 4, 0),
-                                              position_row("b", 100, 80, 5, 0), position_row("a", 50, 95, 6, 0)},
-                                             config);
+  const Arrivals arrivals = arrivals_of_rows(
+      {position_row("b", 0, 90, 1, 0), position_row("a", 0, 20, 2, 0), position_row("b", 0, 90, 3, 0),
+       position_row("a", 50, 70, 4, 0), position_row("b", 100, 80, 5, 0), position_row("a", 50, 95, 6, 0)},
+      config);
   EXPECT_THAT(arrivals.sensors, ElementsAre("a", "b")) << "by name, whoever comes first";
   ASSERT_EQ(arrivals.lists.size(), 5u);
   const auto& l = arrivals.lists;

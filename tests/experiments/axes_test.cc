@@ -39,23 +39,24 @@ constexpr int kReplications = 4;
 class Varied {
  public:
   explicit Varied(const std::string& name)
-      : sweep_(parse_sweep(fmt::format("kind: sweep\n"
-                                       "name: axes\n"
-                                       "question: What does it do?\n"
-                                       "scenario: ../scenarios/axes.yaml\n"
-                                       "seed: 3\n"
-                                       "replications: {}\n"
-                                       "paradigms:\n"
-                                       "  adva: {{strategy: adva}}\n"
-                                       "  tt: {{strategy: tt}}\n"
-                                       "  free: {{strategy: adva, cluster: ../schedules/paper_free_running.yaml}}\n"
-                                       "  unsynchronised: {{strategy: adva, cluster: ../schedules/paper_free_running.yaml, "
-                                       "set: {{cluster.synchronisation: false}}}}\n"
-                                       "axes:\n{}"
-                                       "measures: [position_mse_truth, nees, age_fused, age_used_newest, "
-                                       "age_used_newest_p99, lists_fused, precision, flexray_load]\n",
-                                       kReplications, documented_axes().at(name)),
-                           TTF_SOURCE_DIR "/experiments/axes.yaml")),
+      : sweep_(parse_sweep(
+            fmt::format("kind: sweep\n"
+                        "name: axes\n"
+                        "question: What does it do?\n"
+                        "scenario: ../scenarios/axes.yaml\n"
+                        "seed: 3\n"
+                        "replications: {}\n"
+                        "paradigms:\n"
+                        "  adva: {{strategy: adva}}\n"
+                        "  tt: {{strategy: tt}}\n"
+                        "  free: {{strategy: adva, cluster: ../schedules/paper_free_running.yaml}}\n"
+                        "  unsynchronised: {{strategy: adva, cluster: ../schedules/paper_free_running.yaml, "
+                        "set: {{cluster.synchronisation: false}}}}\n"
+                        "axes:\n{}"
+                        "measures: [position_mse_truth, nees, age_fused, age_used_newest, "
+                        "age_used_newest_p99, lists_fused, precision, flexray_load]\n",
+                        kReplications, documented_axes().at(name)),
+            TTF_SOURCE_DIR "/experiments/axes.yaml")),
         drives_(sweep_) {}
 
   std::size_t points() const { return sweep_.points(); }
@@ -71,8 +72,7 @@ class Varied {
   }
 
  private:
-  template <class List>
-  static std::uint32_t place(const List& list, const std::string& name) {
+  template <class List> static std::uint32_t place(const List& list, const std::string& name) {
     std::uint32_t at = 0;
     while (name_of(list.at(at)) != name) ++at;
     return at;
@@ -94,10 +94,24 @@ class Varied {
 };
 
 TEST(Axes, AllThatAreDocumentedAreTriedHere) {
-  const std::set<std::string> tried{"process_noise", "scenario",     "objects",    "sensor_noise", "bias",
-                                    "drawn_bias",    "sensor_cycle", "bus_cycle",  "sensor_phase", "slot_phase",
-                                    "bus_load",      "loss",         "drift",      "microtick",    "fault_plan",
-                                    "late_method",   "synchronisation",            "shortest_processing",
+  const std::set<std::string> tried{"process_noise",
+                                    "scenario",
+                                    "objects",
+                                    "sensor_noise",
+                                    "bias",
+                                    "drawn_bias",
+                                    "sensor_cycle",
+                                    "bus_cycle",
+                                    "sensor_phase",
+                                    "slot_phase",
+                                    "bus_load",
+                                    "loss",
+                                    "drift",
+                                    "microtick",
+                                    "fault_plan",
+                                    "late_method",
+                                    "synchronisation",
+                                    "shortest_processing",
                                     "longest_processing"};
   std::set<std::string> documented;
   for (const auto& [name, text] : documented_axes()) documented.insert(name);

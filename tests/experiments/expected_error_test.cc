@@ -119,7 +119,7 @@ class Sampled {
 
   Sampled(StrategyKind kind, const Drawn& drawn) : drawn_(drawn) {
     tracker_.process_noise = kDensity;
-    tracker_.gate_probability = 0.9999999;   // what a gate refuses is no part of the recursion
+    tracker_.gate_probability = 0.9999999;  // what a gate refuses is no part of the recursion
     std::vector<fusion::SensorTiming> timings;
     for (std::size_t s = 0; s < 2; ++s)
       timings.push_back({static_cast<SensorId>(s), fusion::Settling::after(drawn.longest[s]), true,
@@ -178,13 +178,13 @@ class Sampled {
 
   void accept(std::size_t l) {
     const ListTimes& list = drawn_.lists[l];
-    RandomStream noise({12, replication_, Purpose::kTest, static_cast<std::uint16_t>(list.sensor),
-                        static_cast<std::uint32_t>(l)});
+    RandomStream noise(
+        {12, replication_, Purpose::kTest, static_cast<std::uint16_t>(list.sensor), static_cast<std::uint32_t>(l)});
     const double variance = drawn_.variances[index_of(list.sensor)];
     fusion::Observation observation;
     observation.sensor = list.sensor;
-    observation.z.head<2>() = truth_at(list.measured) +
-                              std::sqrt(variance) * Eigen::Vector2d(noise.normal(), noise.normal());
+    observation.z.head<2>() =
+        truth_at(list.measured) + std::sqrt(variance) * Eigen::Vector2d(noise.normal(), noise.normal());
     observation.r.topLeftCorner<2, 2>() = variance * Eigen::Matrix2d::Identity();
     strategy_->accept({{list.sensor, static_cast<std::uint32_t>(l)}, list.measured, {&observation, 1}});
   }

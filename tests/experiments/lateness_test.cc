@@ -54,8 +54,8 @@ records::BinnedDurations apart(const std::vector<records::Stamp>& stamps) {
 }
 
 TEST(AchievedPrecision, IsTheLargestDifferenceOfAnyTwoNodes) {
-  const auto found = apart(
-      stamps_of({{NodeId{0}, always(4'000)}, {NodeId{1}, always(-9'000)}, {NodeId{2}, always(1'000)}}, 10));
+  const auto found =
+      apart(stamps_of({{NodeId{0}, always(4'000)}, {NodeId{1}, always(-9'000)}, {NodeId{2}, always(1'000)}}, 10));
   EXPECT_EQ(found.longest(), Duration{13'000});
   EXPECT_EQ(found.quantile(500), Duration{13'000});
   // 30 instants; at the first only one node has shown its time, at the last two only those that still come.
@@ -76,10 +76,10 @@ TEST(AchievedPrecision, DrawnClocksAreAsFarApartAsTheirFormulasSay) {
   for (std::uint32_t draw = 0; draw < 20; ++draw) {
     RandomStream stream({.seed = 3, .purpose = Purpose::kTest, .index = draw});
     std::vector<HandClock> clocks;
-    std::vector<std::pair<std::int64_t, std::int64_t>> lines;   // ahead, ns per ms
+    std::vector<std::pair<std::int64_t, std::int64_t>> lines;  // ahead, ns per ms
     for (std::uint8_t n = 0; n < 5; ++n) {
       const std::int64_t ahead = stream.integer(-30'000, 30'000), gain = stream.integer(-20, 20);
-      const std::int64_t rounds = stream.integer(-3, 3) * kRoundNs;   // of its own count
+      const std::int64_t rounds = stream.integer(-3, 3) * kRoundNs;  // of its own count
       lines.emplace_back(ahead, gain);
       clocks.push_back({NodeId{n}, [=](std::int64_t host_ns) { return ahead + gain * host_ns / 1'000'000 + rounds; }});
     }
@@ -109,10 +109,9 @@ TEST(AchievedPrecision, OfOneClockOrOfNoneThereIsNone) {
 
 TEST(AchievedPrecision, WhoIsSilentHasNoTimeMeanwhile) {
   // Node 1 is 20 us ahead before its silence and, on another count of rounds, 2 us ahead after it.
-  const std::vector<HandClock> clocks{{NodeId{0}, always(0)},
-                                      {NodeId{1}, [](std::int64_t host_ns) {
-                                         return host_ns < 50 * kCycleNs ? 20'000 : 2'000 - 5 * kRoundNs;
-                                       }}};
+  const std::vector<HandClock> clocks{
+      {NodeId{0}, always(0)},
+      {NodeId{1}, [](std::int64_t host_ns) { return host_ns < 50 * kCycleNs ? 20'000 : 2'000 - 5 * kRoundNs; }}};
   const auto all = stamps_of(clocks, 60);
   const auto silent = stamps_of(clocks, 60, [](NodeId node, int k) { return node == NodeId{0} || k < 20 || k >= 30; });
   EXPECT_EQ(apart(silent).longest(), Duration{20'000});
@@ -182,8 +181,8 @@ TEST(LatenessAccount, CountsWhatWasNotInItsTimeByNodeAndKind) {
   account.on(problem(1, records::kEarlyFrame, 3));
   account.on(problem(1, records::kFramesLost, 7));
   account.on(problem(2, records::kFramesLost, 2));
-  account.on(problem(2, 200, 9));   // of a later version
-  account.on(problem(77, records::kFramesLost, 9));   // of another cluster
+  account.on(problem(2, 200, 9));                    // of a later version
+  account.on(problem(77, records::kFramesLost, 9));  // of another cluster
   const auto found = account.finish();
   ASSERT_TRUE(found.has_value());
   EXPECT_EQ(found->timing.size(), 3u);
@@ -198,21 +197,27 @@ TEST(LatenessAccount, CountsWhatWasNotInItsTimeByNodeAndKind) {
 
 records::MediumCounts counted(int node, std::int64_t local_ms, std::uint64_t of_each) {
   const NodeId id{static_cast<std::uint8_t>(node)};
-  return {{{}, LocalTime{local_ms * 1'000'000}, {}, id}, of_each,     of_each + 1, of_each + 2, of_each + 3,
-          of_each + 4,                                   of_each + 5, of_each + 6};
+  return {{{}, LocalTime{local_ms * 1'000'000}, {}, id},
+          of_each,
+          of_each + 1,
+          of_each + 2,
+          of_each + 3,
+          of_each + 4,
+          of_each + 5,
+          of_each + 6};
 }
 
 TEST(LatenessAccount, WhatMediaCountedIsOfTheWholeRun) {
   const schedules::Cluster cluster = three_nodes();
   LatenessAccount account(cluster, {});
   account.on(counted(0, 100, 10));
-  account.on(counted(0, 200, 20));   // since the process began
+  account.on(counted(0, 200, 20));  // since the process began
   account.on(counted(1, 100, 10));
-  account.on(counted(1, 200, 9));    // another process
+  account.on(counted(1, 200, 9));  // another process
   account.on(counted(1, 300, 90));
   account.on(counted(2, 200, 5));
-  account.on(counted(2, 100, 50));   // another, whose clock began again
-  account.on(counted(77, 1, 1));     // of another cluster
+  account.on(counted(2, 100, 50));  // another, whose clock began again
+  account.on(counted(77, 1, 1));    // of another cluster
   const auto found = account.finish();
   ASSERT_TRUE(found.has_value());
   EXPECT_EQ(found->timing.size(), 3u);
@@ -373,8 +378,8 @@ TEST(Measures, AgesOfTheOldestAndTheNewestUsedAreTheSortedLists) {
       ages.push_back(age);
       all.add(age);
       ids.push_back({SensorId{sensor}, k});
-      measures.on(records::ListFused{{now, {}, GlobalTime{now.ns}, {}}, k, ids.back(), GlobalTime{now.ns} - age,
-                                     records::Disposition::kFused});
+      measures.on(records::ListFused{
+          {now, {}, GlobalTime{now.ns}, {}}, k, ids.back(), GlobalTime{now.ns} - age, records::Disposition::kFused});
     }
     write_image(measures, k, GlobalTime{now.ns}, {{10, 0}}, ids);
     use_image(measures, k, now, {{10, 0}});

@@ -13,7 +13,7 @@
 namespace ttf::experiments {
 namespace {
 
-constexpr std::int64_t kTurnNs = 5'000'000;   // a cycle
+constexpr std::int64_t kTurnNs = 5'000'000;  // a cycle
 constexpr NodeId kTalker{0}, kListener{1}, kSecondTalker{2};
 
 // Slot 1 is kTalker's in every cycle, on both channels; slot 2 in cycles 1, 5, 9, ... on A only, and kSecondTalker's
@@ -139,16 +139,16 @@ TEST_F(MissingFramesTest, EachReceiverAndChannelByItself) {
 TEST_F(MissingFramesTest, TurnsAreTheSchedules) {
   missed(5, 0, 2, kTalker);
   missed(7, 0, 2, kSecondTalker);
-  lost(9, 2, 0, 2);               // 7 and 5
+  lost(9, 2, 0, 2);  // 7 and 5
   EXPECT_EQ(withheld(), 2u);
   told_.pop_back();
-  lost(9, 1, 0, 2);               // 7
+  lost(9, 1, 0, 2);  // 7
   EXPECT_EQ(withheld(), 1u);
   told_.pop_back();
-  lost(9, 1, 0, 2, 0, kSecondTalker);    // who sends in 7 itself misses 5
+  lost(9, 1, 0, 2, 0, kSecondTalker);  // who sends in 7 itself misses 5
   EXPECT_EQ(withheld(kSecondTalker), 1u);
   told_.pop_back();
-  lost(13, 1, 0, 2);              // 11
+  lost(13, 1, 0, 2);  // 11
   EXPECT_EQ(withheld(), 0u);
 }
 
@@ -166,7 +166,7 @@ TEST_F(MissingFramesTest, ASenderThatRestarted) {
   // The same running cycle long before is another turn.
   told_.clear();
   missed(40);
-  lost(1001, 1, -15 * 64);        // 1000 was its cycle 40
+  lost(1001, 1, -15 * 64);  // 1000 was its cycle 40
   EXPECT_EQ(withheld(), 0u);
 }
 
@@ -174,10 +174,10 @@ TEST_F(MissingFramesTest, ASenderThatRestarted) {
 TEST_F(MissingFramesTest, MoreThanARound) {
   for (std::int64_t cycle = 100; cycle < 300; ++cycle) missed(cycle);
   missed(400);
-  lost(350, 200);                 // 150 to 349
+  lost(350, 200);  // 150 to 349
   EXPECT_EQ(withheld(), 150u);
   told_.pop_back();
-  lost(350, 64);                  // 286 to 349
+  lost(350, 64);  // 286 to 349
   EXPECT_EQ(withheld(), 14u);
   told_.pop_back();
   lost(350, 65);
@@ -185,7 +185,7 @@ TEST_F(MissingFramesTest, MoreThanARound) {
   // A slot with a turn in every second cycle.
   told_.clear();
   for (std::int64_t cycle = 1; cycle < 200; cycle += 4) missed(cycle, 0, 2);
-  lost(203, 100, 0, 2);           // 201, 199, ..., 3: of each second one sender missed 5, 9, ..., 197
+  lost(203, 100, 0, 2);  // 201, 199, ..., 3: of each second one sender missed 5, 9, ..., 197
   EXPECT_EQ(withheld(), 49u);
 }
 
@@ -222,7 +222,7 @@ TEST_F(MissingFramesTest, ASenderThatWasAwaySentNothing) {
   missed(12);
   lost(15, 4);
   EXPECT_EQ(withheld(), 1u);
-  EXPECT_EQ(away(), 2u);   // 13 and 14; 11 was lost on the way
+  EXPECT_EQ(away(), 2u);  // 13 and 14; 11 was lost on the way
   // Before the first and behind the last frame nobody knows.
   told_.clear();
   lost(10, 3);
@@ -233,7 +233,7 @@ TEST_F(MissingFramesTest, ASenderThatWasAwaySentNothing) {
 TEST_F(MissingFramesTest, ASenderThatIsAwayWhileItRestartsCountsAnew) {
   for (std::int64_t at = 600; at < 610; ++at) sent(at);
   for (std::int64_t at = 640; at < 650; ++at) sent(at, -9 * 64);
-  lost(642, 34, 3 * 64);   // 608 to 641: 608, 609, 640 and 641 were sent
+  lost(642, 34, 3 * 64);  // 608 to 641: 608, 609, 640 and 641 were sent
   EXPECT_EQ(away(), 30u);
   // A receiver that was stopped noticed long after.
   told_.back().stamp.true_time += Duration{200 * kTurnNs};
@@ -248,9 +248,9 @@ TEST_F(MissingFramesTest, ASenderThatIsAwayWhileItRestartsCountsAnew) {
 TEST_F(MissingFramesTest, SilenceIsOfTheSendersOwnTurns) {
   for (const std::int64_t at : {5, 9, 13}) sent(at, 0, 2, kTalker);
   for (const std::int64_t at : {3, 7, 19}) sent(at, 0, 2, kSecondTalker);
-  lost(13, 3, 0, 2);   // 11, 9, 7
+  lost(13, 3, 0, 2);  // 11, 9, 7
   EXPECT_EQ(away(), 1u);
-  lost(19, 2, 0, 2);   // 17, 15
+  lost(19, 2, 0, 2);  // 17, 15
   EXPECT_EQ(away(), 2u) << "15 is kSecondTalker's; whether 17 was sent its sender's log does not say";
 }
 
@@ -275,7 +275,7 @@ TEST_F(MissingFramesTest, DrawnRunsAreCountedTurnByTurn) {
     bool heard = false;
     for (std::int64_t cycle = 0; cycle < 400; ++cycle) {
       const std::int64_t fate = stream.integer(0, 4);
-      if (fate >= 2) sent(cycle, ahead);   // 2: and was lost
+      if (fate >= 2) sent(cycle, ahead);  // 2: and was lost
       if (fate >= 3) {
         if (heard && gap > 0) {
           lost(cycle, static_cast<std::uint32_t>(gap), behind);
@@ -303,7 +303,7 @@ TEST_F(MissingFramesTest, NumbersOfADamagedLogAreCounted) {
   constexpr std::int64_t kFar = std::numeric_limits<std::int64_t>::max();
   for (const std::int64_t far : {-kFar - 1, std::int64_t{-1}, kFar}) {
     auto miss = of(kTalker, records::kSlotMissed, 1, far, 0);
-    auto loss = of(kListener, records::kFramesLost, 1, ~far, 0);   // -far - 1
+    auto loss = of(kListener, records::kFramesLost, 1, ~far, 0);  // -far - 1
     loss.count = std::numeric_limits<std::uint32_t>::max();
     for (const std::int64_t late : {-kFar - 1, kFar}) {
       miss.stamp.true_time.ns = far;
@@ -317,7 +317,7 @@ TEST_F(MissingFramesTest, NumbersOfADamagedLogAreCounted) {
   }
   for (const std::int64_t scale : {std::int64_t{0}, std::int64_t{-5}, std::int64_t{1}, kFar}) {
     scale_ppm_ = scale;
-    EXPECT_LE(withheld(), 6u * 6u);   // no more for each loss than were missed
+    EXPECT_LE(withheld(), 6u * 6u);  // no more for each loss than were missed
     EXPECT_LE(away(), 6 * std::uint64_t{std::numeric_limits<std::uint32_t>::max()});
   }
   told_ = {of(kTalker, records::kSlotMissed, 7, 1, 1), of(kListener, records::kFramesLost, 7, 2, 2)};

@@ -59,7 +59,9 @@ TEST(Pairing, DrawnScenesAreOneToOneAndComplete) {
     }
     for (std::size_t t = 0; t < truth.size(); ++t)
       for (std::size_t e = 0; e < estimates.size(); ++e)
-        if (!truths.contains(t) && !taken.contains(e)) { EXPECT_GT(distance(truth[t], estimates[e]), 2.0); }
+        if (!truths.contains(t) && !taken.contains(e)) {
+          EXPECT_GT(distance(truth[t], estimates[e]), 2.0);
+        }
   }
 }
 

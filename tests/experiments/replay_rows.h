@@ -32,8 +32,8 @@ inline std::vector<recording::ObservationRow> two_cars(int seconds) {
       if (ms % (radar ? 70 : 50) != 0) continue;
       for (const double start : {10.0, 40.0}) {
         const double x = start + 8.0 * static_cast<double>(ms) * 1e-3, y = 3.0;
-        recording::ObservationRow row = position_row(radar ? "radar" : "camera", ms, ms, x + 0.3 * noise.normal(),
-                                                     y + 0.3 * noise.normal());
+        recording::ObservationRow row =
+            position_row(radar ? "radar" : "camera", ms, ms, x + 0.3 * noise.normal(), y + 0.3 * noise.normal());
         if (radar) {
           const double range = std::hypot(x, y);
           row.kind = recording::ObservationRow::Kind::kRangeBearingRate;

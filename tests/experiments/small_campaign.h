@@ -29,7 +29,7 @@ inline std::string campaign_text(int faults, std::string_view more = "") {
 inline CampaignFile small_campaign(int faults, std::string_view more = "") {
   return parse_campaign(campaign_text(faults, more), TTF_SOURCE_DIR "/experiments/small.yaml");
 }
-inline constexpr std::size_t kGuardian = 0, kBus = 1;   // its variants
+inline constexpr std::size_t kGuardian = 0, kBus = 1;  // its variants
 
 inline bool seen(std::uint16_t checks, Check check) { return (checks >> static_cast<unsigned>(check) & 1u) != 0; }
 inline bool does(std::uint8_t harms, Harm harm) { return (harms >> static_cast<unsigned>(harm) & 1u) != 0; }

@@ -79,7 +79,8 @@ TEST_F(SweepEngine, TheSameWhereOthersDriveToo) {
   const std::string alone = driven(drives, "alone", 2);
   results::Store shared = store(drives, "shared");
   OneElsewhere other(drives);
-  run_sweep(drives, shared, {}, 1, [](const SweepProgress&) {}, &other);
+  run_sweep(
+      drives, shared, {}, 1, [](const SweepProgress&) {}, &other);
   EXPECT_EQ(runs_csv(sweep, shared), alone);
   EXPECT_GT(other.driven, 0u);
   EXPECT_LT(other.driven, 160u);
@@ -172,7 +173,7 @@ TEST_F(SweepEngine, DifferencesArePaired) {
   ASSERT_EQ(answer.points.size(), 2u);
   const results::Interval& before = answer.points[0].differences[1][0];
   EXPECT_NEAR(before.mean, 0.315, 1e-12);
-  EXPECT_NEAR(before.half_width, 3.1824 * std::sqrt(0.0005 / 3.0) / 2.0, 1e-6);   // Student's t of 3 degrees
+  EXPECT_NEAR(before.half_width, 3.1824 * std::sqrt(0.0005 / 3.0) / 2.0, 1e-6);  // Student's t of 3 degrees
   EXPECT_GT(answer.points[0].means[1][0].half_width, 1.0);
   EXPECT_EQ(answer.points[0].differences[0][0].count, 0u) << "of the baseline from itself";
   ASSERT_EQ(answer.crossings.size(), 1u);
@@ -190,15 +191,16 @@ TEST_F(SweepEngine, DifferencesArePaired) {
 }
 
 TEST_F(SweepEngine, MeasuresMayAgree) {
-  const SweepFile sweep = small_sweep(3, "expect: [{measure: position_rmse_truth, agrees: age_fused, of: adva}, "
-                                         "{measure: age_fused, agrees: position_rmse_truth, of: tt, "
-                                         "where: {noise: 1}}, "
-                                         "{measure: age_fused, agrees: position_rmse_truth, of: tt}]\n");
+  const SweepFile sweep = small_sweep(3,
+                                      "expect: [{measure: position_rmse_truth, agrees: age_fused, of: adva}, "
+                                      "{measure: age_fused, agrees: position_rmse_truth, of: tt, "
+                                      "where: {noise: 1}}, "
+                                      "{measure: age_fused, agrees: position_rmse_truth, of: tt}]\n");
   const SweepDrives drives(sweep);
   results::Store made = store(drives, "made");
   for (std::uint32_t point = 0; point < 2; ++point)
     for (std::uint32_t r = 0; r < 3; ++r) {
-      const double off = 0.1 * (static_cast<double>(r) - 1.0);   // not on the average
+      const double off = 0.1 * (static_cast<double>(r) - 1.0);  // not on the average
       made.add({{{point, r, 0}, results::kDone, {5.0 + r, 5.0 + r + off}},
                 {{point, r, 1}, results::kDone, {5.0 + r, 5.0 + r + off + (point == 1 ? 1.0 : 0.0)}}});
     }
@@ -240,8 +242,12 @@ TEST_F(SweepEngine, AFailedRunIsARow) {
   const SweepFile sweep = small_sweep(3);
   const SweepDrives drives(sweep);
   results::Store failing = store(drives, "failing");
-  failing.add({made_up(0, 0, 0, 1.0), made_up(0, 1, 0, 2.0), made_up(0, 2, 0, 3.0), made_up(0, 0, 1, 2.0),
-               {{0, 1, 1}, "out of luck", {std::nan(""), std::nan("")}}, made_up(0, 2, 1, 4.0)});
+  failing.add({made_up(0, 0, 0, 1.0),
+               made_up(0, 1, 0, 2.0),
+               made_up(0, 2, 0, 3.0),
+               made_up(0, 0, 1, 2.0),
+               {{0, 1, 1}, "out of luck", {std::nan(""), std::nan("")}},
+               made_up(0, 2, 1, 4.0)});
   const SweepAnswer answer = answer_of(sweep, failing);
   EXPECT_EQ(answer.failed, 1u);
   EXPECT_EQ(answer.points[0].differences[1][0].count, 2u);

@@ -31,8 +31,10 @@ class TrackRecorded : public testing::Test {
     usual.noise.range = documented.range_m;
     usual.noise.bearing = documented.bearing_rad;
     usual.noise.range_rate = documented.range_rate_mps;
-    config = parse_replay_config("tracker: {process_noise: 4.0, confirm_hits: 1, confirm_window: 1, "
-                                 "gate_probability: 0.999999}\n", "c.yaml", usual);
+    config = parse_replay_config(
+        "tracker: {process_noise: 4.0, confirm_hits: 1, confirm_window: 1, "
+        "gate_probability: 0.999999}\n",
+        "c.yaml", usual);
     const auto rows = recording::observation_rows_of(input, name);
     list_sensors(config, rows, usual, name);
     Findings findings;

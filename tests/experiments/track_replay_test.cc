@@ -19,8 +19,8 @@ using fusion::StrategyKind;
 
 struct Outcome {
   ReplayAccount account;
-  std::vector<std::string> lines;   // of the tracks, as they are written
-  std::vector<GlobalTime> known;    // the instants of fusions that took something in
+  std::vector<std::string> lines;  // of the tracks, as they are written
+  std::vector<GlobalTime> known;   // the instants of fusions that took something in
   std::vector<recording::TrackRow> last;
 };
 
@@ -197,7 +197,7 @@ TEST(TrackReplay, ClassAndThirdAxisGoWithTheTrackForEveryOrderOfArrival) {
     if (near) row.height = 2.0;
     ++seen;
   }
-  rows.back().class_name = "zebra";   // of the radar's last list, with which the tracks end
+  rows.back().class_name = "zebra";  // of the radar's last list, with which the tracks end
   rows.back().score = 0.0;
   const Arrivals in_order = arrivals_of_rows(rows, config);
   EXPECT_THAT(in_order.classes, testing::ElementsAre("car", "van", "zebra"));
@@ -272,9 +272,9 @@ TEST(TrackReplay, DuplicatesAndWhatIsTooOldAreCounted) {
   std::vector<recording::ObservationRow> rows;
   for (std::int64_t ms = 0; ms < 1000; ms += 50) {
     rows.push_back(position_row("a", ms, ms, 10.0, 0.0));
-    if (ms == 500) rows.push_back(position_row("a", ms, ms + 20, 10.0, 0.0));   // heard twice
+    if (ms == 500) rows.push_back(position_row("a", ms, ms + 20, 10.0, 0.0));  // heard twice
   }
-  rows.push_back(position_row("b", 100, 900, 10.0, 0.0));                       // older than the history
+  rows.push_back(position_row("b", 100, 900, 10.0, 0.0));  // older than the history
   const Arrivals arrivals = arrivals_of_rows(rows, config);
   for (const StrategyKind strategy : {StrategyKind::kAdva, StrategyKind::kBuff}) {
     const ReplayAccount account = outcome_of(arrivals, config, strategy).account;

@@ -23,8 +23,7 @@ TEST(Adva, FusesOnArrival) {
 }
 
 TEST(Adva, WhatArrivesTogetherIsFusedInOrder) {
-  const auto strategy =
-      make_strategy(StrategyKind::kAdva, {}, std::vector{free_running(0, 60), free_running(1, 30)});
+  const auto strategy = make_strategy(StrategyKind::kAdva, {}, std::vector{free_running(0, 60), free_running(1, 30)});
   EXPECT_EQ(run(*strategy, {{25, scan(1, 0, at_ms(10))}, {25, scan(0, 0, at_ms(0))}}, 50),
             (std::vector{fused(30, 0, 0), fused(30, 1, 0)}));
 }

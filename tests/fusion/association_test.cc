@@ -75,8 +75,7 @@ TEST_P(EveryOption, EveryOrderOfArrivalGivesTheSameBits) {
       std::sort(arrival.begin(), arrival.end());
       Timeline timeline(config(motion), 32);
       int late = 0;
-      for (const auto& [when, k] : arrival)
-        late += timeline.insert(scans[k].view()) == Timeline::Insertion::kLate;
+      for (const auto& [when, k] : arrival) late += timeline.insert(scans[k].view()) == Timeline::Insertion::kLate;
       EXPECT_GT(late, 20);
       ASSERT_TRUE(same_bits(timeline.current(), in_order.current())) << "shuffle " << shuffle;
     }
@@ -87,9 +86,8 @@ TEST_P(EveryOption, EveryStrategyEndsWithTheBitsOfInOrderProcessing) {
   std::vector<Arrival> arrivals = drawn_drive(7, 20);
   std::vector<OwnedScan> in_order;
   for (const Arrival& a : arrivals) in_order.push_back(a.scan);
-  std::sort(in_order.begin(), in_order.end(), [](const OwnedScan& a, const OwnedScan& b) {
-    return before(a.id, a.measured, b.id, b.measured);
-  });
+  std::sort(in_order.begin(), in_order.end(),
+            [](const OwnedScan& a, const OwnedScan& b) { return before(a.id, a.measured, b.id, b.measured); });
   Timeline timeline(config(), 64);
   for (const OwnedScan& s : in_order) timeline.insert(s.view());
   std::vector<TrackView> expected, image;
@@ -133,8 +131,8 @@ TEST(Association, JpdaOfACertainObservationIsTheNearests) {
     RandomStream stream({.seed = 8});
     for (std::uint32_t k = 0; k < 60; ++k) {
       const double t = 0.05 * k;
-      const OwnedScan list = scan(0, k, at_ms(50 * k),
-                                  {position(20.0 + 8.0 * t + 0.2 * stream.normal(), 0.2 * stream.normal(), 0.2)});
+      const OwnedScan list =
+          scan(0, k, at_ms(50 * k), {position(20.0 + 8.0 * t + 0.2 * stream.normal(), 0.2 * stream.normal(), 0.2)});
       first.step(a, list.view());
       second.step(b, list.view());
       ASSERT_EQ(a.tracks.size(), b.tracks.size()) << k;

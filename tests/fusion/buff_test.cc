@@ -72,7 +72,7 @@ TEST(Buff, WaitingIsNoDelay) {
   strategy->accept(scan(1, 0, at_ms(0)).view());
   for (int ms = 1; ms <= 600; ++ms) strategy->fuse(at_ms(ms));
   EXPECT_EQ(held(*strategy), 1u);
-  strategy->accept(scan(0, 0, at_ms(600)).view());   // on its way for 1 ms, as sensor 1's was
+  strategy->accept(scan(0, 0, at_ms(600)).view());  // on its way for 1 ms, as sensor 1's was
   strategy->fuse(at_ms(601));
   EXPECT_EQ(held(*strategy), 0u);
 }
@@ -90,8 +90,7 @@ TEST(Buff, SaysWhatItHolds) {
 
 // Of a silent sensor, to the nanosecond.
 TEST(Buff, LetsGoWhenNothingOlderCanArriveAnyMore) {
-  const auto strategy =
-      make_strategy(StrategyKind::kBuff, {}, std::vector{free_running(0, 60), free_running(1, 30)});
+  const auto strategy = make_strategy(StrategyKind::kBuff, {}, std::vector{free_running(0, 60), free_running(1, 30)});
   strategy->accept(scan(1, 0, at_ms(20)).view());
   strategy->fuse(at_ms(80) - Duration{1});
   EXPECT_EQ(held(*strategy), 1u);
@@ -141,8 +140,11 @@ TEST(Buff, WithMeasuredDelaysWaitsForTheLongestSoFar) {
   config.buff_waits = BuffWaiting::kMeasured;
   const auto strategy = make_strategy(StrategyKind::kBuff, config, sensors);
   EXPECT_EQ(run(*strategy,
-                {{15, scan(0, 0, at_ms(0))}, {15, scan(1, 0, at_ms(10))}, {85, scan(0, 1, at_ms(40))},
-                 {55, scan(1, 1, at_ms(50))}, {115, scan(1, 2, at_ms(110))}},
+                {{15, scan(0, 0, at_ms(0))},
+                 {15, scan(1, 0, at_ms(10))},
+                 {85, scan(0, 1, at_ms(40))},
+                 {55, scan(1, 1, at_ms(50))},
+                 {115, scan(1, 2, at_ms(110))}},
                 250),
             (std::vector{fused(20, 0, 0), fused(30, 1, 0), fused(70, 1, 1), fused(90, 0, 1, Disposition::kFusedLate),
                          fused(160, 1, 2)}));

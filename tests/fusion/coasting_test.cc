@@ -16,10 +16,10 @@ class Coasting : public testing::TestWithParam<StrategyKind> {};
 std::string name_of(const testing::TestParamInfo<StrategyKind>& kind) {
   return kind.param == StrategyKind::kBuff ? "Buff" : kind.param == StrategyKind::kAdva ? "Adva" : "Tt";
 }
-INSTANTIATE_TEST_SUITE_P(All, Coasting,
-                         testing::Values(StrategyKind::kBuff, StrategyKind::kAdva, StrategyKind::kTt), name_of);
+INSTANTIATE_TEST_SUITE_P(All, Coasting, testing::Values(StrategyKind::kBuff, StrategyKind::kAdva, StrategyKind::kTt),
+                         name_of);
 
-constexpr std::int64_t kLast = 760;   // [ms], of the newest measurement
+constexpr std::int64_t kLast = 760;  // [ms], of the newest measurement
 
 // A car at 10 m/s, seen every 40 ms until kLast, then no more lists of anybody. All is fused, whatever the strategy.
 struct Drive {
@@ -159,8 +159,8 @@ TEST_P(Coasting, ScansThatDoNotSeeItEndATrackSooner) {
     drive.strategy->accept(scan(0, k, at_ms(ms), {position(60.0, -9.0, 0.2)}).view());
     drive.strategy->fuse(at_ms(ms + 100));
     drive.strategy->image(at_ms(ms), drive.shown);
-    const auto car = std::find_if(drive.shown.begin(), drive.shown.end(),
-                                  [](const TrackView& view) { return view.state(1) > 0.0; });
+    const auto car =
+        std::find_if(drive.shown.begin(), drive.shown.end(), [](const TrackView& view) { return view.state(1) > 0.0; });
     ASSERT_EQ(car != drive.shown.end(), k < 8) << k;
     if (car == drive.shown.end()) continue;
     EXPECT_EQ(car->coasting, k >= 3) << k;

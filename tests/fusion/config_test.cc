@@ -135,8 +135,9 @@ TEST(TrackerConfig, WhatCannotBeConsideredIsRefused) {
     std::vector<std::string> sentences;
     load(rest + "systematic: consider\n", &sentences);
     ASSERT_EQ(sentences.size(), 1u) << rest;
-    EXPECT_EQ(sentences[0], "t.yaml:2: systematic = consider: must be ignore but where motion is constant_velocity or "
-                            "constant_acceleration and filter is extended");
+    EXPECT_EQ(sentences[0],
+              "t.yaml:2: systematic = consider: must be ignore but where motion is constant_velocity or "
+              "constant_acceleration and filter is extended");
   }
   EXPECT_EQ(load("motion: constant_acceleration\nsystematic: consider\n").systematic, SystematicErrorsAre::kConsidered);
   std::vector<std::string> sentences;
@@ -172,9 +173,10 @@ TEST(TrackerConfig, OnlyStraightMotionIsTakenInOtherThanByRewinding) {
     std::vector<std::string> sentences;
     load(other + "\nlate: al1\n", &sentences);
     ASSERT_EQ(sentences.size(), 1u) << other;
-    EXPECT_EQ(sentences[0], "t.yaml:2: late = al1: must be rewind, but with motion constant_velocity or "
-                            "constant_acceleration and filter extended: of the others' estimates the methods know "
-                            "nothing");
+    EXPECT_EQ(sentences[0],
+              "t.yaml:2: late = al1: must be rewind, but with motion constant_velocity or "
+              "constant_acceleration and filter extended: of the others' estimates the methods know "
+              "nothing");
   }
 }
 
@@ -184,21 +186,22 @@ TEST(TrackerConfig, OtherMethodsThanRewindingKnowOneWayToAssociate) {
     std::vector<std::string> sentences;
     load(other + "\nlate: al1\n", &sentences);
     ASSERT_EQ(sentences.size(), 1u) << other;
-    EXPECT_EQ(sentences[0], "t.yaml:2: late = al1: must be rewind, but with association nearest, birth m_of_n and "
-                            "merge_probability 0: the other methods do not go back to what was decided since");
+    EXPECT_EQ(sentences[0],
+              "t.yaml:2: late = al1: must be rewind, but with association nearest, birth m_of_n and "
+              "merge_probability 0: the other methods do not go back to what was decided since");
   }
 }
 
 TEST(TrackerConfig, RefusesWhatAssociationAndBirthCannotBe) {
   std::vector<std::string> sentences;
-  load("association: global\nbirth: twice\ndetection_probability: 1\nclutter_density: 0\nsurvival_seconds: -1\n"
-       "initial_existence: 0\nconfirm_existence: 1\nmerge_probability: 1\nmerge_scans: 0\ndelete_existence: 1e-9\n",
-       &sentences);
-  const char* const expected[] = {"t.yaml:1: association = global", "t.yaml:2: birth = twice",
-                                  "t.yaml:3: detection_probability = 1", "t.yaml:4: clutter_density = 0",
-                                  "t.yaml:5: survival_seconds = -1", "t.yaml:6: initial_existence = 0",
-                                  "t.yaml:7: confirm_existence = 1", "t.yaml:8: merge_probability = 1",
-                                  "t.yaml:9: merge_scans = 0"};
+  load(
+      "association: global\nbirth: twice\ndetection_probability: 1\nclutter_density: 0\nsurvival_seconds: -1\n"
+      "initial_existence: 0\nconfirm_existence: 1\nmerge_probability: 1\nmerge_scans: 0\ndelete_existence: 1e-9\n",
+      &sentences);
+  const char* const expected[] = {
+      "t.yaml:1: association = global",  "t.yaml:2: birth = twice",         "t.yaml:3: detection_probability = 1",
+      "t.yaml:4: clutter_density = 0",   "t.yaml:5: survival_seconds = -1", "t.yaml:6: initial_existence = 0",
+      "t.yaml:7: confirm_existence = 1", "t.yaml:8: merge_probability = 1", "t.yaml:9: merge_scans = 0"};
   ASSERT_EQ(sentences.size(), std::size(expected));
   for (std::size_t i = 0; i < sentences.size(); ++i)
     EXPECT_NE(sentences[i].find(expected[i]), std::string::npos) << sentences[i];

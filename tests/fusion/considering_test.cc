@@ -19,7 +19,7 @@ namespace ttf::fusion {
 namespace {
 
 constexpr int kLaser = 0, kRadar = 1;
-constexpr double kNoise = 0.5;   // of the motion [m^2/s^3]
+constexpr double kNoise = 0.5;  // of the motion [m^2/s^3]
 
 // A laser on the front, turned a little, and a radar on the side: seven biases.
 std::vector<KnownSensor> laser_and_radar_biases() {
@@ -58,8 +58,8 @@ Observation seen(const State& x, int sensor, const KnownSensor& known, const Vec
 }
 
 struct BiasedDrive {
-  std::vector<OwnedScan> scans;   // of one object, laser and radar in turn, 40 ms apart; `first` is the first
-  std::vector<State> truth;       // at the stamps
+  std::vector<OwnedScan> scans;  // of one object, laser and radar in turn, 40 ms apart; `first` is the first
+  std::vector<State> truth;      // at the stamps
 };
 BiasedDrive drawn_biased(std::uint64_t seed, int run, int scans, MotionModel motion = MotionModel::kConstantVelocity,
                          int first = kLaser) {
@@ -88,7 +88,7 @@ BiasedDrive drawn_biased(std::uint64_t seed, int run, int scans, MotionModel mot
 // Independent drives through a whole tracker, each judged once, after its last scan.
 struct Judged {
   metrics::Consistency nees;
-  double position_squared = 0.0, velocity_squared = 0.0;   // means
+  double position_squared = 0.0, velocity_squared = 0.0;  // means
 };
 Judged judged(const TrackerConfig& config, std::uint64_t seed, int runs, int scans, int first) {
   Judged out;
@@ -263,9 +263,10 @@ TEST(Considering, LateListsGiveTheBitsOfArrivalInOrder) {
   RandomStream stream({.seed = 8});
   for (int draw = 0; draw < 10; ++draw) {
     std::vector<Arrival> shuffled = arrivals;
-    for (std::size_t i = shuffled.size(); i > 1; --i)   // up to 20 places
-      std::swap(shuffled[i - 1], shuffled[i - 1 - static_cast<std::size_t>(stream.integer(
-                                                     0, static_cast<std::int64_t>(std::min<std::size_t>(i - 1, 20))))]);
+    for (std::size_t i = shuffled.size(); i > 1; --i)  // up to 20 places
+      std::swap(shuffled[i - 1], shuffled[i - 1 -
+                                          static_cast<std::size_t>(stream.integer(
+                                              0, static_cast<std::int64_t>(std::min<std::size_t>(i - 1, 20))))]);
     Timeline timeline(config, 64);
     int late = 0;
     for (const Arrival& arrival : shuffled) late += timeline.insert(arrival.scan.view()) == Timeline::Insertion::kLate;
@@ -296,7 +297,7 @@ TEST(Mounting, BackwardsTheSameTracks) {
   for (std::vector<KnownSensor>* sensors : {&ahead, &behind})
     for (KnownSensor& sensor : *sensors) sensor.errors.sigma << 0.2, 0.01, 0.0, 0.01;
   for (KnownSensor& sensor : behind) sensor.mounting = {.position = {-1.5, 0.4}, .yaw = std::numbers::pi};
-  for (KnownSensor& sensor : ahead) sensor.mounting.position = {-1.5, 0.4};   // polar errors are seen from there
+  for (KnownSensor& sensor : ahead) sensor.mounting.position = {-1.5, 0.4};  // polar errors are seen from there
   for (const SystematicErrorsAre answer : {kIgnored, kConsidered}) {
     Tracker one(config_with(answer, ahead), 2), other(config_with(answer, behind), 2);
     TrackSet a(one.max_tracks()), b(other.max_tracks());

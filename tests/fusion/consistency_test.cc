@@ -82,8 +82,7 @@ void expect_consistent(const Case& c, std::uint64_t seed) {
 
 TEST(Consistency, ConstantVelocity) { expect_consistent({}, 1); }
 TEST(Consistency, ConstantAcceleration) {
-  expect_consistent({.motion = MotionModel::kConstantAcceleration, .true_noise = 2.0, .assumed_noise = 2.0},
-                    1);
+  expect_consistent({.motion = MotionModel::kConstantAcceleration, .true_noise = 2.0, .assumed_noise = 2.0}, 1);
 }
 // Far enough away for the linearisation to hold.
 TEST(Consistency, LaserAndRadarInTurn) { expect_consistent({.with_radar = true}, 1); }
@@ -99,8 +98,7 @@ TEST(Consistency, TooMuchProcessNoiseShows) {
   EXPECT_LT(s.nis, s.low(s.nis_degrees));
 }
 TEST(Consistency, WrongMeasurementNoiseShows) {
-  const Statistics low = simulate({.assumed_sigma = 0.15}, 500, 1),
-                   high = simulate({.assumed_sigma = 0.6}, 500, 1);
+  const Statistics low = simulate({.assumed_sigma = 0.15}, 500, 1), high = simulate({.assumed_sigma = 0.6}, 500, 1);
   EXPECT_GT(low.nees, low.high(low.nees_degrees));
   EXPECT_LT(high.nees, high.low(high.nees_degrees));
 }

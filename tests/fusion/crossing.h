@@ -19,22 +19,22 @@ namespace ttf::fusion {
 //            0 s       3 s        6 s
 struct Crossing {
   double detection_probability = 0.9;
-  double clutter_density = 0.01;   // [1/m^2]
-  double process_noise = 0.5;      // of the truth [m^2/s^3]
+  double clutter_density = 0.01;  // [1/m^2]
+  double process_noise = 0.5;     // of the truth [m^2/s^3]
 
   // Positions, and everything else, of both objects at each list.
   struct Drive {
-    std::vector<std::vector<State>> truth;   // by list, by object
+    std::vector<std::vector<State>> truth;  // by list, by object
     std::vector<OwnedScan> lists;
   };
   Drive draw_drive(std::uint64_t seed) const;
-  TrackerConfig config() const;   // that knows all this
+  TrackerConfig config() const;  // that knows all this
 };
 
 struct Followed {
-  double nees = 0.0;            // mean of (x, y, vx, vy) over all objects and lists with a track within 5 m
-  double gospa = 0.0;           // mean [m], cut-off 5 m, order 2
-  std::uint64_t switches = 0, misses = 0, false_tracks = 0;   // CLEAR-MOT, gate 3 m
+  double nees = 0.0;   // mean of (x, y, vx, vy) over all objects and lists with a track within 5 m
+  double gospa = 0.0;  // mean [m], cut-off 5 m, order 2
+  std::uint64_t switches = 0, misses = 0, false_tracks = 0;  // CLEAR-MOT, gate 3 m
 };
 // Over `runs` drives of seeds 1, 2, ...; judged from 1.5 s on.
 Followed follow(const Crossing& crossing, const TrackerConfig& config, int runs);

@@ -13,7 +13,7 @@ MatrixXd inverse(const MatrixXd& a) { return a.inverse(); }
 MatrixXd solve(const MatrixXd& a, const MatrixXd& b) { return a.ldlt().solve(b); }
 double norm_squared(const VectorXd& e, const MatrixXd& p) { return e.dot(p.ldlt().solve(e)); }
 double least_eigenvalue(const MatrixXd& a) {
-  return Eigen::SelfAdjointEigenSolver<MatrixXd>(a, Eigen::EigenvaluesOnly).eigenvalues()(0);   // ascending
+  return Eigen::SelfAdjointEigenSolver<MatrixXd>(a, Eigen::EigenvaluesOnly).eigenvalues()(0);  // ascending
 }
 
 }  // namespace ttf::fusion::dense

@@ -8,17 +8,15 @@ namespace ttf::fusion {
 SensorTiming free_running(std::uint8_t sensor, std::int64_t worst_ms) {
   return {static_cast<SensorId>(sensor), Settling::after(Duration::milliseconds(worst_ms)), false, {}, {}};
 }
-SensorTiming scheduled(std::uint8_t sensor, std::int64_t worst_ms, std::int64_t first_ms,
-                       std::int64_t period_ms) {
-  return {static_cast<SensorId>(sensor), Settling::after(Duration::milliseconds(worst_ms)), true,
-          at_ms(first_ms), Duration::milliseconds(period_ms)};
+SensorTiming scheduled(std::uint8_t sensor, std::int64_t worst_ms, std::int64_t first_ms, std::int64_t period_ms) {
+  return {static_cast<SensorId>(sensor), Settling::after(Duration::milliseconds(worst_ms)), true, at_ms(first_ms),
+          Duration::milliseconds(period_ms)};
 }
 
 std::vector<SensorTiming> laser_and_camera() { return {scheduled(0, 60, 0, 80), scheduled(1, 35, 20, 40)}; }
 
 void sort_by_arrival(std::vector<Arrival>& arrivals) {
-  std::stable_sort(arrivals.begin(), arrivals.end(),
-                   [](const Arrival& a, const Arrival& b) { return a.ms < b.ms; });
+  std::stable_sort(arrivals.begin(), arrivals.end(), [](const Arrival& a, const Arrival& b) { return a.ms < b.ms; });
 }
 
 std::vector<Arrival> drawn_drive(std::uint64_t seed, std::uint32_t laser_scans) {
@@ -27,11 +25,10 @@ std::vector<Arrival> drawn_drive(std::uint64_t seed, std::uint32_t laser_scans) 
       camera{.sigma = 0.4, .miss_probability = 0.1, .seed = seed + 1000};
   std::vector<Arrival> arrivals;
   for (std::uint32_t k = 0; k < laser_scans; ++k)
-    arrivals.push_back(
-        {80 * k + stream.integer(30, 60), scan(0, k, at_ms(80 * k), laser.see(at_ms(80 * k), k))});
+    arrivals.push_back({80 * k + stream.integer(30, 60), scan(0, k, at_ms(80 * k), laser.see(at_ms(80 * k), k))});
   for (std::uint32_t k = 0; k < 2 * laser_scans; ++k)
-    arrivals.push_back({20 + 40 * k + stream.integer(5, 35),
-                        scan(1, k, at_ms(20 + 40 * k), camera.see(at_ms(20 + 40 * k), k))});
+    arrivals.push_back(
+        {20 + 40 * k + stream.integer(5, 35), scan(1, k, at_ms(20 + 40 * k), camera.see(at_ms(20 + 40 * k), k))});
   return arrivals;
 }
 
@@ -48,8 +45,7 @@ std::vector<Fused> run(Strategy& strategy, std::vector<Arrival> arrivals, std::i
   std::vector<Fused> out;
   std::size_t next = 0;
   for (std::int64_t now = 0; now <= until; now += 10) {
-    for (; next < arrivals.size() && arrivals[next].ms <= now; ++next)
-      strategy.accept(arrivals[next].scan.view());
+    for (; next < arrivals.size() && arrivals[next].ms <= now; ++next) strategy.accept(arrivals[next].scan.view());
     strategy.fuse(at_ms(now));
     for (const FusedScan& f : strategy.last_fused())
       if (f.disposition != Disposition::kHeld) out.push_back({now, f.id, f.disposition});

@@ -22,8 +22,7 @@ inline std::string name_of(const testing::TestParamInfo<StrategyKind>& kind) {
 // What the schedule promises of a sensor: measurements at unknown instants, or every `period_ms` from
 // `first_ms`.
 SensorTiming free_running(std::uint8_t sensor, std::int64_t worst_ms);
-SensorTiming scheduled(std::uint8_t sensor, std::int64_t worst_ms, std::int64_t first_ms,
-                       std::int64_t period_ms);
+SensorTiming scheduled(std::uint8_t sensor, std::int64_t worst_ms, std::int64_t first_ms, std::int64_t period_ms);
 
 // Laser and camera, both on a schedule: from 0 every 80 ms, there after 60 ms at worst; from 20 every 40 ms,
 // after 35.
@@ -47,8 +46,7 @@ struct Fused {
   bool operator==(const Fused&) const = default;
 };
 std::ostream& operator<<(std::ostream& out, const Fused& f);
-Fused fused(std::int64_t ms, std::uint8_t sensor, std::uint32_t sequence,
-            Disposition d = Disposition::kFused);
+Fused fused(std::int64_t ms, std::uint8_t sensor, std::uint32_t sequence, Disposition d = Disposition::kFused);
 
 // Fusion every 10 ms from 0 to `until`; what was reported, held scans left out.
 std::vector<Fused> run(Strategy& strategy, std::vector<Arrival> arrivals, std::int64_t until);

@@ -171,13 +171,11 @@ TEST(InitialEstimate, RadarKnowsTheVelocityAlongItsBeam) {
   const Eigen::Vector2d along(std::cos(bearing), std::sin(bearing)), across(-along(1), along(0));
   EXPECT_LT((estimate.x.head<2>() - 20.0 * along).norm(), 1e-12);
   EXPECT_LT((estimate.x.segment<2>(2) + 4.0 * along).norm(), 1e-12);
-  const Eigen::Matrix2d position_p = estimate.p.topLeftCorner<2, 2>(),
-                        velocity_p = estimate.p.block<2, 2>(2, 2);
+  const Eigen::Matrix2d position_p = estimate.p.topLeftCorner<2, 2>(), velocity_p = estimate.p.block<2, 2>(2, 2);
   EXPECT_NEAR(along.dot(position_p * along), 0.3 * 0.3, 1e-12);
   EXPECT_NEAR(across.dot(position_p * across), 20.0 * 20.0 * 0.03 * 0.03, 1e-12);
   EXPECT_NEAR(along.dot(velocity_p * along), 0.2 * 0.2, 1e-12);
-  EXPECT_NEAR(across.dot(velocity_p * across), config.initial_velocity_sigma * config.initial_velocity_sigma,
-              1e-9);
+  EXPECT_NEAR(across.dot(velocity_p * across), config.initial_velocity_sigma * config.initial_velocity_sigma, 1e-9);
 }
 
 TEST(InitialEstimate, PositionAloneLeavesVelocityOpen) {
@@ -230,10 +228,10 @@ TEST_P(EveryEstimator, KeepsItsLaws) {
     expect_lawful(estimate, k);
     if (k >= 400 && k < 440) continue;
     const double range = at.norm();
-    const Observation z =
-        k % 2 ? position(at(0) + 0.2 * stream.normal(), at(1) + 0.2 * stream.normal(), 0.2)
-              : radar(range + 0.3 * stream.normal(), std::atan2(at(1), at(0)) + 0.02 * stream.normal(),
-                      at.dot(velocity) / range + 0.3 * stream.normal(), 0.3, 0.02, 0.3);
+    const Observation z = k % 2
+                              ? position(at(0) + 0.2 * stream.normal(), at(1) + 0.2 * stream.normal(), 0.2)
+                              : radar(range + 0.3 * stream.normal(), std::atan2(at(1), at(0)) + 0.02 * stream.normal(),
+                                      at.dot(velocity) / range + 0.3 * stream.normal(), 0.3, 0.02, 0.3);
     const std::optional<double> distance_squared = estimator->distance_squared(estimate, z);
     ASSERT_TRUE(!distance_squared || *distance_squared >= 0.0) << k;
     estimator->update(estimate, z);

@@ -15,8 +15,7 @@ namespace {
 
 class EveryStrategy : public testing::TestWithParam<StrategyKind> {};
 INSTANTIATE_TEST_SUITE_P(All, EveryStrategy,
-                         testing::Values(StrategyKind::kBuff, StrategyKind::kAdva, StrategyKind::kTt),
-                         name_of);
+                         testing::Values(StrategyKind::kBuff, StrategyKind::kAdva, StrategyKind::kTt), name_of);
 
 TEST_P(EveryStrategy, EndsWithTheBitsOfInOrderProcessing) {
   const std::vector<Arrival> arrivals = drawn_drive(1, 40);
@@ -32,23 +31,20 @@ TEST_P(EveryStrategy, EndsWithTheBitsOfInOrderProcessing) {
 
   std::vector<OwnedScan> in_order;
   for (const Arrival& a : arrivals) in_order.push_back(a.scan);
-  std::sort(in_order.begin(), in_order.end(), [](const OwnedScan& a, const OwnedScan& b) {
-    return before(a.id, a.measured, b.id, b.measured);
-  });
+  std::sort(in_order.begin(), in_order.end(),
+            [](const OwnedScan& a, const OwnedScan& b) { return before(a.id, a.measured, b.id, b.measured); });
   Timeline timeline(TrackerConfig{}, TrackerConfig{}.max_observations);
   for (const OwnedScan& s : in_order) timeline.insert(s.view());
   std::vector<TrackView> expected, image;
   for (const Track& track : timeline.current().tracks)
-    if (track.confirmed)
-      expected.push_back(shown(track, timeline.current().time, at_ms(3300)));
+    if (track.confirmed) expected.push_back(shown(track, timeline.current().time, at_ms(3300)));
   strategy->image(at_ms(3300), image);
   EXPECT_EQ(image.size(), 25u);
   EXPECT_TRUE(same_bits(image, expected));
   EXPECT_EQ(strategy->confirmed_count(), 25);
   EXPECT_EQ(strategy->newest_measured(), in_order.back().measured);
   ASSERT_EQ(strategy->newest().size(), 2u);
-  for (const MeasurementId& id : strategy->newest())
-    EXPECT_EQ(id.sequence, id.sensor == SensorId{0} ? 39u : 79u);
+  for (const MeasurementId& id : strategy->newest()) EXPECT_EQ(id.sequence, id.sensor == SensorId{0} ? 39u : 79u);
 }
 
 TEST_P(EveryStrategy, AnImageLeavesNoTrace) {
@@ -106,9 +102,8 @@ TEST_P(EveryStrategy, ADuplicateIsReportedAndChangesNothing) {
   const std::size_t count = run(*once, arrivals, 1000).size();
   const std::vector<Fused> result = run(*twice, repeated, 1000);
   EXPECT_EQ(result.size(), 3 * count);
-  EXPECT_EQ(static_cast<std::size_t>(
-                std::count_if(result.begin(), result.end(),
-                              [](const Fused& f) { return f.disposition == Disposition::kDuplicate; })),
+  EXPECT_EQ(static_cast<std::size_t>(std::count_if(
+                result.begin(), result.end(), [](const Fused& f) { return f.disposition == Disposition::kDuplicate; })),
             2 * count);
   std::vector<TrackView> a, b;
   once->image(at_ms(1000), a);
@@ -158,8 +153,7 @@ TEST_P(EveryStrategy, WhatTheAccountHasNoRoomForIsCounted) {
 
 TEST_P(EveryStrategy, AllocatesNothingAfterConstruction) {
   std::vector<Arrival> arrivals = drawn_drive(4, 60);
-  for (std::size_t i = 0; i < 20; ++i)
-    arrivals.push_back({arrivals[i].ms + 50, arrivals[i].scan});  // duplicates too
+  for (std::size_t i = 0; i < 20; ++i) arrivals.push_back({arrivals[i].ms + 50, arrivals[i].scan});  // duplicates too
   sort_by_arrival(arrivals);
   std::vector<TrackView> image;
   image.reserve(25);
@@ -167,8 +161,7 @@ TEST_P(EveryStrategy, AllocatesNothingAfterConstruction) {
   std::size_t next = 0;
   const std::int64_t before_all = support::allocations();
   for (std::int64_t now = 0; now <= 5000; now += 10) {
-    for (; next < arrivals.size() && arrivals[next].ms <= now; ++next)
-      strategy->accept(arrivals[next].scan.view());
+    for (; next < arrivals.size() && arrivals[next].ms <= now; ++next) strategy->accept(arrivals[next].scan.view());
     strategy->fuse(at_ms(now));
     if (now % 40 == 0) strategy->image(at_ms(now + 40), image);
   }

@@ -97,8 +97,7 @@ TEST(Existence, OfTwoTracksThatShareAnObservation) {
   EXPECT_NEAR(joint.of_column(0)[0].probability, first / all, 1e-15);
   EXPECT_NEAR(joint.of_column(1)[0].probability, second / all, 1e-15);
   const double exists = joint.of_column(0)[0].probability + joint.none_of_column(0) * exists_unseen(e1, config);
-  const double by_hand =
-      (first + (none + second) * e1 * (1.0 - gated) / (1.0 - gated * e1)) / all;
+  const double by_hand = (first + (none + second) * e1 * (1.0 - gated) / (1.0 - gated * e1)) / all;
   EXPECT_NEAR(exists, by_hand, 1e-15);
   // Alone, the joint form is the single track's.
   const Pair lone[] = {{0, 0, joint_weight(e1, r1, config)}};

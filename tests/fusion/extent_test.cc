@@ -40,16 +40,13 @@ TEST(Subtended, IsTheOutlinesAndItsDerivativesAreTheNumericOnes) {
         const Eigen::Vector2d step = h * Eigen::Vector2d::Unit(d);
         EXPECT_NEAR(
             s.by_size(d),
-            (subtended(range, aspect, size + step).angle - subtended(range, aspect, size - step).angle) /
-                (2 * h),
+            (subtended(range, aspect, size + step).angle - subtended(range, aspect, size - step).angle) / (2 * h),
             1e-7);
       }
     }
 }
 
-TEST(Subtended, NothingWhereTheOutlineReachesBehindTheSensor) {
-  EXPECT_EQ(subtended(2.0, 0.0, {4.4, 1.8}).angle, 0.0);
-}
+TEST(Subtended, NothingWhereTheOutlineReachesBehindTheSensor) { EXPECT_EQ(subtended(2.0, 0.0, {4.4, 1.8}).angle, 0.0); }
 
 Aspect seen(double range, double angle, double sigma_angle) { return {range, 0.05, angle, sigma_angle}; }
 double span_of(double range, double angle) { return subtended(range, angle, {4.4, 1.8}).angle; }
@@ -94,8 +91,7 @@ TEST(Extent, ErrorsThatRepeatAreNotAveragedAway) {
       Extent extent;
       correct_length(extent, 4.4 + 0.2 * stream.normal(), 0.2);
       for (int k = 0; k < 200; ++k)
-        correct_span(extent, seen(20.0, angle + off, sigma), span_of(20.0, angle) + 0.002 * stream.normal(),
-                     0.002);
+        correct_span(extent, seen(20.0, angle + off, sigma), span_of(20.0, angle) + 0.002 * stream.normal(), 0.002);
       const Eigen::Vector2d error = extent.size - Eigen::Vector2d(4.4, 1.8);
       squares += error.dot(extent.covariance.inverse() * error);
       ++n;

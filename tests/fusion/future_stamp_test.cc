@@ -16,10 +16,9 @@ INSTANTIATE_TEST_SUITE_P(WhoWait, FutureStamp, testing::Values(StrategyKind::kBu
 
 TEST_P(FutureStamp, EndsNobodysWaiting) {
   const bool scheduled = GetParam() == StrategyKind::kTt;
-  const std::vector<SensorTiming> sensors{{SensorId{0}, Settling::after(Duration::milliseconds(60)),
-                                           scheduled, at_ms(10), Duration::milliseconds(80)},
-                                          {SensorId{1}, Settling::after(Duration::milliseconds(30)),
-                                           scheduled, at_ms(20), Duration::milliseconds(40)}};
+  const std::vector<SensorTiming> sensors{
+      {SensorId{0}, Settling::after(Duration::milliseconds(60)), scheduled, at_ms(10), Duration::milliseconds(80)},
+      {SensorId{1}, Settling::after(Duration::milliseconds(30)), scheduled, at_ms(20), Duration::milliseconds(40)}};
   const auto strategy = make_strategy(GetParam(), {}, sensors);
   strategy->accept(scan(0, 0, at_ms(30'000)).view());
   strategy->accept(scan(1, 0, at_ms(20)).view());

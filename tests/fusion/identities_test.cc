@@ -56,8 +56,7 @@ TEST(Identities, ATrackKeepsItsIdThroughManyLateScans) {
     in_order.insert(scan(1, k, between, many.see(between, k)).view());
     if (k >= 3) {
       const GlobalTime past = at_ms(40 * (k - 3) + 20);
-      late +=
-          timeline.insert(scan(1, k - 3, past, many.see(past, k - 3)).view()) == Timeline::Insertion::kLate;
+      late += timeline.insert(scan(1, k - 3, past, many.see(past, k - 3)).view()) == Timeline::Insertion::kLate;
     }
     births(timeline.current());
     for (const Track& track : timeline.current().tracks) {
@@ -67,15 +66,13 @@ TEST(Identities, ATrackKeepsItsIdThroughManyLateScans) {
         if ((many.truth(object, t) - state_of(track)).head<2>().norm() < 2.0) nearest = object;
       ASSERT_GE(nearest, 0) << "scan " << k;
       const auto [known, first] = object_of.try_emplace(track.id, nearest);
-      ASSERT_EQ(known->second, nearest)
-          << "id " << index_of(track.id) << " went to another object at scan " << k;
+      ASSERT_EQ(known->second, nearest) << "id " << index_of(track.id) << " went to another object at scan " << k;
       ids_of[nearest].insert(track.id);
     }
   }
   EXPECT_EQ(late, 197);
   ASSERT_EQ(ids_of.size(), 10u);
-  for (const auto& [object, ids] : ids_of)
-    EXPECT_EQ(ids.size(), 1u) << "object " << object << " changed its id";
+  for (const auto& [object, ids] : ids_of) EXPECT_EQ(ids.size(), 1u) << "object " << object << " changed its id";
   // What is still under way in order is late here: then both have taken in the same scans.
   for (std::uint32_t k = 197; k < 200; ++k) {
     const GlobalTime past = at_ms(40 * k + 20);

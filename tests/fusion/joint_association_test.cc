@@ -16,7 +16,7 @@ namespace {
 
 struct Table {
   std::size_t rows = 0, columns = 0;
-  std::vector<double> values;   // by row
+  std::vector<double> values;  // by row
   Table(std::size_t r, std::size_t c) : rows(r), columns(c), values(r * c) {}
   double& at(std::size_t r, std::size_t c) { return values[r * columns + c]; }
   double at(std::size_t r, std::size_t c) const { return values[r * columns + c]; }
@@ -31,7 +31,7 @@ struct Table {
 
 struct Probabilities {
   Table of;
-  std::vector<double> none;   // by column
+  std::vector<double> none;  // by column
   double all = 0.0;
   explicit Probabilities(const Table& weights) : of(weights.rows, weights.columns), none(weights.columns) {}
 };

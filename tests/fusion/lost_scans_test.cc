@@ -15,8 +15,8 @@ namespace ttf::fusion {
 namespace {
 
 class LostScans : public testing::TestWithParam<StrategyKind> {};
-INSTANTIATE_TEST_SUITE_P(All, LostScans,
-                         testing::Values(StrategyKind::kBuff, StrategyKind::kAdva, StrategyKind::kTt), name_of);
+INSTANTIATE_TEST_SUITE_P(All, LostScans, testing::Values(StrategyKind::kBuff, StrategyKind::kAdva, StrategyKind::kTt),
+                         name_of);
 
 // A span of the drive in which a sensor is dead; its last list may be on its way still.
 struct Silence {
@@ -54,10 +54,10 @@ std::vector<TrackView> in_order(std::vector<Arrival> arrivals, GlobalTime at) {
 }
 
 void expect_as_if_never_sent(StrategyKind kind, const std::vector<Arrival>& arrivals, std::size_t tracks) {
-  constexpr std::int64_t kEnd = 4'200, kLongestWay = 60;   // [ms]
+  constexpr std::int64_t kEnd = 4'200, kLongestWay = 60;  // [ms]
   const auto strategy = make_strategy(kind, {}, laser_and_camera());
   const std::vector<Fused> result = run(*strategy, arrivals, kEnd);
-  std::map<MeasurementId, std::pair<std::int64_t, std::int64_t>> times;   // measured, arrived
+  std::map<MeasurementId, std::pair<std::int64_t, std::int64_t>> times;  // measured, arrived
   for (const Arrival& a : arrivals) times[a.scan.id] = {(a.scan.measured - GlobalTime{}).ns / 1'000'000, a.ms};
   EXPECT_EQ(result.size(), arrivals.size()) << "each once";
   for (const Fused& f : result) {
@@ -80,8 +80,7 @@ void expect_as_if_never_sent(StrategyKind kind, const std::vector<Arrival>& arri
 constexpr SensorId kLaser{0}, kCamera{1};
 
 TEST_P(LostScans, OneInFive) {
-  for (std::uint64_t seed = 1; seed <= 20; ++seed)
-    expect_as_if_never_sent(GetParam(), survivors(seed, 5, {}), 25);
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) expect_as_if_never_sent(GetParam(), survivors(seed, 5, {}), 25);
 }
 
 TEST_P(LostScans, OneSensorDeadForGood) {

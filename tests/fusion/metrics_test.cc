@@ -32,8 +32,7 @@ TEST(ChiSquare, MatchesTheTables) {
 TEST(ChiSquare, InvertsTheDistribution) {
   for (const double degrees : {1.0, 2.0, 6.0, 400.0, 20000.0})
     for (const double probability : {1e-4, 0.025, 0.5, 0.9973, 0.999999})
-      EXPECT_NEAR(regularised_gamma(0.5 * degrees, 0.5 * chi_square_quantile(probability, degrees)),
-                  probability, 1e-9);
+      EXPECT_NEAR(regularised_gamma(0.5 * degrees, 0.5 * chi_square_quantile(probability, degrees)), probability, 1e-9);
 }
 
 }  // namespace

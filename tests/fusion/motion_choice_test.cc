@@ -24,14 +24,14 @@ namespace {
 
 constexpr int kRuns = 300, kSteps = 100;
 constexpr double kDt = 0.05, kSigma = 0.2;
-constexpr double kAlong = 0.5, kTurn = 0.05;   // densities of the drawn drives
+constexpr double kAlong = 0.5, kTurn = 0.05;  // densities of the drawn drives
 
 TrackerConfig alone(MotionModel motion, double process_noise, FilterKind filter) {
   TrackerConfig config = config_of(motion, process_noise, filter);
   config.turn_noise = kTurn;
   config.initial_turn_rate_sigma = 0.5;
   config.confirm_hits = config.confirm_window = 1;
-  config.gate_probability = 0.999999;   // one object, no clutter
+  config.gate_probability = 0.999999;  // one object, no clutter
   return config;
 }
 
@@ -44,8 +44,7 @@ struct Judged {
   static double upper() { return chi_square_quantile(1.0 - 1e-4, 4.0 * kRuns) / kRuns; }
 };
 
-template <class M>
-Judged judge(const TrackerConfig& config, const M& truth, const Vector<M::kStates>& start) {
+template <class M> Judged judge(const TrackerConfig& config, const M& truth, const Vector<M::kStates>& start) {
   Judged judged;
   for (int run = 0; run < kRuns; ++run) {
     RandomStream stream({.seed = 31, .replication = static_cast<std::uint32_t>(run)});
@@ -86,8 +85,7 @@ Judged on_a_bend_faster_and_faster(MotionModel motion, double process_noise, Fil
 }
 
 // Its covariance is true, and whatever constant velocity takes the noise for that a bend is to it, it is nearer.
-template <class Straight>
-void expect_right(const Judged& right, const Straight& straight_with) {
+template <class Straight> void expect_right(const Judged& right, const Straight& straight_with) {
   EXPECT_EQ(right.lost, 0);
   EXPECT_GT(right.nees, Judged::lower());
   EXPECT_LT(right.nees, Judged::upper());
@@ -118,9 +116,8 @@ TEST_P(OnABend, CtrvIsRight) {
 TEST_P(OnABend, CtraIsRightWithAccelerationToo) {
   const Judged right = on_a_bend_faster_and_faster(MotionModel::kCtra, kAlong, GetParam());
   std::cout << "ctra: nees " << right.nees << ", " << right.position << " m, " << right.velocity << " m/s\n";
-  expect_right(right, [](double q) {
-    return on_a_bend_faster_and_faster(MotionModel::kConstantVelocity, q, GetParam());
-  });
+  expect_right(right,
+               [](double q) { return on_a_bend_faster_and_faster(MotionModel::kConstantVelocity, q, GetParam()); });
   const Judged constant_speed = on_a_bend_faster_and_faster(MotionModel::kCtrv, kAlong, GetParam());
   std::cout << "ctrv: nees " << constant_speed.nees << ", " << constant_speed.position << " m\n";
   EXPECT_GT(constant_speed.nees, Judged::upper()) << "it accelerates";
@@ -128,7 +125,7 @@ TEST_P(OnABend, CtraIsRightWithAccelerationToo) {
 
 // Straight on for five seconds, then a bend for five: either model alone is worse somewhere.
 struct Legs {
-  double straight = 0.0, bend = 0.0;   // root mean squares of the velocity's error
+  double straight = 0.0, bend = 0.0;  // root mean squares of the velocity's error
 };
 Legs on_two_legs(MotionModel motion, FilterKind filter) {
   Legs legs;
@@ -181,7 +178,7 @@ std::vector<OwnedScan> scans_of_two_cars(std::uint32_t count) {
   cars[0] << 30.0, 5.0, 0.2, 12.0, 0.6;
   cars[1] << 25.0, -6.0, 3.0, 8.0, 0.0;
   for (std::uint32_t k = 0; k < count; ++k) {
-    const bool tie = k % 7 == 2 || k % 7 == 3;   // at the instant of the one before
+    const bool tie = k % 7 == 2 || k % 7 == 3;  // at the instant of the one before
     std::vector<Observation> seen;
     for (Vector<5>& car : cars) {
       if (!tie) car = way.move(car, 0.05);
@@ -218,8 +215,7 @@ TEST_P(EveryChoice, AnyOrderOfArrivalGivesTheSameBits) {
   RandomStream stream({.seed = 34});
   for (int draw = 0; draw < 20; ++draw) {
     for (std::size_t i = order.size(); i > 1; --i)
-      std::swap(order[i - 1],
-                order[static_cast<std::size_t>(stream.integer(0, static_cast<std::int64_t>(i) - 1))]);
+      std::swap(order[i - 1], order[static_cast<std::size_t>(stream.integer(0, static_cast<std::int64_t>(i) - 1))]);
     expect_the_same_in_every_order(config, scans, order, in_order.current());
   }
 }

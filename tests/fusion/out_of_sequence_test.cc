@@ -31,8 +31,7 @@ struct Updated {
   Matrix p, w, p_tau, mse;  // mse: the true error covariance, whatever p claims
 };
 
-AtK update_at_k(const Vector& prior_x, const Matrix& prior_p, const Vector& z, const Matrix& h,
-                const Matrix& r) {
+AtK update_at_k(const Vector& prior_x, const Matrix& prior_p, const Vector& z, const Matrix& h, const Matrix& r) {
   AtK k;
   k.prior_p = prior_p;
   k.h = h;
@@ -65,9 +64,8 @@ Updated algorithm(char which, const AtK& k, const Late& late) {
   u.w = c * dense::inverse(s);
   u.x = k.x + u.w * (late.z - late.h * x_tau);
   u.p = k.p - u.w * s * u.w.transpose();
-  const Matrix e = which == 'A'
-                       ? u.p_tau
-                       : Matrix(late.fb * (k.p + late.q - p_xv - p_xv.transpose()) * late.fb.transpose());
+  const Matrix e =
+      which == 'A' ? u.p_tau : Matrix(late.fb * (k.p + late.q - p_xv - p_xv.transpose()) * late.fb.transpose());
   u.mse = k.p - u.w * true_c.transpose() - true_c * u.w.transpose() +
           u.w * (late.h * e * late.h.transpose() + late.r) * u.w.transpose();
   return u;
@@ -85,9 +83,7 @@ TEST(OutOfSequence, ThePaperTableI) {
   const struct {
     char which;
     double p_tau, w, p, mse;
-  } rows[] = {{'A', 0.750, 0.286, 0.524, 0.524},
-              {'B', 0.833, 0.273, 0.530, 0.530},
-              {'C', 0.667, 0.400, 0.400, 0.560}};
+  } rows[] = {{'A', 0.750, 0.286, 0.524, 0.524}, {'B', 0.833, 0.273, 0.530, 0.530}, {'C', 0.667, 0.400, 0.400, 0.560}};
   for (const auto& row : rows) {
     const Updated u = random_walk(row.which, 1.0);
     EXPECT_NEAR(u.p_tau(0, 0), row.p_tau, 5e-4) << row.which;

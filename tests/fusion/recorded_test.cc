@@ -87,9 +87,8 @@ class Recorded : public testing::TestWithParam<Told> {
     ASSERT_EQ(rows.size(), 500u);
   }
   std::vector<Row> rows;
-  const std::vector<SensorTiming> sensors{
-      {SensorId{0}, Settling::after(Duration::milliseconds(10)), false, {}, {}},
-      {SensorId{1}, Settling::after(Duration::milliseconds(70)), false, {}, {}}};
+  const std::vector<SensorTiming> sensors{{SensorId{0}, Settling::after(Duration::milliseconds(10)), false, {}, {}},
+                                          {SensorId{1}, Settling::after(Duration::milliseconds(70)), false, {}, {}}};
 };
 INSTANTIATE_TEST_SUITE_P(Models, Recorded, testing::ValuesIn(kTold),
                          [](const auto& model) { return std::string(model.param.name); });

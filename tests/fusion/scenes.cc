@@ -21,8 +21,7 @@ Observation radar(double range, double bearing, double rate, double sigma_range,
   Observation z;
   z.kind = ObservationKind::kRangeBearingRate;
   z.z << range, bearing, rate;
-  z.r = Eigen::Vector3d(sigma_range * sigma_range, sigma_bearing * sigma_bearing, sigma_rate * sigma_rate)
-            .asDiagonal();
+  z.r = Eigen::Vector3d(sigma_range * sigma_range, sigma_bearing * sigma_bearing, sigma_rate * sigma_rate).asDiagonal();
   return z;
 }
 
@@ -68,13 +67,11 @@ Covariance transition(MotionModel motion, double dt) {
 
 Covariance driving_noise(MotionModel motion, double q, double dt) {
   // Three nodes: exact to degree 5, and the highest power here is 4.
-  const double nodes[] = {-std::sqrt(0.6), 0.0, std::sqrt(0.6)},
-               weights[] = {5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
+  const double nodes[] = {-std::sqrt(0.6), 0.0, std::sqrt(0.6)}, weights[] = {5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
   const int driven = motion == MotionModel::kConstantAcceleration ? 4 : 2;
   Covariance sum = Covariance::Zero();
   for (int i = 0; i < 3; ++i) {
-    const Eigen::Matrix<double, 6, 2> g =
-        transition(motion, 0.5 * dt * (1.0 + nodes[i])).middleCols<2>(driven);
+    const Eigen::Matrix<double, 6, 2> g = transition(motion, 0.5 * dt * (1.0 + nodes[i])).middleCols<2>(driven);
     sum += 0.5 * dt * weights[i] * q * g * g.transpose();
   }
   return sum;
@@ -91,8 +88,7 @@ State draw(const State& mean, const Covariance& covariance, RandomStream& stream
 
 namespace {
 
-template <int R, int C>
-bool same(const Eigen::Matrix<double, R, C>& a, const Eigen::Matrix<double, R, C>& b) {
+template <int R, int C> bool same(const Eigen::Matrix<double, R, C>& a, const Eigen::Matrix<double, R, C>& b) {
   return std::memcmp(a.data(), b.data(), sizeof(double) * static_cast<std::size_t>(a.size())) == 0;
 }
 bool same(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
@@ -100,16 +96,12 @@ bool same(const Scalar& a, const Scalar& b) {
   return same(a.value, b.value) && same(a.variance, b.variance) && a.known == b.known;
 }
 
-template <int N>
-bool same(const Gaussian<N>& a, const Gaussian<N>& b) {
-  return same(a.x, b.x) && same(a.p, b.p);
-}
+template <int N> bool same(const Gaussian<N>& a, const Gaussian<N>& b) { return same(a.x, b.x) && same(a.p, b.p); }
 bool same(const StraightOrTurning& a, const StraightOrTurning& b) {
   return same(std::get<0>(a.estimates), std::get<0>(b.estimates)) &&
          same(std::get<1>(a.estimates), std::get<1>(b.estimates)) && same(a.probability, b.probability);
 }
-template <int N>
-bool same(const WithBiases<N>& a, const WithBiases<N>& b) {
+template <int N> bool same(const WithBiases<N>& a, const WithBiases<N>& b) {
   return same(a.state, b.state) && same(a.cross, b.cross);
 }
 
@@ -125,25 +117,22 @@ bool same_bits(const TrackSet& a, const TrackSet& b) {
          std::equal(a.tracks.begin(), a.tracks.end(), b.tracks.begin(), b.tracks.end(),
                     [](const Track& s, const Track& t) {
                       return s.birth == t.birth && s.newest == t.newest && same_bits(s.estimate, t.estimate) &&
-                             same(s.heading, t.heading) &&
-                             same(s.extent.size, t.extent.size) &&
-                             same(s.extent.covariance, t.extent.covariance) && s.hits == t.hits &&
-                             s.scans == t.scans && s.misses == t.misses && s.confirmed == t.confirmed &&
-                             same(s.existence, t.existence) && s.twin_scans == t.twin_scans &&
-                             (s.twin_scans == 0 || s.twin == t.twin);
+                             same(s.heading, t.heading) && same(s.extent.size, t.extent.size) &&
+                             same(s.extent.covariance, t.extent.covariance) && s.hits == t.hits && s.scans == t.scans &&
+                             s.misses == t.misses && s.confirmed == t.confirmed && same(s.existence, t.existence) &&
+                             s.twin_scans == t.twin_scans && (s.twin_scans == 0 || s.twin == t.twin);
                     });
 }
 
 bool same_bits(const std::vector<TrackView>& a, const std::vector<TrackView>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const TrackView& s, const TrackView& t) {
-    return s.id == t.id && s.valid_at == t.valid_at && same(s.state, t.state) &&
-           same(s.covariance, t.covariance) && same(s.heading, t.heading) &&
-           same(s.sigma_heading, t.sigma_heading) && same(s.speed, t.speed) &&
+    return s.id == t.id && s.valid_at == t.valid_at && same(s.state, t.state) && same(s.covariance, t.covariance) &&
+           same(s.heading, t.heading) && same(s.sigma_heading, t.sigma_heading) && same(s.speed, t.speed) &&
            same(s.sigma_speed, t.sigma_speed) && same(s.acceleration, t.acceleration) &&
            same(s.sigma_acceleration, t.sigma_acceleration) && same(s.length, t.length) &&
-           same(s.sigma_length, t.sigma_length) && same(s.width, t.width) &&
-           same(s.sigma_width, t.sigma_width) && s.confirmed == t.confirmed && s.coasting == t.coasting &&
-           s.has_length == t.has_length && s.has_width == t.has_width;
+           same(s.sigma_length, t.sigma_length) && same(s.width, t.width) && same(s.sigma_width, t.sigma_width) &&
+           s.confirmed == t.confirmed && s.coasting == t.coasting && s.has_length == t.has_length &&
+           s.has_width == t.has_width;
   });
 }
 
@@ -173,8 +162,7 @@ std::vector<Observation> Lanes::see(GlobalTime at, std::uint32_t index) const {
     if (stream.uniform() >= miss_probability) seen.push_back(z);
   }
   for (std::size_t i = seen.size(); i > 1; --i)
-    std::swap(seen[i - 1],
-              seen[static_cast<std::size_t>(stream.integer(0, static_cast<std::int64_t>(i) - 1))]);
+    std::swap(seen[i - 1], seen[static_cast<std::size_t>(stream.integer(0, static_cast<std::int64_t>(i) - 1))]);
   return seen;
 }
 

@@ -64,7 +64,7 @@ bool same_bits(const std::vector<TrackView>& a, const std::vector<TrackView>& b)
 // by one of two sensors in turn. A pure function of its arguments.
 struct Lanes {
   int objects = 25;
-  int across = 5;   // lanes
+  int across = 5;  // lanes
   double sigma = 0.2;
   double miss_probability = 0.0;
   std::uint64_t seed = 1;

@@ -10,15 +10,13 @@
 namespace ttf::fusion {
 
 // What an update did; nu and S are those before it.
-template <int N, int M>
-struct Correction {
+template <int N, int M> struct Correction {
   Vector<M> nu;
   Matrix<M> s;
   Matrix<N, M> k;
 };
 
-template <int N, int M>
-Correction<N, M> update(Gaussian<N>& state, const LinearMeasurement<N, M>& measurement) {
+template <int N, int M> Correction<N, M> update(Gaussian<N>& state, const LinearMeasurement<N, M>& measurement) {
   Correction<N, M> c;
   c.nu = measurement.z - measurement.h * state.x;
   const Matrix<M, N> hp = measurement.h * state.p;

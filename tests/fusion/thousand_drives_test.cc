@@ -27,9 +27,9 @@ namespace {
 using metrics::Consistency;
 
 constexpr std::uint32_t kDrives = 1000, kLists = 80;
-constexpr std::int64_t kEvery = 50, kLatest = 130;   // [ms] from list to list; until it is there
-constexpr double kSigma = 0.2;                       // [m] of a position, per axis
-constexpr double kAlong = 0.5, kTurn = 0.05;         // the densities that drives are drawn with
+constexpr std::int64_t kEvery = 50, kLatest = 130;  // [ms] from list to list; until it is there
+constexpr double kSigma = 0.2;                      // [m] of a position, per axis
+constexpr double kAlong = 0.5, kTurn = 0.05;        // the densities that drives are drawn with
 constexpr double kWrong = 1.0 / 30.0;
 
 struct Case {
@@ -45,7 +45,7 @@ TrackerConfig config_for(const Case& c, double noise_times) {
   config.turn_noise = kTurn * noise_times;
   config.initial_turn_rate_sigma = 0.5;
   config.confirm_hits = config.confirm_window = 1;
-  config.gate_probability = 0.999999;   // one object, no clutter
+  config.gate_probability = 0.999999;  // one object, no clutter
   config.late = c.late;
   return config;
 }
@@ -116,7 +116,7 @@ Judged judge(const Case& c, double noise_times, std::uint32_t drives) {
         break;
       case MotionModel::kCtrv: from(motion::Ctrv(kTurn, kAlong), Vector<5>(40.0, 0.0, 1.0, 10.0, 0.5)); break;
       case MotionModel::kCtra: from(motion::Ctra(kTurn, kAlong), Vector<6>(40.0, 0.0, 1.0, 6.0, 0.5, 1.0)); break;
-      case MotionModel::kInteracting: break;   // no drive is drawn from it: motion_choice_test.cc
+      case MotionModel::kInteracting: break;  // no drive is drawn from it: motion_choice_test.cc
     }
   }
   return judged;

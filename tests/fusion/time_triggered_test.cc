@@ -88,9 +88,8 @@ TEST(TimeTriggered, SensorsOfOneInstantWaitForEachOtherWhateverTheStamps) {
 TEST(TimeTriggered, RecognisesInstantsByStampsThatAreALittleOff) {
   for (const std::int64_t off_ns : {-300'000, 0, 300'000}) {
     const auto strategy = make_strategy(StrategyKind::kTt, {}, laser_and_camera());
-    EXPECT_EQ(
-        run(*strategy, {{30, scan(0, 0, at_ms(0) + Duration{off_ns})}, {45, scan(1, 0, at_ms(20))}}, 200),
-        (std::vector{fused(30, 0, 0), fused(50, 1, 0)}));
+    EXPECT_EQ(run(*strategy, {{30, scan(0, 0, at_ms(0) + Duration{off_ns})}, {45, scan(1, 0, at_ms(20))}}, 200),
+              (std::vector{fused(30, 0, 0), fused(50, 1, 0)}));
   }
 }
 

@@ -123,8 +123,7 @@ TEST(Timeline, LongDrivesInDisorder) {
     Timeline in_order(config, 16), timeline(config, 16);
     int late = 0;
     for (const OwnedScan& s : scans) in_order.insert(s.view());
-    for (const auto& [when, k] : arrival)
-      late += timeline.insert(scans[k].view()) == Timeline::Insertion::kLate;
+    for (const auto& [when, k] : arrival) late += timeline.insert(scans[k].view()) == Timeline::Insertion::kLate;
     EXPECT_GT(late, 50);
     EXPECT_TRUE(same_bits(timeline.current(), in_order.current())) << "seed " << seed;
   }
@@ -136,9 +135,8 @@ TEST(Timeline, CrossingObjectsInClutterShuffled) {
   std::vector<OwnedScan> scans;
   for (std::uint32_t k = 0; k < 40; ++k) {
     const double t = 0.05 * k;
-    std::vector<Observation> list{
-        position(20 + 6 * t + 0.3 * stream.normal(), -3 + 3 * t + 0.3 * stream.normal(), 0.3),
-        position(32 - 6 * t + 0.3 * stream.normal(), 3 - 3 * t + 0.3 * stream.normal(), 0.3)};
+    std::vector<Observation> list{position(20 + 6 * t + 0.3 * stream.normal(), -3 + 3 * t + 0.3 * stream.normal(), 0.3),
+                                  position(32 - 6 * t + 0.3 * stream.normal(), 3 - 3 * t + 0.3 * stream.normal(), 0.3)};
     if (stream.uniform() < 0.4) list.push_back(position(stream.uniform(10, 40), stream.uniform(-8, 8), 0.2));
     scans.push_back(scan(static_cast<std::uint8_t>(k % 3), k / 3, at_ms(50 * k), std::move(list)));
   }

@@ -62,9 +62,8 @@ TEST(Tracker, EveryPatternOfHitsFollowsTheRule) {
         const auto hits = std::count(recent.begin(), recent.end(), 'h');
         is_confirmed = is_confirmed || hits >= 3;
         const auto still_to_come = static_cast<std::ptrdiff_t>(5 - recent.size());
-        const bool ends = is_confirmed
-                              ? history->size() >= 4 && history->substr(history->size() - 4) == "----"
-                              : hits + still_to_come < 3;
+        const bool ends = is_confirmed ? history->size() >= 4 && history->substr(history->size() - 4) == "----"
+                                       : hits + still_to_come < 3;
         if (ends) history.reset();
       }
       ASSERT_EQ(bench.set.tracks.size(), history ? 1u : 0u) << "pattern " << pattern << " scan " << k;
@@ -112,11 +111,10 @@ TEST(Tracker, Follows25ObjectsEachWithItsOwnTrack) {
     ASSERT_EQ(confirmed(bench.set), 25) << "scan " << k;
     for (int object = 0; object < 25; ++object) {
       const State truth = lanes.truth(object, t);
-      const auto nearest = std::min_element(bench.set.tracks.begin(), bench.set.tracks.end(),
-                                            [&](const Track& a, const Track& b) {
-                                              return (state_of(a) - truth).head<2>().squaredNorm() <
-                                                     (state_of(b) - truth).head<2>().squaredNorm();
-                                            });
+      const auto nearest =
+          std::min_element(bench.set.tracks.begin(), bench.set.tracks.end(), [&](const Track& a, const Track& b) {
+            return (state_of(a) - truth).head<2>().squaredNorm() < (state_of(b) - truth).head<2>().squaredNorm();
+          });
       const double squared = (state_of(*nearest) - truth).head<2>().squaredNorm();
       ASSERT_LT(squared, 1.0);
       squares += squared;
@@ -214,8 +212,7 @@ TEST(View, AxisTellsTheHeadingOfWhatStandsAndCourseTellsItsFront) {
   EXPECT_NEAR(view.heading, -0.1, 1e-12);
   EXPECT_NEAR(view.sigma_heading, std::sqrt(0.005), 1e-12);
   Track unknown = moving_track(0.0, 0.0, 0.5);
-  EXPECT_NEAR(shown(unknown, at_ms(0), at_ms(0)).sigma_heading,
-              std::numbers::pi / std::sqrt(3.0), 1e-12);
+  EXPECT_NEAR(shown(unknown, at_ms(0), at_ms(0)).sigma_heading, std::numbers::pi / std::sqrt(3.0), 1e-12);
 }
 
 TEST(View, AccelerationIsAlongTheHeading) {

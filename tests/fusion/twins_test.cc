@@ -51,16 +51,16 @@ TEST(Twins, LasersAndCamerasViewsOfOneObjectBecomeOne) {
       TrackerConfig config = uniting();
       config.association = association;
       config.birth = birth;
-      config.detection_probability = 0.5;   // every other list is one sensor's (fusion/existence.h)
+      config.detection_probability = 0.5;  // every other list is one sensor's (fusion/existence.h)
       Timeline united(config, 8);
       TrackId first = kNoTrack;
       int most = 0;
       bool were_united = false;
       for (const OwnedScan& s : two_views()) {
         const int before = confirmed(united.current());
-        const bool both_live = std::all_of(
-            united.current().tracks.begin(), united.current().tracks.end(),
-            [](const Track& t) { return !t.confirmed || (t.misses < 10 && t.existence > 0.5); });
+        const bool both_live =
+            std::all_of(united.current().tracks.begin(), united.current().tracks.end(),
+                        [](const Track& t) { return !t.confirmed || (t.misses < 10 && t.existence > 0.5); });
         united.insert(s.view());
         const int after = confirmed(united.current());
         most = std::max(most, after);

@@ -26,8 +26,8 @@ void check_signals(const schedules::PduLayout& layout, const std::vector<schedul
     const std::uint32_t last = wire::to_raw(signal, signal.high);
     for (const std::uint32_t raw : {0u, 1u, last / 3, last / 2, last - (last > 0 ? 1 : 0), last}) {
       const double physical = wire::to_physical(signal, raw);
-      TTF_CHECK(raw > last || wire::to_raw(signal, physical) == raw, "{}.{}: {} is {} is {}", layout.name,
-                signal.name, raw, physical, wire::to_raw(signal, physical));
+      TTF_CHECK(raw > last || wire::to_raw(signal, physical) == raw, "{}.{}: {} is {} is {}", layout.name, signal.name,
+                raw, physical, wire::to_raw(signal, physical));
     }
   }
 }
@@ -37,8 +37,8 @@ void check_ages(const schedules::Cluster& cluster) {
     TTF_CHECK(Duration{} <= age.fusion_best && age.fusion_best <= age.fusion_worst &&
                   age.fused_best <= age.fused_worst && age.use_best <= age.use_worst &&
                   age.fusion_worst <= age.fused_worst,
-              "fusion {}..{}, fused {}..{}, use {}..{} ns", age.fusion_best.ns, age.fusion_worst.ns,
-              age.fused_best.ns, age.fused_worst.ns, age.use_best.ns, age.use_worst.ns);
+              "fusion {}..{}, fused {}..{}, use {}..{} ns", age.fusion_best.ns, age.fusion_worst.ns, age.fused_best.ns,
+              age.fused_worst.ns, age.use_best.ns, age.use_worst.ns);
   schedules::ages_text(cluster);
 }
 
@@ -56,8 +56,8 @@ void check_time_scale(const schedules::Cluster& cluster) {
 }
 
 recording::RecordedInput some_recording() {
-  return recording::parse_laser_radar(
-      "L\t10\t0\t1000\t10\t0\t1\t0\t0\t0\nR\t10\t0\t1\t2000\t10\t0\t1\t0\t0\t0\n", "rows.txt");
+  return recording::parse_laser_radar("L\t10\t0\t1000\t10\t0\t1\t0\t0\t0\nR\t10\t0\t1\t2000\t10\t0\t1\t0\t0\t0\n",
+                                      "rows.txt");
 }
 
 }  // namespace

@@ -55,8 +55,7 @@ std::size_t end_of_value(std::string_view text, std::size_t at) {
 
 std::string edited(std::span<const Shipped> files, std::string_view edits) {
   const std::string_view name = take_line(edits);
-  const auto named =
-      std::find_if(files.begin(), files.end(), [&](const Shipped& file) { return file.name == name; });
+  const auto named = std::find_if(files.begin(), files.end(), [&](const Shipped& file) { return file.name == name; });
   std::string text = (named == files.end() ? files.front() : *named).text;
   while (!edits.empty()) {
     std::string_view line = take_line(edits);

@@ -49,8 +49,8 @@ void check_fibex_round_trip(const Cluster& cluster) {
   if (!has_fibex_names(cluster)) return;
   const FibexImport import = schedules::parse_fibex(schedules::fibex_text(cluster), kFibexFile);
   check_same(cluster, import.cluster);
-  TTF_CHECK(import.left_out.empty() && import.assumed.empty() && import.foreign.empty(),
-            "{} left out, {} assumed", import.left_out.size(), import.assumed.size());
+  TTF_CHECK(import.left_out.empty() && import.assumed.empty() && import.foreign.empty(), "{} left out, {} assumed",
+            import.left_out.size(), import.assumed.size());
 }
 
 void check_fibex(const std::string& text) {

@@ -80,7 +80,7 @@ class Laws {
 
  private:
   void complete(const canfd_frame& can, const socketcan::Arrival& arrival) {
-    if (arrival.follow_up) {   // what is begun goes on
+    if (arrival.follow_up) {  // what is begun goes on
       TTF_CHECK(same(socketcan::follow_up_to_can(channel_, *arrival.follow_up), can), "another follow-up");
       TTF_CHECK(!arrival.abandoned, "a follow-up ended a frame");
       return;

@@ -19,8 +19,7 @@ using wire::kHeaderBytes, wire::kTrailerBytes;
 void make_crcs_right(schedules::Channel channel, std::vector<std::byte>& frame) {
   if (frame.size() < kHeaderBytes + kTrailerBytes) return;
   const auto header = [&](std::size_t i) { return static_cast<std::uint64_t>(frame[i]); };
-  const std::uint64_t bits =
-      header(0) << 32 | header(1) << 24 | header(2) << 16 | header(3) << 8 | header(4);
+  const std::uint64_t bits = header(0) << 32 | header(1) << 24 | header(2) << 16 | header(3) << 8 | header(4);
   const std::uint64_t crc =
       wire::header_crc((bits >> 36) & 1, (bits >> 35) & 1, static_cast<std::uint16_t>((bits >> 24) & 0x7ff),
                        static_cast<std::uint8_t>((bits >> 17) & 0x7f));

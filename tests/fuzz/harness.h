@@ -23,8 +23,7 @@ class Source {
   Source(const std::uint8_t* data, std::size_t size) : rest_(reinterpret_cast<const std::byte*>(data), size) {}
 
   bool empty() const { return rest_.empty(); }
-  template <class Int>
-  Int take() {
+  template <class Int> Int take() {
     Int value{};
     const std::span<const std::byte> field = bytes(sizeof(Int));
     std::memcpy(&value, field.data(), field.size());
@@ -54,8 +53,7 @@ void check_refusal(const InputError& error, std::string_view file);
 void check_lines(std::string_view text, std::string_view file);
 
 // Whether `read` took its input. InputError is the only other way out, and it must look as it should.
-template <class Read>
-bool accepted(std::string_view file, Read&& read) {
+template <class Read> bool accepted(std::string_view file, Read&& read) {
   try {
     read();
     return true;

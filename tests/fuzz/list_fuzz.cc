@@ -68,11 +68,11 @@ void check_list(const PduLayout& layout, const bus::ListView& list, const std::v
             "sequence {} of raw {}", list.sequence, raw);
   for (int f = 0; f < list.fragments; ++f) {
     const auto fragment = list.bytes.subspan(static_cast<std::size_t>(f) * bytes, bytes);
-    TTF_CHECK(wire::read_header_raw(layout, fragment, sequence) == raw &&
-                  wire::read_header_raw(layout, fragment, count) == static_cast<std::uint32_t>(elements) &&
-                  wire::read_header_raw(layout, fragment, header_of(layout, "fragment")) ==
-                      static_cast<std::uint32_t>(f),
-              "fragment {} is of another list", f);
+    TTF_CHECK(
+        wire::read_header_raw(layout, fragment, sequence) == raw &&
+            wire::read_header_raw(layout, fragment, count) == static_cast<std::uint32_t>(elements) &&
+            wire::read_header_raw(layout, fragment, header_of(layout, "fragment")) == static_cast<std::uint32_t>(f),
+        "fragment {} is of another list", f);
     TTF_CHECK(std::any_of(seen.begin(), seen.end(),
                           [&](const auto& one) { return std::equal(one.begin(), one.end(), fragment.begin()); }),
               "fragment {} never arrived", f);

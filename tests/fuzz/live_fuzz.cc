@@ -51,8 +51,7 @@ struct Port final : bus::FlexRayPort {
 
 class Node {
  public:
-  explicit Node(bool integrated)
-      : arrivals_(the_cluster(), kNode, {Microticks{4'000}, Microticks{20'000}}, events_) {
+  explicit Node(bool integrated) : arrivals_(the_cluster(), kNode, {Microticks{4'000}, Microticks{20'000}}, events_) {
     const schedules::Cluster& cluster = the_cluster();
     const timebase::Oscillator oscillator(25'000, 0, 0);
     const TrueTime first{1'000'000};
@@ -114,7 +113,7 @@ class Node {
   void strobe(std::uint32_t sequence, Microticks at) { executive_->strobe(SensorId{0}, sequence, at); }
 
  private:
-  static constexpr NodeId kNode{4};   // the gateway: on both channels, and on a CAN
+  static constexpr NodeId kNode{4};  // the gateway: on both channels, and on a CAN
   runner::ArrivalEvents events_;
   runner::Arrivals arrivals_;
   Nobody lines_;

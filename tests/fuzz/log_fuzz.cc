@@ -24,9 +24,7 @@ constexpr char kFile[] = "drive.mcap";
 // A file in memory, by a path that can be opened.
 class MemoryFile {
  public:
-  MemoryFile() : descriptor_(::memfd_create("log", MFD_CLOEXEC)) {
-    TTF_CHECK(descriptor_ >= 0, "no memory file");
-  }
+  MemoryFile() : descriptor_(::memfd_create("log", MFD_CLOEXEC)) { TTF_CHECK(descriptor_ >= 0, "no memory file"); }
   ~MemoryFile() { ::close(descriptor_); }
   MemoryFile(const MemoryFile&) = delete;
   MemoryFile& operator=(const MemoryFile&) = delete;

@@ -68,7 +68,7 @@ void check_rows(const std::vector<ObservationRow>& rows) {
 
 void check_tracks(const std::vector<ObservationRow>& rows) {
   experiments::ReplayConfig config;
-  config.tracker.history_scans = 8;   // little to set up, and soon too old
+  config.tracker.history_scans = 8;  // little to set up, and soon too old
   experiments::Arrivals arrivals;
   Findings findings;
   if (!fuzz::accepted(kFile, [&] {

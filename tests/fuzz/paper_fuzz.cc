@@ -17,8 +17,8 @@ void check_table(const std::string& text) {
   while (lines.next()) {
     TTF_CHECK(lines.broken().empty(), "line {}: {}", lines.line(), lines.broken());
     if (fields == 0) fields = lines.fields().size();
-    TTF_CHECK(lines.fields().size() == fields, "line {} has {} fields of {}", lines.line(),
-              lines.fields().size(), fields);
+    TTF_CHECK(lines.fields().size() == fields, "line {} has {} fields of {}", lines.line(), lines.fields().size(),
+              fields);
   }
 }
 
@@ -62,10 +62,8 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   for (const report::PaperFile& file : files) {
     TTF_CHECK(!file.name.starts_with('.') && std::all_of(file.name.begin(), file.name.end(),
                                                          [](char c) {
-                                                           return (c >= 'a' && c <= 'z') ||
-                                                                  (c >= 'A' && c <= 'Z') ||
-                                                                  (c >= '0' && c <= '9') || c == '_' ||
-                                                                  c == '.';
+                                                           return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                                                                  (c >= '0' && c <= '9') || c == '_' || c == '.';
                                                          }),
               "a file called {}", file.name);
     if (file.name.ends_with(".csv"))

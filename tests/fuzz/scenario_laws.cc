@@ -35,15 +35,14 @@ bool check_scenario(const std::string& text) {
   scenario.world.duration = std::min(scenario.world.duration, kLongestDrawn);
   const nodes::WorldScene scene(scenario.world, scenario.seed, 0, TrueTime{});
   std::vector<world::ObjectState> states;
-  for (const Duration at : {Duration{-1}, Duration{}, Duration::milliseconds(57), scenario.world.duration,
-                            scenario.duration}) {
+  for (const Duration at :
+       {Duration{-1}, Duration{}, Duration::milliseconds(57), scenario.world.duration, scenario.duration}) {
     scene.states_at(TrueTime{} + at, states);
     TTF_CHECK(states.size() == scenario.world.objects.size(), "{} objects", states.size());
     for (const world::ObjectState& s : states)
       TTF_CHECK(std::isfinite(s.x) && std::isfinite(s.y) && std::isfinite(s.heading) && std::isfinite(s.speed) &&
                     s.length > 0 && s.width > 0,
-                "x {} y {} heading {} speed {} length {} width {}", s.x, s.y, s.heading, s.speed, s.length,
-                s.width);
+                "x {} y {} heading {} speed {} length {} width {}", s.x, s.y, s.heading, s.speed, s.length, s.width);
   }
   return true;
 }

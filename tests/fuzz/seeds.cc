@@ -33,8 +33,7 @@ void write(const fs::path& path, const std::string& bytes) {
   TTF_CHECK(file << bytes, "{} cannot be written", path.string());
 }
 
-template <class Int>
-void put(std::string& out, Int value) {
+template <class Int> void put(std::string& out, Int value) {
   out.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
@@ -71,8 +70,9 @@ void write_dictionary(const fs::path& path, const std::set<std::string>& words) 
 void yaml_seeds(const fs::path& folder, const std::string& what, const fs::path& shipped_in,
                 const std::vector<std::string>& names) {
   const std::array<std::string, 8> values{"0", "1", "-1", "1023", "5 ms", "1e300", "true", "[1, 2]"};
-  std::set<std::string> words{"0", "1", "-1", "65535", "2147483647", "1e308", "nan", "0.5", "1 ns", "5 ms",
-                              "3600 s", "true", "false", "[", "]", "{", "}", "- ", "+ ", "AB", "&a", "*a"};
+  std::set<std::string> words{"0",    "1",    "-1",     "65535", "2147483647", "1e308", "nan", "0.5",
+                              "1 ns", "5 ms", "3600 s", "true",  "false",      "[",     "]",   "{",
+                              "}",    "- ",   "+ ",     "AB",    "&a",         "*a"};
   std::size_t next = 0;
   std::set<std::string> known;
   for (const std::string& name : names) {
@@ -97,8 +97,8 @@ void fibex_seeds(const fs::path& folder) {
   write(folder / "fibex_text/powertrain", powertrain);
   write(folder / "fibex_text/objects", objects);
   write(folder / "fibex_text/empty", "<fx:FIBEX><fx:ELEMENTS/></fx:FIBEX>");
-  std::set<std::string> words{"<!--", "-->", "<![CDATA[", "]]>", "&#10;", "&lt;", "/>", "ID-REF=\\x22", "true", "false",
-                              "-1", "1e308", "2047", "64", "0.0125"};
+  std::set<std::string> words{"<!--", "-->",   "<![CDATA[", "]]>",   "&#10;", "&lt;", "/>",    "ID-REF=\\x22",
+                              "true", "false", "-1",        "1e308", "2047",  "64",   "0.0125"};
   std::string name;
   for (const char c : powertrain + objects) {
     const bool of_it = of_a_name(c) || c == ':' || c == '-';
@@ -134,11 +134,12 @@ void observation_seeds(const fs::path& folder) {
   write(folder / "observations/radar", radar);
   write(folder / "observations/bearings",
         "\xef\xbb\xbftime,sensor,range,bearing\r\n0,a,5,0.1\r\n0,a,9,-3\r\n# end\r\n");
-  write_dictionary(folder / "observations.dict",
-                   {"time", "arrival", "sensor", "x", "y", "range", "bearing", "range_rate", "cov_11", "cov_12",
-                    "cov_22", "cov_13", "cov_23", "cov_33", "heading", "sigma_heading", "length", "sigma_length",
-                    "width", "sigma_width", "z", "height", "class", "score", "gt_", "e308", "nan", "-", "\\x0d\\x0a",
-                    "#", "\\x22"});
+  write_dictionary(
+      folder / "observations.dict",
+      {"time",   "arrival",      "sensor", "x",           "y",          "range",  "bearing", "range_rate",
+       "cov_11", "cov_12",       "cov_22", "cov_13",      "cov_23",     "cov_33", "heading", "sigma_heading",
+       "length", "sigma_length", "width",  "sigma_width", "z",          "height", "class",   "score",
+       "gt_",    "e308",         "nan",    "-",           "\\x0d\\x0a", "#",      "\\x22"});
 }
 
 void frame_seeds(const fs::path& folder) {
@@ -367,10 +368,11 @@ void result_seeds(const fs::path& folder) {
   write(folder / "answer/grid", begin + point(0, "1 m") + "," + point(1, "100 m") + ends);
   write(folder / "answer/labels", begin + point(0, "slow") + ends);
   write_dictionary(folder / "answer.dict",
-                   {"experiment", "file", "question", "answer", "baseline", "seed", "runs", "failed", "confidence",
-                    "points", "axes", "paradigms", "count", "mean", "half_width", "difference", "measures", "unit",
-                    "meaning", "crossings", "expectations", "where_not", "null", "true", "1e308", "-1", "\\\\u0000",
-                    "</script>", "<img>", "{}", "[]", "nan", " ms"});
+                   {"experiment", "file",       "question", "answer", "baseline",  "seed",      "runs",
+                    "failed",     "confidence", "points",   "axes",   "paradigms", "count",     "mean",
+                    "half_width", "difference", "measures", "unit",   "meaning",   "crossings", "expectations",
+                    "where_not",  "null",       "true",     "1e308",  "-1",        "\\\\u0000", "</script>",
+                    "<img>",      "{}",         "[]",       "nan",    " ms"});
 
   const std::string drive = R"({"strategy": "tt", "log": "out/tt.mcap", "rmse_truth": {"position_m": 0.1,
 "velocity_mps": 0.7}, "nees": {"mean": 1.2, "band_95": [3.1, 5]}, "age_when_used": {"mean_ms": 60, "worst_ms": 100},
@@ -379,11 +381,36 @@ void result_seeds(const fs::path& folder) {
   const std::string run = R"({"scenario": "drive", "seed": 7, "duration_s": 3, "strategies": [)";
   write(folder / "run_summary/one", run + drive + "]}");
   write(folder / "run_summary/three", run + drive + ",{\"strategy\": \"<b>\"}," + drive + "]}");
-  write_dictionary(folder / "run_summary.dict",
-                   {"scenario", "seed", "duration_s", "strategies", "strategy", "log", "rmse_truth", "position_m",
-                    "velocity_mps", "rmse_reference", "nees", "mean", "band_95", "age_when_used", "mean_ms", "worst_ms",
-                    "observations", "received", "lost", "objects", "compared", "missed", "slot_problems", "null", "..",
-                    "1e308", "-1", "</script>", "{}", "[]"});
+  write_dictionary(folder / "run_summary.dict", {"scenario",
+                                                 "seed",
+                                                 "duration_s",
+                                                 "strategies",
+                                                 "strategy",
+                                                 "log",
+                                                 "rmse_truth",
+                                                 "position_m",
+                                                 "velocity_mps",
+                                                 "rmse_reference",
+                                                 "nees",
+                                                 "mean",
+                                                 "band_95",
+                                                 "age_when_used",
+                                                 "mean_ms",
+                                                 "worst_ms",
+                                                 "observations",
+                                                 "received",
+                                                 "lost",
+                                                 "objects",
+                                                 "compared",
+                                                 "missed",
+                                                 "slot_problems",
+                                                 "null",
+                                                 "..",
+                                                 "1e308",
+                                                 "-1",
+                                                 "</script>",
+                                                 "{}",
+                                                 "[]"});
 
   const std::string head = "point,noise,road,paradigm,measure,count,mean,half_width,difference,difference_half_width\n";
   std::string rows;
@@ -391,11 +418,12 @@ void result_seeds(const fs::path& folder) {
     for (const char* of : {",adva,nees,3,1,0.5,,", ",tt,nees,3,2,,-1,0.5", ",adva,age,3,,,,", ",tt,age,3,4,1,2,1"})
       rows += std::string(at) + of + "\n";
   write(folder / "paper/grid", head + rows);
-  write(folder / "paper/one", "point,paradigm,measure,count,mean,half_width,difference,difference_half_width\n"
-                              "0,\"a \"\"b\"\"\",nees,1,2,,,\n");
-  write_dictionary(folder / "paper.dict", {"point", "paradigm", "measure", "count", "mean", "half_width",
-                                           "difference", "difference_half_width", "nees", "e308", "nan", "-",
-                                           "\\x22", "\\x60", "#", " ms", "\\x0d\\x0a", ",,"});
+  write(folder / "paper/one",
+        "point,paradigm,measure,count,mean,half_width,difference,difference_half_width\n"
+        "0,\"a \"\"b\"\"\",nees,1,2,,,\n");
+  write_dictionary(folder / "paper.dict", {"point", "paradigm", "measure", "count", "mean", "half_width", "difference",
+                                           "difference_half_width", "nees", "e308", "nan", "-", "\\x22", "\\x60", "#",
+                                           " ms", "\\x0d\\x0a", ",,"});
 
   const fs::path path = folder / "store/small";
   fs::create_directories(path.parent_path());

@@ -154,8 +154,9 @@ class Cluster {
     list.begin(sequence, count, now_ - Duration::microseconds(source.take<std::uint32_t>() % 500'000));
     for (int i = 0; i < count && !source.empty(); ++i)
       for (std::size_t s = 0; s < layout.element.size(); ++s)
-        list.set(i, s, wire::to_physical(layout.element[s], source.take<std::uint32_t>() &
-                                                                ((std::uint64_t{1} << layout.element[s].bits) - 1)));
+        list.set(i, s,
+                 wire::to_physical(layout.element[s],
+                                   source.take<std::uint32_t>() & ((std::uint64_t{1} << layout.element[s].bits) - 1)));
     for (std::size_t b = 0; b < cluster_.can_buses.size(); ++b)
       for (const auto& message : cluster_.can_buses[b].messages)
         if (message.pdu == pdu) send_can(b, message, list.view());
@@ -166,13 +167,12 @@ class Cluster {
     const auto which = source.take<std::uint8_t>();
     now_ += Duration::microseconds(source.take<std::uint16_t>());
     const GlobalTime measured = now_ - Duration::microseconds(source.take<std::uint16_t>());
-    hosts_[which % hosts_.size()]->run(
-        which / hosts_.size(), (which & 0x80) == 0, now_, measured,
-        [&](const schedules::PortBinding& binding, const bus::ListView& list) {
-          if (!binding.can_bus) return send_slots(binding.pdu, list);
-          for (const auto& message : cluster_.can_buses[*binding.can_bus].messages)
-            if (message.pdu == binding.pdu) send_can(*binding.can_bus, message, list);
-        });
+    hosts_[which % hosts_.size()]->run(which / hosts_.size(), (which & 0x80) == 0, now_, measured,
+                                       [&](const schedules::PortBinding& binding, const bus::ListView& list) {
+                                         if (!binding.can_bus) return send_slots(binding.pdu, list);
+                                         for (const auto& message : cluster_.can_buses[*binding.can_bus].messages)
+                                           if (message.pdu == binding.pdu) send_can(*binding.can_bus, message, list);
+                                       });
   }
 
  private:

@@ -47,7 +47,7 @@ class ChildProcess : public Launching {
 TEST_F(ChildProcess, HasARawTerminalAndASessionOfItsOwn) {
   auto command = child({"where"});
   command.environment = {{"MOOD", "good"}};
-  const launch::Descriptor leak(open("/dev/null", O_RDONLY));   // one that anybody would inherit
+  const launch::Descriptor leak(open("/dev/null", O_RDONLY));  // one that anybody would inherit
   Child process(command);
   EXPECT_EQ(all_output(process),
             "input from nothing: yes\noutput on a terminal: yes\nraw: yes\nleads its session and group: yes\n"
@@ -73,7 +73,7 @@ TEST_F(ChildProcess, TellsHowItEnded) {
     EXPECT_EQ(ending.exit_code(), code);
     EXPECT_EQ(ending.success(), code == 0);
     EXPECT_EQ(ending.text(), "exit " + std::to_string(code));
-    EXPECT_EQ(process.reap(), std::nullopt);   // once
+    EXPECT_EQ(process.reap(), std::nullopt);  // once
   }
   Child process(child({"raise:9"}));
   const Ending ending = end_of(process);
@@ -102,7 +102,7 @@ TEST_F(ChildProcess, SpeaksOnItsControlLine) {
   Child process(child({"ready", "tell:{\"health\":{}}", "start", "exit:0"}));
   EXPECT_EQ(next_message(process), "{\"ready\":true}");
   EXPECT_EQ(next_message(process), "{\"health\":{}}");
-  EXPECT_TRUE(process.send_control("{\"later\":1}"));   // not known yet: passed over
+  EXPECT_TRUE(process.send_control("{\"later\":1}"));  // not known yet: passed over
   EXPECT_TRUE(process.send_control("{\"start\":{\"at\":5}}"));
   EXPECT_EQ(all_output(process), "start {\"at\":5}\n");
   EXPECT_EQ(next_message(process), std::nullopt);

@@ -37,7 +37,8 @@ int times(const std::string& path) {
 
 std::string surroundings(int control_fd) {
   const auto word = [](bool yes) { return yes ? std::string("yes") : std::string("no"); };
-  struct stat null{}, in{};
+  struct stat null {
+  }, in{};
   stat("/dev/null", &null);
   fstat(STDIN_FILENO, &in);
   termios settings{};

@@ -27,8 +27,8 @@ class Launching : public testing::Test {
   static constexpr Duration kNever = Duration::milliseconds(3'600'000);
 
   Launching() {
-    alarm(240);                // nothing here may wait for ever
-    signal(SIGHUP, SIG_DFL);   // whoever runs the tests may ignore it
+    alarm(240);               // nothing here may wait for ever
+    signal(SIGHUP, SIG_DFL);  // whoever runs the tests may ignore it
     std::string name = (std::filesystem::temp_directory_path() / "ttf_launch_XXXXXX").string();
     folder_ = mkdtemp(name.data());
     screen_ = memfd_create("screen", 0);

@@ -39,7 +39,7 @@ TEST(StopOrder, GoesFromInterruptToKill) {
   EXPECT_FALSE(order.begun());
   EXPECT_EQ(order.due(ms(1'000'000)), std::nullopt);
   EXPECT_EQ(order.begin(ms(100)), SIGINT);
-  EXPECT_EQ(order.begin(ms(101)), std::nullopt);   // once
+  EXPECT_EQ(order.begin(ms(101)), std::nullopt);  // once
   EXPECT_EQ(order.next_instant(), ms(150));
   EXPECT_EQ(order.due(ms(149)), std::nullopt);
   EXPECT_EQ(order.due(ms(150)), SIGTERM);

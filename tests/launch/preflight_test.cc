@@ -39,13 +39,13 @@ TEST(Bus, RefusesWhatIsNone) {
 
 TEST(Preflight, SaysHowAMissingBusIsMade) {
   const auto items = look_at(Bus::parse("socketcan:vcan_absent,can_absent"), {});
-  ASSERT_EQ(items.size(), 3u);   // the kernel's sockets first
+  ASSERT_EQ(items.size(), 3u);  // the kernel's sockets first
   EXPECT_FALSE(all_good(items));
   EXPECT_EQ(items[1].how, "is not there (channel A)");
-  EXPECT_THAT(items[1].commands, ElementsAre("ip link add dev vcan_absent type vcan",
-                                             "ip link set vcan_absent mtu 72 up"));
+  EXPECT_THAT(items[1].commands,
+              ElementsAre("ip link add dev vcan_absent type vcan", "ip link set vcan_absent mtu 72 up"));
   EXPECT_EQ(items[2].how, "is not there; ip -details link show type can lists those there are (channel B)");
-  EXPECT_THAT(items[2].commands, IsEmpty());   // hardware: nobody knows its driver
+  EXPECT_THAT(items[2].commands, IsEmpty());  // hardware: nobody knows its driver
   EXPECT_THAT(text_of(items), HasSubstr("not ready: vcan_absent is not there (channel A); as root:\n"
                                         "    ip link add dev vcan_absent type vcan\n"));
 }
@@ -59,16 +59,16 @@ TEST(Preflight, TellsACanFromOtherInterfaces) {
 // One that has the CAN's own name is no hardware's, so that the commands make a virtual one.
 TEST(Preflight, LooksAtPrivateCans) {
   const auto items = look_at(Bus::parse("socketcan:vcan_absent"), {{"laser_can", "laser_can", true},
-                                                                  {"camera_can", "camera_can", false},
-                                                                  {"radar_can", "can_absent", false},
-                                                                  {"sonar_can", "vcan_none", false},
-                                                                  {"other_can", "lo", true}});
-  ASSERT_EQ(items.size(), 7u);   // the kernel's sockets and channel A first
+                                                                   {"camera_can", "camera_can", false},
+                                                                   {"radar_can", "can_absent", false},
+                                                                   {"sonar_can", "vcan_none", false},
+                                                                   {"other_can", "lo", true}});
+  ASSERT_EQ(items.size(), 7u);  // the kernel's sockets and channel A first
   EXPECT_EQ(items[2].what, "laser_can");
   EXPECT_EQ(items[2].how, "is not there (laser_can)");
   EXPECT_THAT(items[2].commands, ElementsAre("ip link add dev laser_can type vcan", "ip link set laser_can mtu 72 up"));
-  EXPECT_THAT(items[3].commands, ElementsAre("ip link add dev camera_can type vcan",
-                                             "ip link set camera_can mtu 16 up"));
+  EXPECT_THAT(items[3].commands,
+              ElementsAre("ip link add dev camera_can type vcan", "ip link set camera_can mtu 16 up"));
   EXPECT_EQ(items[4].how, "is not there; ip -details link show type can lists those there are (radar_can)");
   EXPECT_THAT(items[4].commands, IsEmpty());
   EXPECT_THAT(items[5].commands, ElementsAre("ip link add dev vcan_none type vcan", "ip link set vcan_none mtu 16 up"));

@@ -13,16 +13,14 @@
 namespace ttf::test {
 namespace {
 
-using nlohmann::json;
 using launch::RunFolder;
 using launch::WallInstant;
+using nlohmann::json;
 
 class Folder : public Launching {
  protected:
   // After the beginning of 2026.
-  static WallInstant at(std::int64_t ms) {
-    return WallInstant(std::chrono::milliseconds(1'767'225'600'000 + ms));
-  }
+  static WallInstant at(std::int64_t ms) { return WallInstant(std::chrono::milliseconds(1'767'225'600'000 + ms)); }
   json manifest() const { return json::parse(contents(path("run/manifest.json"))); }
 };
 
@@ -160,9 +158,9 @@ TEST_F(Folder, IsOfOneLaunchAtATime) {
   const auto look = [&] { launch::FolderLock::refuse_if_held(path("run")); };
   EXPECT_EQ(sentence_of(look), "");
   EXPECT_FALSE(std::filesystem::exists(path("run")));
-  const std::string expected = fmt::format(
-      "command line: --out = {}: must be another folder: it is of a launch that still runs, process {}", path("run"),
-      getpid());
+  const std::string expected =
+      fmt::format("command line: --out = {}: must be another folder: it is of a launch that still runs, process {}",
+                  path("run"), getpid());
   {
     const RunFolder run(path("run"), {{"seed", 7}}, at(0));
     EXPECT_EQ(sentence_of(another), expected);

@@ -55,7 +55,7 @@ TEST(Screen, LeavesOutWhatASlowReaderDoesNotTake) {
   const int copy = memfd_create("copy", 0);
   Screen screen(pipe.in.get(), Descriptor(fcntl(copy, F_DUPFD_CLOEXEC, 0)));
   const std::string text(999, 'x');
-  constexpr std::uint64_t kLines = 3000;   // 3 MB
+  constexpr std::uint64_t kLines = 3000;  // 3 MB
   for (std::uint64_t i = 0; i < kLines; ++i) {
     screen.line(text, "plain");
     if (takes_some(screen.fd_to_write())) screen.write_some();
@@ -72,7 +72,7 @@ TEST(Screen, LeavesOutWhatASlowReaderDoesNotTake) {
   EXPECT_EQ(lines - 1 + screen.lines_left_out(), kLines);
   EXPECT_TRUE(seen.ends_with("x\n[" + std::to_string(screen.lines_left_out()) +
                              " lines left out: what reads this is too slow]\n"));
-  EXPECT_EQ(lseek(copy, 0, SEEK_END), static_cast<off_t>(kLines * 6));   // the copy is complete
+  EXPECT_EQ(lseek(copy, 0, SEEK_END), static_cast<off_t>(kLines * 6));  // the copy is complete
   close(copy);
 }
 

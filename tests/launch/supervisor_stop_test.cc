@@ -176,7 +176,7 @@ TEST_F(Stopping, NobodyOutlivesAKilledSupervisor) {
 // A second supervisor in the same process finds signals as they were.
 TEST_F(Stopping, LeavesSignalsAsTheyWere) {
   const auto disposition = [](int signal) {
-    struct sigaction now{};
+    struct sigaction now {};
     sigaction(signal, nullptr, &now);
     return now.sa_handler;
   };

@@ -81,7 +81,9 @@ TEST_F(Supervising, NobodyStartsBeforeAllAreReady) {
   EXPECT_EQ(run(config({{"a", Policy::kRequired, child({"ready", "start"})},
                         {"late", Policy::kRequired, child({"try:" + path("late") + ":1", "ready", "start"})},
                         {"c", Policy::kRequired, child({"ready", "start"})}}),
-                hooks).exit_code, 0);
+                hooks)
+                .exit_code,
+            0);
 }
 
 TEST_F(Supervising, TheBarriersTimeoutNamesWhoIsMissing) {
@@ -149,7 +151,9 @@ TEST_F(Supervising, ASignalIs128More) {
 // The one that fails while all are being stopped is not the first.
 TEST_F(Supervising, TheFirstFailureCounts) {
   EXPECT_EQ(run(config({{"second", Policy::kRequired, child({"on:2:5", "ready", "wait"})},
-                        {"first", Policy::kRequired, child({"ready", "start", "exit:4"})}})).exit_code, 4);
+                        {"first", Policy::kRequired, child({"ready", "start", "exit:4"})}}))
+                .exit_code,
+            4);
   EXPECT_THAT(shown(), HasSubstr("second: exit 5\n"));
 }
 
@@ -171,7 +175,9 @@ TEST_F(Supervising, ReadyAndGoneAtOnceIsNone) {
 TEST_F(Supervising, AnOptionalOnesFailureIsOnlySaid) {
   EXPECT_EQ(run(config({{"fusion", Policy::kRequired, child({"ready", "start"})},
                         {"feature", Policy::kOptional, child({"exit:9"})},
-                        {"absent", Policy::kOptional, {{path("absent")}, {}}}})).exit_code, 0);
+                        {"absent", Policy::kOptional, {{path("absent")}, {}}}}))
+                .exit_code,
+            0);
   EXPECT_THAT(shown(), HasSubstr("feature: exit 9\n"));
   EXPECT_THAT(shown(), HasSubstr("absent: " + path("absent") + ": cannot be started: No such file or directory\n"));
 }
@@ -297,7 +303,9 @@ TEST_F(Supervising, SaysWhatItDoesNotUnderstand) {
   const std::string long_text(launch::kLongestMessage + 10, 'x');
   EXPECT_EQ(run(config({{"a", Policy::kRequired,
                          child({"tell:nonsense", "tell:[1]", "tell:" + long_text, "tell:{\"health\":{\"drops\":-1}}",
-                                "tell:{\"ready\":1}", "tell:{\"novelty\":1}", "ready", "ready"})}})).exit_code, 0);
+                                "tell:{\"ready\":1}", "tell:{\"novelty\":1}", "ready", "ready"})}}))
+                .exit_code,
+            0);
   const std::string left_out = "launch | a: a message on its control line is left out: ";
   EXPECT_THAT(shown(), HasSubstr(left_out + "it is no JSON object\n" + left_out + "it is no JSON object\n" + left_out +
                                  "it is too long\n" + left_out + "health.drops: must be a whole number from 0\n"));
@@ -327,13 +335,15 @@ TEST_F(Supervising, OnATerminalTheTableComesAgain) {
   std::string text(1 << 16, '\0');
   text.resize(static_cast<std::size_t>(std::max<ssize_t>(read(terminal.get(), text.data(), text.size()), 0)));
   std::size_t tables = 0;
-  for (std::size_t at = text.find("missed slots"); at != std::string::npos; at = text.find("missed slots", at + 1)) ++tables;
+  for (std::size_t at = text.find("missed slots"); at != std::string::npos; at = text.find("missed slots", at + 1))
+    ++tables;
   EXPECT_GE(tables, 2u);
-  EXPECT_THAT(text, HasSubstr(" 77  running\r\n"));   // this terminal's line discipline is not raw
+  EXPECT_THAT(text, HasSubstr(" 77  running\r\n"));  // this terminal's line discipline is not raw
   EXPECT_THAT(text, HasSubstr(" a      |\x1b[0m start {}\r\n"));
 }
 
-// Each descriptor that is at its end would keep an idle loop busy: its own terminal and control line closed, it lives on.
+// Each descriptor that is at its end would keep an idle loop busy: its own terminal and control line closed, it lives
+// on.
 TEST_F(Supervising, SleepsWhileNothingHappens) {
   const auto processor_ms = [] {
     timespec used{};
@@ -342,9 +352,15 @@ TEST_F(Supervising, SleepsWhileNothingHappens) {
   };
   const auto before = processor_ms();
   EXPECT_EQ(run(config({{"a", Policy::kRequired, child({"ready", "start", "exit:0"})},
-                        {"idle", Policy::kOptional, {{"/bin/bash", "-c", TTF_LAUNCH_CHILD " ready; exec >/dev/null 2>&1; "
-                                                      "eval \"exec $TTF_CONTROL_FD>&-\"; sleep 2"}, {}}}})).exit_code, 0);
-  EXPECT_LT(processor_ms() - before, 1000);   // an idle loop would take the two seconds
+                        {"idle",
+                         Policy::kOptional,
+                         {{"/bin/bash", "-c",
+                           TTF_LAUNCH_CHILD " ready; exec >/dev/null 2>&1; "
+                                            "eval \"exec $TTF_CONTROL_FD>&-\"; sleep 2"},
+                          {}}}}))
+                .exit_code,
+            0);
+  EXPECT_LT(processor_ms() - before, 1000);  // an idle loop would take the two seconds
 }
 
 }  // namespace

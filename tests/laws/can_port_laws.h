@@ -43,8 +43,7 @@ class CanBench {
 // Identifier, sender and number of a frame.
 using CanLabel = std::tuple<std::uint32_t, std::size_t, std::size_t>;
 
-template <class Bench>
-class CanPortLaws : public testing::Test {
+template <class Bench> class CanPortLaws : public testing::Test {
  protected:
   // Every length there is on this bus.
   std::vector<std::size_t> lengths() const {
@@ -63,7 +62,7 @@ class CanPortLaws : public testing::Test {
   void send(std::size_t sender, std::uint32_t identifier, const std::vector<std::byte>& bytes) {
     bench_.port(sender).send({identifier, bench_.flexible_data_rate(), bytes});
   }
-  std::vector<CanLabel> heard() const {   // by controller 2
+  std::vector<CanLabel> heard() const {  // by controller 2
     std::vector<CanLabel> labels;
     for (const CanReached& reached : bench_.reached())
       if (reached.controller == 2)
@@ -126,8 +125,9 @@ TYPED_TEST_P(CanPortLaws, L3_TheLowestIdentifierWinsWheneverTheBusFallsIdle) {
   for (const std::uint32_t identifier : {0x600u, 0x010u, 0x7ffu, 0x300u, 0x000u})
     this->send(number % 2, identifier, this->data(number % 2, number)), ++number;
   this->bench_.run_until_idle();
-  EXPECT_EQ(this->heard(), (std::vector<CanLabel>{{0x700, 0, 0}, {0x000, 1, 5}, {0x010, 0, 2},
-                                                  {0x300, 0, 4}, {0x600, 1, 1}, {0x7ff, 1, 3}}));
+  EXPECT_EQ(this->heard(),
+            (std::vector<CanLabel>{
+                {0x700, 0, 0}, {0x000, 1, 5}, {0x010, 0, 2}, {0x300, 0, 4}, {0x600, 1, 1}, {0x7ff, 1, 3}}));
 }
 
 TYPED_TEST_P(CanPortLaws, L3_TiesGoToTheLowerNode) {

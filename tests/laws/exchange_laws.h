@@ -35,8 +35,7 @@ class ExchangeBench {
   virtual void end(std::size_t index) = 0;
 };
 
-template <class Bench>
-class ExchangeLaws : public testing::Test {
+template <class Bench> class ExchangeLaws : public testing::Test {
  protected:
   static NodeId node(std::size_t index) { return NodeId{static_cast<std::uint8_t>(index)}; }
 
@@ -86,7 +85,7 @@ TYPED_TEST_P(ExchangeLaws, L1_EveryMessageReachesEveryOtherMemberOnceUnchanged) 
     for (std::uint64_t i = 0; i < kCount; ++i) this->send(member, i, test::Sizes::kAll);
     this->hear(member, kCount, test::Sizes::kAll);
   });
-  this->bench_.end(0);   // what comes next is this, so nothing came twice
+  this->bench_.end(0);  // what comes next is this, so nothing came twice
   this->all([this](std::size_t member) {
     if (member != 0) this->expect_gone(member, 0);
   });
@@ -109,7 +108,7 @@ TYPED_TEST_P(ExchangeLaws, L2_InTheOrderInWhichTheyWereSentHoweverFarAhead) {
 }
 
 TYPED_TEST_P(ExchangeLaws, L3_AMemberDoesNotHearItself) {
-  static constexpr std::uint64_t kRounds = 200;   // in lockstep: each sends, then hears all others
+  static constexpr std::uint64_t kRounds = 200;  // in lockstep: each sends, then hears all others
   this->all([this](std::size_t member) {
     for (std::uint64_t round = 0; round < kRounds; ++round) {
       this->send(member, round, test::Sizes::kSmall);
@@ -143,7 +142,7 @@ TYPED_TEST_P(ExchangeLaws, L4_ReceiveSleepsUntilThereIsSomething) {
 TYPED_TEST_P(ExchangeLaws, L5_WhoIsGoneIsHeardNoMoreAndAllItSaidBeforeHasBeen) {
   static constexpr std::uint64_t kCount = 500;
   for (std::uint64_t i = 0; i < kCount; ++i) this->send(0, i, test::Sizes::kAll);
-  for (std::size_t member = 1; member < this->bench_.members(); ++member)   // who stays is not disturbed
+  for (std::size_t member = 1; member < this->bench_.members(); ++member)  // who stays is not disturbed
     for (std::uint64_t i = 0; i < kCount; ++i) this->send(member, i, test::Sizes::kSmall);
   std::thread ending([this] { this->bench_.end(0); });
   this->all([this](std::size_t member) {

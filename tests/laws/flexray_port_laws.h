@@ -28,7 +28,7 @@ struct Reached {
   bus::Signal signal{};
   Microticks start{};
   Microticks end{};
-  std::vector<std::byte> bytes;    // of a frame
+  std::vector<std::byte> bytes;  // of a frame
 };
 
 class FlexRayBench {
@@ -44,8 +44,7 @@ class FlexRayBench {
   virtual const std::vector<Reached>& reached() const = 0;
 };
 
-template <class Bench>
-class FlexRayPortLaws : public testing::Test {
+template <class Bench> class FlexRayPortLaws : public testing::Test {
  protected:
   // A frame that says who sent it and which it is.
   std::vector<std::byte> frame(std::size_t sender, int number, int words, Channel channel) const {
@@ -81,7 +80,7 @@ class FlexRayPortLaws : public testing::Test {
   }
 
   Bench bench_;
-  static constexpr std::int64_t kFirst = 10'000;   // microticks
+  static constexpr std::int64_t kFirst = 10'000;  // microticks
 };
 
 TYPED_TEST_SUITE_P(FlexRayPortLaws);
@@ -94,7 +93,7 @@ TYPED_TEST_P(FlexRayPortLaws, L1_EveryTransmissionReachesEveryOtherControllerOnc
     const std::size_t sender = static_cast<std::size_t>(number) % controllers;
     const int words = number * 2 % 128;
     for (const Channel channel : {Channel::kA, Channel::kB}) {
-      if (number % 3 == (channel == Channel::kA ? 0 : 1)) continue;   // some on one channel only
+      if (number % 3 == (channel == Channel::kA ? 0 : 1)) continue;  // some on one channel only
       const auto bytes = this->frame(sender, number, words, channel);
       this->transmit(sender, channel, start, bytes);
       sent[{channel, bytes}] = sender;
@@ -163,7 +162,8 @@ TYPED_TEST_P(FlexRayPortLaws, L4_AFrameIsDeliveredAtItsEnd) {
     for (std::size_t i = before; i < this->bench_.reached().size(); ++i) {
       const Reached& reached = this->bench_.reached()[i];
       // Both instants are rounded to a microtick of the receiver.
-      EXPECT_NEAR(static_cast<double>((reached.end - reached.start).value), static_cast<double>(this->length(words)), 1.0);
+      EXPECT_NEAR(static_cast<double>((reached.end - reached.start).value), static_cast<double>(this->length(words)),
+                  1.0);
       EXPECT_GE(reached.start.value, start - 1);
       EXPECT_LE(reached.start.value, start + this->longest_delay() + 1);
     }
@@ -184,7 +184,7 @@ TYPED_TEST_P(FlexRayPortLaws, L6_SignalsThatOverlapArriveAsOneUndecodable) {
   const std::int64_t second = this->kFirst + this->length(8) / 2;
   this->transmit(0, Channel::kA, this->kFirst, this->frame(0, 1, 8, Channel::kA));
   this->transmit(2, Channel::kA, second, this->frame(2, 2, 8, Channel::kA));
-  this->transmit(2, Channel::kB, second, this->frame(2, 3, 8, Channel::kB));   // the other channel is not concerned
+  this->transmit(2, Channel::kB, second, this->frame(2, 3, 8, Channel::kB));  // the other channel is not concerned
   this->bench_.run_until(Microticks{this->kFirst + 100'000});
   const auto mine = this->at(1);
   ASSERT_EQ(mine.size(), 2u);
@@ -229,11 +229,9 @@ TYPED_TEST_P(FlexRayPortLaws, L7_TheCarrierIsSensedFromStartToDelivery) {
 }
 
 REGISTER_TYPED_TEST_SUITE_P(FlexRayPortLaws, L1_EveryTransmissionReachesEveryOtherControllerOnceUnchanged,
-                            L2_AControllerDoesNotHearItself, L3_ReceptionsComeInTheOrderOfTheirEnd,
-                            L3_TiesGoByChannel, L4_AFrameIsDeliveredAtItsEnd,
-                            L5_TheMediumKeepsNoReferenceToTheBytes, L6_SignalsThatOverlapArriveAsOneUndecodable,
-                            L6_ABridgeBetweenTwoSignalsMakesThemOne,
-                            L6_OverlappingCollisionAvoidanceSymbolsRemainOne,
-                            L7_TheCarrierIsSensedFromStartToDelivery);
+                            L2_AControllerDoesNotHearItself, L3_ReceptionsComeInTheOrderOfTheirEnd, L3_TiesGoByChannel,
+                            L4_AFrameIsDeliveredAtItsEnd, L5_TheMediumKeepsNoReferenceToTheBytes,
+                            L6_SignalsThatOverlapArriveAsOneUndecodable, L6_ABridgeBetweenTwoSignalsMakesThemOne,
+                            L6_OverlappingCollisionAvoidanceSymbolsRemainOne, L7_TheCarrierIsSensedFromStartToDelivery);
 
 }  // namespace ttf::laws

@@ -57,7 +57,7 @@ class LiveBench {
   }
 };
 
-inline constexpr auto kGlance = std::chrono::microseconds(50);   // between two looks
+inline constexpr auto kGlance = std::chrono::microseconds(50);  // between two looks
 
 class LiveListener {
  public:
@@ -87,7 +87,7 @@ class LiveListener {
   bool try_to_say(bus::Line line) {
     Utterance utterance(line, {self_, bench_.members()}, said_[line], traffic_, bench_.fast(line));
     const bus::LiveStatus status = utterance.send(medium());
-    utterance.scribble();   // L5
+    utterance.scribble();  // L5
     if (status == bus::LiveStatus::kDone) ++said_[line];
     if (status == bus::LiveStatus::kNoRoom) ++refused_;
     if (status == bus::LiveStatus::kFailed) complain("send fails: " + medium().failure());
@@ -100,8 +100,9 @@ class LiveListener {
   }
   // Hears until `count` things of this member on this line have been heard, and how late they were. `meanwhile`: what
   // members do that have no thread; some media follow up as their sender hears that its frame has left.
-  void hear_until(bus::Line line, std::size_t from, std::size_t count, bool gaps = false,
-                  const std::function<void()>& meanwhile = [] {}) {
+  void hear_until(
+      bus::Line line, std::size_t from, std::size_t count, bool gaps = false,
+      const std::function<void()>& meanwhile = [] {}) {
     const auto begin = std::chrono::steady_clock::now();
     for (hear(gaps); next_[line][from] < count || waits_for_follow_up(line, from); meanwhile(), hear(gaps)) {
       if (!wrong_.empty()) return;
@@ -178,10 +179,10 @@ class LiveListener {
   LiveBench& bench_;
   std::size_t self_;
   Traffic traffic_;
-  std::vector<std::vector<std::size_t>> next_;     // by line and speaker: the number that is heard next
+  std::vector<std::vector<std::size_t>> next_;  // by line and speaker: the number that is heard next
   std::vector<std::vector<std::size_t>> missed_;
-  std::map<std::pair<bus::Line, std::size_t>, std::deque<SyncFrame>> waiting_;   // for their follow-up
-  std::vector<std::size_t> said_;                  // by line
+  std::map<std::pair<bus::Line, std::size_t>, std::deque<SyncFrame>> waiting_;  // for their follow-up
+  std::vector<std::size_t> said_;                                               // by line
   std::uint64_t received_ = 0, refused_ = 0;
   std::string wrong_;
 };

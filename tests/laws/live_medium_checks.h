@@ -36,8 +36,8 @@ inline std::string first_wrong(const std::vector<LiveListener>& members) {
 }
 
 // What this member hears next, if it is there in time.
-inline std::optional<bus::LiveArrival> await(LiveBench& bench, std::size_t member,
-                                             const std::function<void()>& meanwhile = [] {}) {
+inline std::optional<bus::LiveArrival> await(
+    LiveBench& bench, std::size_t member, const std::function<void()>& meanwhile = [] {}) {
   const auto begin = std::chrono::steady_clock::now();
   for (;;) {
     if (auto heard = bench.member(member).receive()) return heard;
@@ -60,10 +60,11 @@ inline std::string check_counts(LiveBench& bench, const LiveListener& member) {
   if (counts.sent == said && counts.received == member.received() && counts.not_sent == member.refused() &&
       counts.lost == 0 && counts.foreign == 0 && counts.malformed == 0 && member.medium().failure().empty())
     return {};
-  return fmt::format("member {} counts {} sent for {}, {} received for {}, {} not sent for {}, {} lost, {} foreign, {} "
-                     "malformed; \"{}\"",
-                     member.self(), counts.sent, said, counts.received, member.received(), counts.not_sent,
-                     member.refused(), counts.lost, counts.foreign, counts.malformed, member.medium().failure());
+  return fmt::format(
+      "member {} counts {} sent for {}, {} received for {}, {} not sent for {}, {} lost, {} foreign, {} "
+      "malformed; \"{}\"",
+      member.self(), counts.sent, said, counts.received, member.received(), counts.not_sent, member.refused(),
+      counts.lost, counts.foreign, counts.malformed, member.medium().failure());
 }
 
 inline void say_on_all_lines(LiveBench& bench, LiveListener& member, std::size_t count) {
@@ -71,8 +72,8 @@ inline void say_on_all_lines(LiveBench& bench, LiveListener& member, std::size_t
     for (bus::Line line = 0; line < bench.lines(); ++line)
       if (bench.on(member.self(), line)) member.say(line);
 }
-inline void hear_all_of(LiveBench& bench, LiveListener& member, std::size_t count,
-                        const std::function<void()>& meanwhile = [] {}) {
+inline void hear_all_of(
+    LiveBench& bench, LiveListener& member, std::size_t count, const std::function<void()>& meanwhile = [] {}) {
   for (bus::Line line = 0; line < bench.lines(); ++line)
     for (const std::size_t other : bench.others(member.self(), line))
       if (bench.on(member.self(), line)) member.hear_until(line, other, count, false, meanwhile);
@@ -106,7 +107,7 @@ inline std::string once_and_unchanged(LiveBench& bench, bool in_threads) {
       for (LiveListener& member : members) hear(member, round);
     }
   }
-  for (LiveListener& member : members) member.hear_out();   // nothing comes twice
+  for (LiveListener& member : members) member.hear_out();  // nothing comes twice
   std::string wrong = first_wrong(members);
   for (const LiveListener& member : members)
     if (wrong.empty()) wrong = check_counts(bench, member);
@@ -126,7 +127,7 @@ inline std::string missing_is_counted(LiveBench& bench) {
   }
   LiveListener& sleeper = members[1];
   sleeper.hear_out(true);
-  speaker.say(line);   // so that it can be known that something before it is missing
+  speaker.say(line);  // so that it can be known that something before it is missing
   sleeper.hear_until(line, 0, speaker.said(line), true);
   if (!sleeper.wrong().empty()) return sleeper.wrong();
   const std::uint64_t lost = sleeper.medium().counts().lost, missing = sleeper.missed(line, 0);
@@ -217,7 +218,7 @@ inline std::string keeps_what_is_its_own(LiveBench& bench) {
 // L6. The first round is not counted: who has not sent yet may have something left to do.
 inline std::string never_blocks_nor_allocates(LiveBench& bench) {
   static constexpr std::size_t kCount = 32;
-  static constexpr auto kAtOnce = std::chrono::seconds(1);   // on a machine that has other things to do
+  static constexpr auto kAtOnce = std::chrono::seconds(1);  // on a machine that has other things to do
   const auto timed = [](auto&& call) {
     const auto begin = std::chrono::steady_clock::now();
     call();
@@ -272,8 +273,8 @@ inline std::string strangers_are_counted(LiveBench& bench, LiveBench::Intruder w
       members[other].hear_out();
       const bus::LiveCounts counts = members[other].medium().counts();
       const bool foreign = what == LiveBench::Intruder::kForeign;
-      const std::uint64_t counted = foreign ? counts.foreign - before[other].foreign
-                                            : counts.malformed - before[other].malformed;
+      const std::uint64_t counted =
+          foreign ? counts.foreign - before[other].foreign : counts.malformed - before[other].malformed;
       if (counted != 1) return fmt::format("line {}: member {} counts {} strangers, not 1", line, other, counted);
       if ((foreign ? counts.malformed - before[other].malformed : counts.foreign - before[other].foreign) != 0)
         return fmt::format("line {}: member {} takes it for what it is not", line, other);
@@ -313,7 +314,7 @@ inline std::string what_is_watched_is_readable(LiveBench& bench) {
       return complaint("is not readable where it came before it was watched");
     if (!await(bench, hearer)) return complaint("hears nothing");
     medium.watch(line, false);
-    for (std::size_t i = 0; i < bench.members(); ++i)   // the others have heard it too
+    for (std::size_t i = 0; i < bench.members(); ++i)  // the others have heard it too
       while (bench.member(i).receive()) {
       }
   }

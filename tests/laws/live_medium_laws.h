@@ -14,8 +14,7 @@
 
 namespace ttf::laws {
 
-template <class Bench>
-class LiveMediumLaws : public testing::Test {
+template <class Bench> class LiveMediumLaws : public testing::Test {
  protected:
   void SetUp() override {
     if (const std::string why = bench_.missing(); !why.empty()) GTEST_SKIP() << why;

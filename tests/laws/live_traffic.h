@@ -16,8 +16,8 @@
 namespace ttf::laws {
 
 enum class Traffic {
-  kAll,      // frames of all lengths, null frames, sync frames that say how late they are, broken frames, all symbols
-  kFrames,   // frames of 24 bytes, and that is all
+  kAll,     // frames of all lengths, null frames, sync frames that say how late they are, broken frames, all symbols
+  kFrames,  // frames of 24 bytes, and that is all
 };
 
 // Who says it, and to how many (1..16, the speaker included).
@@ -41,8 +41,12 @@ class Utterance {
 
   bool is_can() const { return line_ >= bus::line_of_can(0); }
   bus::LiveSignal signal() const {
-    return {.channel = static_cast<schedules::Channel>(line_), .signal = what_, .slot = slot(), .duration = duration_,
-            .bytes = std::span(bytes_).first(size_), .tells_late = late_.has_value()};
+    return {.channel = static_cast<schedules::Channel>(line_),
+            .signal = what_,
+            .slot = slot(),
+            .duration = duration_,
+            .bytes = std::span(bytes_).first(size_),
+            .tells_late = late_.has_value()};
   }
   bus::CanFrame can() const {
     return {static_cast<std::uint32_t>(number_ % 100 * speaker_.members + speaker_.index), fast_,
@@ -80,7 +84,7 @@ class Utterance {
     size_ = kLengths[number_ % (fast ? 16 : 9)];
   }
   void make_signal(Traffic traffic) {
-    static constexpr std::array<int, 8> kEdges{0, 127, 1, 28, 29, 27, 30, 126};   // where media begin to cut frames up
+    static constexpr std::array<int, 8> kEdges{0, 127, 1, 28, 29, 27, 30, 126};  // where media begin to cut frames up
     const std::size_t form = traffic == Traffic::kFrames ? 2 : number_ % 8;
     if (form == 3) return make_symbol(bus::Signal::kCas);
     if (form == 5) return make_symbol(bus::Signal::kWakeup);
@@ -98,7 +102,7 @@ class Utterance {
     header.cycle = cycle();
     size_ = wire::encode_frame(header, static_cast<schedules::Channel>(line_),
                                std::span(payload).first(static_cast<std::size_t>(2 * words)), bytes_);
-    if (form == 7) bytes_[number_ % 16 == 7 ? 4 : size_ - 1] ^= std::byte{0x40};   // its header CRC, its frame CRC
+    if (form == 7) bytes_[number_ % 16 == 7 ? 4 : size_ - 1] ^= std::byte{0x40};  // its header CRC, its frame CRC
   }
   void make_symbol(bus::Signal what) {
     what_ = what;

@@ -19,8 +19,7 @@ struct NoCan final : bus::CanPort {
 
 // The paper's camera host with its own step, on wires of its own.
 struct CameraHost {
-  schedules::Cluster cluster =
-      schedules::load_cluster(TTF_SOURCE_DIR "/schedules/paper_synchronised.yaml");
+  schedules::Cluster cluster = schedules::load_cluster(TTF_SOURCE_DIR "/schedules/paper_synchronised.yaml");
   NodeId id = *cluster.find_node("camera_pre");
   SensorId camera = *cluster.find_sensor("camera");
   const schedules::PduLayout& layout = cluster.pdu(*cluster.find_pdu("camera_frame"));
@@ -39,8 +38,7 @@ struct CameraHost {
     const ExecutiveConfig config{&cluster, id, timebase::Oscillator(25'000, 0, 0), clock, 1, 0, {}};
     executive = std::make_unique<Executive>(
         config,
-        std::vector<std::shared_ptr<Step>>{
-            std::make_shared<CameraPreprocessing>(cluster, task, CameraCalibration{})},
+        std::vector<std::shared_ptr<Step>>{std::make_shared<CameraPreprocessing>(cluster, task, CameraCalibration{})},
         &port, std::vector<bus::CanPort*>(cluster.can_buses.size(), &can), lines, heard);
   }
   void wait(Duration duration) {
@@ -58,8 +56,7 @@ struct CameraHost {
     executive->receive_can(camera_can, {272, false, raw.view().bytes}, now);
   }
   long hops(records::Hop what) const {
-    return std::count_if(heard.hops.begin(), heard.hops.end(),
-                         [&](const Runs::Hop& h) { return h.what == what; });
+    return std::count_if(heard.hops.begin(), heard.hops.end(), [&](const Runs::Hop& h) { return h.what == what; });
   }
 };
 

@@ -15,7 +15,7 @@ namespace {
 // Records outlive the call here, so their words are copied.
 struct Told final : records::Sink {
   struct Change {
-    std::int64_t at;   // us of true time since power-on
+    std::int64_t at;  // us of true time since power-on
     int from, to;
     std::string from_name, to_name, why, consequence;
     bool operator==(const Change&) const = default;
@@ -30,8 +30,8 @@ struct Told final : records::Sink {
   };
   std::vector<Change> changes;
   std::vector<Symbol> symbols;
-  std::vector<std::int64_t> powered;   // us
-  int of_the_cluster = 0;   // records with a global time of their own
+  std::vector<std::int64_t> powered;  // us
+  int of_the_cluster = 0;             // records with a global time of their own
 
   using records::Sink::on;
   void on(const records::StateChanged& r) override {
@@ -50,7 +50,7 @@ struct Told final : records::Sink {
 };
 
 struct ColdNode {
-  schedules::Cluster cluster = bus::small_cluster(4);   // node 0 is a coldstart node
+  schedules::Cluster cluster = bus::small_cluster(4);  // node 0 is a coldstart node
   bus::NoPort port;
   NoLines lines;
   Told told;
@@ -66,12 +66,14 @@ struct ColdNode {
   }
   void run_to(std::int64_t us) {
     const Microticks end{40 * us};
-    for (Microticks next = executive->next_event(); next <= end; next = executive->next_event()) executive->advance(next);
+    for (Microticks next = executive->next_event(); next <= end; next = executive->next_event())
+      executive->advance(next);
   }
 };
 
-// Two attempts allowed are two CAS: after the listen timeout of 2 * 40 121 microticks, and after the silent cycle. Cycle 0
-// begins a macrotick after the end of the CAS, which lasts 39 bits of 0.1 us; the node gives up at the end of cycle 4.
+// Two attempts allowed are two CAS: after the listen timeout of 2 * 40 121 microticks, and after the silent cycle.
+// Cycle 0 begins a macrotick after the end of the CAS, which lasts 39 bits of 0.1 us; the node gives up at the end of
+// cycle 4.
 TEST(ExecutiveStartup, EveryChangeOfStateIsReportedWithItsReason) {
   ColdNode node;
   node.run_to(60'000);
@@ -81,21 +83,20 @@ TEST(ExecutiveStartup, EveryChangeOfStateIsReportedWithItsReason) {
   constexpr const char* kNobody = "no other node's startup frame came in the first cycle of the check";
   constexpr const char* kResolution = "coldstart collision resolution";
   constexpr const char* kCheck = "coldstart consistency check";
-  EXPECT_EQ(node.told.changes,
-            (std::vector<Told::Change>{
-                {0, 0x00, 0x0F, "default config", "config", "the host commanded CONFIG", ""},
-                {0, 0x0F, 0x01, "config", "ready", "the host completed the configuration", ""},
-                {0, 0x01, 0x21, "ready", "coldstart listen", "the host commanded RUN",
-                 "it may start the cluster if nobody else does"},
-                {2'006, 0x21, 0x22, "coldstart listen", kResolution, kTimeout, ""},
-                {6'010, 0x22, 0x23, kResolution, kCheck, kLeads, ""},
-                {7'010, 0x23, 0x24, kCheck, "coldstart gap", kNobody, ""},
-                {8'010, 0x24, 0x22, "coldstart gap", kResolution,
-                 "the silent cycle is over: it sends a collision avoidance symbol once more", ""},
-                {12'015, 0x22, 0x23, kResolution, kCheck, kLeads, ""},
-                {13'015, 0x23, 0x27, kCheck, "integration listen", kNobody,
-                 "its coldstart attempts are exhausted: it can only join others"},
-            }));
+  EXPECT_EQ(node.told.changes, (std::vector<Told::Change>{
+                                   {0, 0x00, 0x0F, "default config", "config", "the host commanded CONFIG", ""},
+                                   {0, 0x0F, 0x01, "config", "ready", "the host completed the configuration", ""},
+                                   {0, 0x01, 0x21, "ready", "coldstart listen", "the host commanded RUN",
+                                    "it may start the cluster if nobody else does"},
+                                   {2'006, 0x21, 0x22, "coldstart listen", kResolution, kTimeout, ""},
+                                   {6'010, 0x22, 0x23, kResolution, kCheck, kLeads, ""},
+                                   {7'010, 0x23, 0x24, kCheck, "coldstart gap", kNobody, ""},
+                                   {8'010, 0x24, 0x22, "coldstart gap", kResolution,
+                                    "the silent cycle is over: it sends a collision avoidance symbol once more", ""},
+                                   {12'015, 0x22, 0x23, kResolution, kCheck, kLeads, ""},
+                                   {13'015, 0x23, 0x27, kCheck, "integration listen", kNobody,
+                                    "its coldstart attempts are exhausted: it can only join others"},
+                               }));
 }
 
 TEST(ExecutiveStartup, SymbolsAreReportedOnEachChannelTheyLeaveOn) {
@@ -118,7 +119,8 @@ bus::Reception heard_until(std::int64_t us, bus::Signal signal) {
   return {schedules::Channel::kA, signal, {40 * (us - 50)}, {40 * us}, {}};
 }
 
-// Two patterns of 60 bits and 180 idle ones, 48 us, after the listen timeout of 2006 us; then start-up, which listens anew.
+// Two patterns of 60 bits and 180 idle ones, 48 us, after the listen timeout of 2006 us; then start-up, which listens
+// anew.
 TEST(ExecutiveStartup, WhoWakesSendsThePatternOnOneChannelAndStartsUpAfterwards) {
   ColdNode node(std::nullopt, ColdStart::kWakes);
   node.run_to(4'500);
@@ -128,8 +130,8 @@ TEST(ExecutiveStartup, WhoWakesSendsThePatternOnOneChannelAndStartsUpAfterwards)
   EXPECT_EQ(node.told.symbols[1].kind, records::kSymbolCas);
   std::vector<std::string> states;
   for (const Told::Change& change : node.told.changes) states.push_back(change.to_name);
-  EXPECT_EQ(states, (std::vector<std::string>{"config", "ready", "wakeup listen", "wakeup send", "ready", "coldstart listen",
-                                              "coldstart collision resolution"}));
+  EXPECT_EQ(states, (std::vector<std::string>{"config", "ready", "wakeup listen", "wakeup send", "ready",
+                                              "coldstart listen", "coldstart collision resolution"}));
 }
 
 // Somebody else's pattern ends a wake-up as well as its own.

@@ -75,13 +75,13 @@ TEST(Executive, AnActivationThatMeetsAWaitingOneIsAnOverrun) {
 }
 
 TEST(Executive, AMissedDeadlineIsRecordedAndCounted) {
-  OneNode node({at(100, task("a", 50, 50)), at(110, task("b", 20, 59)), at(300, task("c", 60, 59)),
-                at(500, task("d", 0, 0))});
+  OneNode node(
+      {at(100, task("a", 50, 50)), at(110, task("b", 20, 59)), at(300, task("c", 60, 59)), at(500, task("d", 0, 0))});
   node.run_to(1, 0);
-  EXPECT_EQ(node.heard.runs, (std::vector<Ran>{{0, 100, 100, 150, true},
-                                               {1, 110, 150, 170, false},
-                                               {2, 300, 300, 360, false},
-                                               {3, 500, 500, 500, true}}))
+  EXPECT_EQ(
+      node.heard.runs,
+      (std::vector<Ran>{
+          {0, 100, 100, 150, true}, {1, 110, 150, 170, false}, {2, 300, 300, 360, false}, {3, 500, 500, 500, true}}))
       << "a deadline counts from the activation, waiting included, and is met on the tick";
   EXPECT_EQ(node.executive->counts().deadlines_missed, 2u);
 }

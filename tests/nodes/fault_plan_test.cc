@@ -117,7 +117,7 @@ TEST(FaultPlan, EveryKeyOfEveryKindIsReadAndNoOtherIsTaken) {
       fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(left_out));
       const Read less = read(entry(kind, fewer));
       const std::string& key = keys[left_out];
-      if (key == "signal: noise" || key == "mode: cas") continue;   // the default, so that the other keys are there
+      if (key == "signal: noise" || key == "mode: cas") continue;  // the default, so that the other keys are there
       EXPECT_TRUE(!less.sentences.empty() || !(less.plan.faults[0] == full.plan.faults[0])) << key;
     }
     std::vector<std::string> more = keys;
@@ -136,7 +136,7 @@ TEST(FaultPlan, AKindTakesNoKeyOfAnother) {
     std::set<std::string> own;
     for (const std::string& key : keys) own.insert(key.substr(0, key.find(':')));
     if (kind.starts_with("bit_flip")) own.insert({"bits", "flips"});
-    if (kind == "duplicate_coldstart" || kind == "wrong_schedule") own.insert("slot");   // of other modes
+    if (kind == "duplicate_coldstart" || kind == "wrong_schedule") own.insert("slot");  // of other modes
     for (const std::string& foreign : all) {
       if (own.contains(foreign.substr(0, foreign.find(':')))) continue;
       std::vector<std::string> keys_and_it = keys;
@@ -150,8 +150,8 @@ TEST(FaultPlan, ModesHaveKeysOfTheirOwn) {
   EXPECT_EQ(read("  - {kind: babbling_idiot, node: a, signal: frame, length: 5 us}\n").sentences.size(), 1U);
   EXPECT_TRUE(read("  - {kind: duplicate_coldstart, node: a, mode: same_key_slot, slot: 3}\n").sentences.empty());
   EXPECT_EQ(read("  - {kind: duplicate_coldstart, node: a, mode: same_key_slot, from: 1 ms}\n").sentences.size(), 1U);
-  EXPECT_EQ(
-      read("  - {kind: duplicate_coldstart, node: a, mode: startup_frames, interval: 1 ms}\n").sentences.size(), 1U);
+  EXPECT_EQ(read("  - {kind: duplicate_coldstart, node: a, mode: startup_frames, interval: 1 ms}\n").sentences.size(),
+            1U);
   EXPECT_TRUE(read("  - {kind: wrong_schedule, node: a, mode: key_slot, slot: 3}\n").sentences.empty());
   EXPECT_EQ(read("  - {kind: wrong_schedule, node: a, mode: key_slot, slot: 3, by: 1}\n").sentences.size(), 1U);
   EXPECT_EQ(read("  - {kind: wrong_schedule, node: a, by: 1}\n").sentences.size(), 1U);
@@ -181,7 +181,8 @@ TEST(FaultPlan, MistakesAreSaidInOneSentence) {
       {"{kind: sos_timing, node: a}", "faults[0].shift: is missing"},
       {"{kind: sos_timing, node: a, shift: -10 us}", "faults[0].shift = -10 us: must be a time"},
       {"{kind: sos_timing, node: a, shift: 0 us}", "faults[0].shift = 0 us: must not be 0"},
-      {"{kind: sos_timing, node: a, shift: 1 us, receivers: [b, c, b]}", "faults[0].receivers: must be different nodes"},
+      {"{kind: sos_timing, node: a, shift: 1 us, receivers: [b, c, b]}",
+       "faults[0].receivers: must be different nodes"},
       {"{kind: sos_timing, node: a, shift: 1 us, receivers: b}", "faults[0].receivers = b: must be a list"},
       {"{kind: sos_timing, node: a, shift: 1 us, receivers: []}",
        "faults[0].receivers: must be a list with at least one entry"},
@@ -213,9 +214,7 @@ TEST(FaultPlan, MistakesAreSaidInOneSentence) {
   EXPECT_THAT(none.sentences, ElementsAre("drive.yaml:2: faults: must be a list of mappings"));
 }
 
-schedules::Cluster paper() {
-  return schedules::load_cluster(TTF_SOURCE_DIR "/schedules/paper_synchronised.yaml");
-}
+schedules::Cluster paper() { return schedules::load_cluster(TTF_SOURCE_DIR "/schedules/paper_synchronised.yaml"); }
 
 std::vector<std::string> refused(const std::string& entries, const schedules::Cluster& cluster) {
   const Read result = read(entries);
@@ -266,13 +265,12 @@ TEST(FaultPlan, WhatTheClusterHasNotIsRefused) {
       on_bus = node.name;
   }
   ASSERT_FALSE(off_bus.empty() || not_coldstart.empty() || on_bus.empty());
-  const auto sentences = refused("  - {kind: crash, node: nobody}\n  - {kind: crash, node: " + off_bus + "}\n" +
-                                     "  - {kind: sos_value, node: " + on_bus + ", receivers: [nobody]}\n" +
-                                     "  - {kind: masquerading, node: " + on_bus + ", slot: 1023}\n" +
-                                     "  - {kind: lone_coldstart, node: " + not_coldstart + "}\n" +
-                                     "  - {kind: bit_flip_payload, node: " + on_bus + ", bits: [2031]}\n" +
-                                     "  - {kind: wrong_schedule, mode: shifted_slots, by: 1022, node: " + on_bus + "}\n",
-                                 cluster);
+  const auto sentences = refused(
+      "  - {kind: crash, node: nobody}\n  - {kind: crash, node: " + off_bus + "}\n" + "  - {kind: sos_value, node: " +
+          on_bus + ", receivers: [nobody]}\n" + "  - {kind: masquerading, node: " + on_bus + ", slot: 1023}\n" +
+          "  - {kind: lone_coldstart, node: " + not_coldstart + "}\n" + "  - {kind: bit_flip_payload, node: " + on_bus +
+          ", bits: [2031]}\n" + "  - {kind: wrong_schedule, mode: shifted_slots, by: 1022, node: " + on_bus + "}\n",
+      cluster);
   ASSERT_EQ(sentences.size(), 7U);
   EXPECT_THAT(sentences[0], HasSubstr("drive.yaml:2: faults[0].node = nobody: must be a node of "));
   std::string names;

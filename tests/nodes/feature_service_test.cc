@@ -46,15 +46,13 @@ TEST(FeatureService, TimeGapIsClearanceByOwnSpeed) {
   EXPECT_NEAR(f.time_gap_s, 2.0, 1e-12);
   EXPECT_TRUE(std::isinf(f.time_to_collision_s));
   EXPECT_FALSE(f.warning);
-  EXPECT_TRUE(std::isinf(judge(car(22.0, 0.0, 0.0, 0.0), driving(0.0)).time_gap_s))
-      << "who stands has no gap";
+  EXPECT_TRUE(std::isinf(judge(car(22.0, 0.0, 0.0, 0.0), driving(0.0)).time_gap_s)) << "who stands has no gap";
   EXPECT_TRUE(std::isinf(judge(car(-22.0, 0.0, 0.0, 0.0), driving(10.0)).time_gap_s)) << "nor what is behind";
 }
 
 TEST(FeatureService, WhatOpensOrStandsIsNoCollision) {
   EXPECT_TRUE(std::isinf(judge(car(22.0, 0.0, 0.0, 5.0), driving(0.0)).time_to_collision_s));
-  EXPECT_TRUE(std::isinf(judge(car(22.0, 0.0, kPi, 0.4), driving(0.0)).time_to_collision_s))
-      << "noise about zero";
+  EXPECT_TRUE(std::isinf(judge(car(22.0, 0.0, kPi, 0.4), driving(0.0)).time_to_collision_s)) << "noise about zero";
   EXPECT_NEAR(judge(car(22.0, 0.0, kPi, 0.6), driving(0.0)).time_to_collision_s, 20.0 / 0.6, 1e-9);
 }
 

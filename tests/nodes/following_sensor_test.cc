@@ -13,7 +13,7 @@ namespace ttf::nodes {
 namespace {
 
 struct Lines final : SensorLines {
-  std::vector<Microticks> triggers, strobes;   // with the node's time of the advance in which they came
+  std::vector<Microticks> triggers, strobes;  // with the node's time of the advance in which they came
   Microticks now{};
   void trigger(SensorId) override { triggers.push_back(now); }
   void strobe(SensorId, std::uint32_t) override { strobes.push_back(now); }
@@ -23,7 +23,8 @@ struct SilentCan final : bus::CanPort {
   void send(const bus::CanFrame&) override {}
 };
 
-// One of the two nodes around the camera of the cluster with following sensors. Exact clocks: 40 microticks are a microsecond.
+// One of the two nodes around the camera of the cluster with following sensors. Exact clocks: 40 microticks are a
+// microsecond.
 struct OneEnd {
   schedules::Cluster cluster = schedules::load_cluster(TTF_SOURCE_DIR "/schedules/paper_free_running.yaml");
   SensorId camera = *cluster.find_sensor("camera");
@@ -41,11 +42,16 @@ struct OneEnd {
     const NodeId id = *cluster.find_node(name);
     for (schedules::Task& task : cluster.nodes[index_of(id)].tasks) task.draw = schedules::ExecutionDraw::kWorst;
     const bool on_flexray = cluster.node(id).flexray.has_value();
-    const ExecutiveConfig config{&cluster, id, timebase::Oscillator(25'000, 0, 0),
-                                 on_flexray ? std::optional(bus::InitialClock{{1000}, 0}) : std::nullopt, 1, 0, {}};
-    executive = std::make_unique<Executive>(
-        config, std::vector<std::shared_ptr<Step>>{std::make_shared<Scripted>()}, on_flexray ? &port : nullptr,
-        std::vector<bus::CanPort*>(cluster.can_buses.size(), &can), lines, heard);
+    const ExecutiveConfig config{&cluster,
+                                 id,
+                                 timebase::Oscillator(25'000, 0, 0),
+                                 on_flexray ? std::optional(bus::InitialClock{{1000}, 0}) : std::nullopt,
+                                 1,
+                                 0,
+                                 {}};
+    executive = std::make_unique<Executive>(config, std::vector<std::shared_ptr<Step>>{std::make_shared<Scripted>()},
+                                            on_flexray ? &port : nullptr,
+                                            std::vector<bus::CanPort*>(cluster.can_buses.size(), &can), lines, heard);
   }
   static Microticks ms(double time) { return {static_cast<std::int64_t>(time * 40'000)}; }
   void run_to(Microticks end) {
@@ -64,8 +70,8 @@ struct OneEnd {
   }
 };
 
-// At 3 ms by itself; triggered 10 and 40 ms after its last measurement, of which it can do the second at once. Then nobody
-// triggers it: 33 ms later it goes on by itself.
+// At 3 ms by itself; triggered 10 and 40 ms after its last measurement, of which it can do the second at once. Then
+// nobody triggers it: 33 ms later it goes on by itself.
 TEST(FollowingSensor, MeasuresWhenTriggeredIfItCanAndByItselfIfNot) {
   OneEnd device("camera");
   device.run_to(OneEnd::ms(13));

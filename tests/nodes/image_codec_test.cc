@@ -12,8 +12,7 @@ namespace ttf::nodes {
 namespace {
 
 struct Image {
-  schedules::Cluster cluster =
-      schedules::load_cluster(TTF_SOURCE_DIR "/schedules/paper_synchronised.yaml");
+  schedules::Cluster cluster = schedules::load_cluster(TTF_SOURCE_DIR "/schedules/paper_synchronised.yaml");
   PduId pdu = *cluster.find_pdu("image");
   const schedules::PduLayout& layout = cluster.pdu(pdu);
   ImageSignals signals = bind_image(cluster, layout);
@@ -70,8 +69,7 @@ TEST(ImageCodec, CarriesEveryValueWithinHalfItsResolution) {
     near(o.width, v.width, "width");
     near(o.sigma_x, std::sqrt(v.covariance(0, 0)), "sigma_x");
     near(o.sigma_y, std::sqrt(v.covariance(1, 1)), "sigma_y");
-    near(o.correlation_xy, v.covariance(0, 1) / std::sqrt(v.covariance(0, 0) * v.covariance(1, 1)),
-         "correlation");
+    near(o.correlation_xy, v.covariance(0, 1) / std::sqrt(v.covariance(0, 0) * v.covariance(1, 1)), "correlation");
     near(o.sigma_heading, v.sigma_heading, "sigma_heading");
     near(o.sigma_speed, v.sigma_speed, "sigma_speed");
     near(o.sigma_acceleration, v.sigma_acceleration, "sigma_acceleration");
@@ -92,8 +90,8 @@ TEST(ImageCodec, CarriesEveryStatus) {
     view.has_width = bits & 8;
     EXPECT_EQ(image.carried(view).status, bits);
   }
-  static_assert(records::kImageConfirmed == 1 && records::kImageCoasting == 2 &&
-                records::kImageHasLength == 4 && records::kImageHasWidth == 8);
+  static_assert(records::kImageConfirmed == 1 && records::kImageCoasting == 2 && records::kImageHasLength == 4 &&
+                records::kImageHasWidth == 8);
 }
 
 TEST(ImageCodec, SaturatesWhatIsOutOfRangeAndCountsIt) {

@@ -21,11 +21,8 @@ struct List {
   Output out;
 
   List(const std::string& file, std::string_view name)
-      : cluster(schedules::load_cluster(TTF_SOURCE_DIR "/schedules/" + file)),
-        pdu(*cluster.find_pdu(name)),
-        layout(cluster.pdu(pdu)),
-        codec(cluster, pdu),
-        out("objects", pdu, layout) {}
+      : cluster(schedules::load_cluster(TTF_SOURCE_DIR "/schedules/" + file)), pdu(*cluster.find_pdu(name)),
+        layout(cluster.pdu(pdu)), codec(cluster, pdu), out("objects", pdu, layout) {}
   void set(int index, std::string_view signal, double value) {
     out.set(index, *schedules::find_signal(layout.element, signal), value);
   }

@@ -49,11 +49,10 @@ struct Runs final : records::Sink {
   // Cycle 0 starts at microtick 1000.
   static std::int64_t us(TrueTime t) { return (t.ns - 25'000) / 1000; }
   void on(const records::TaskRun& run) override {
-    runs.push_back({run.task, us(run.activated.true_time), us(run.start.true_time), us(run.end.true_time), run.deadline_met});
+    runs.push_back(
+        {run.task, us(run.activated.true_time), us(run.start.true_time), us(run.end.true_time), run.deadline_met});
   }
-  void on(const records::ListHop& hop) override {
-    hops.push_back({hop.hop, hop.sequence, us(hop.stamp.true_time)});
-  }
+  void on(const records::ListHop& hop) override { hops.push_back({hop.hop, hop.sequence, us(hop.stamp.true_time)}); }
 };
 
 // [us], always the worst case.
@@ -66,8 +65,7 @@ inline schedules::Task task(std::string name, std::int64_t execution, std::int64
   return t;
 }
 inline schedules::Task at(int macrotick, schedules::Task t, int repetition = 1) {
-  t.activation = {
-      schedules::ActivationKind::kTime, {0, repetition, Macroticks{macrotick}}, "", kNoSensor, ""};
+  t.activation = {schedules::ActivationKind::kTime, {0, repetition, Macroticks{macrotick}}, "", kNoSensor, ""};
   return t;
 }
 inline schedules::Task after(std::string other, schedules::Task t) {
@@ -85,10 +83,10 @@ struct OneNode {
   explicit OneNode(std::vector<schedules::Task> tasks, std::vector<std::shared_ptr<Step>> steps = {}) {
     while (steps.size() < tasks.size()) steps.push_back(std::make_shared<Scripted>());
     cluster.nodes[0].tasks = std::move(tasks);
-    const ExecutiveConfig config{&cluster, NodeId{0}, timebase::Oscillator(25'000, 0, 0), bus::InitialClock{{1000}, 0}, 1,
-                                 0,        {}};
-    executive = std::make_unique<Executive>(config, std::move(steps), &port, std::vector<bus::CanPort*>{},
-                                            lines, heard);
+    const ExecutiveConfig config{
+        &cluster, NodeId{0}, timebase::Oscillator(25'000, 0, 0), bus::InitialClock{{1000}, 0}, 1, 0, {}};
+    executive =
+        std::make_unique<Executive>(config, std::move(steps), &port, std::vector<bus::CanPort*>{}, lines, heard);
   }
   // From event to event, as a crank does.
   void run_to(std::int64_t cycle, std::int64_t macrotick = 0) {

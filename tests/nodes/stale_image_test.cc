@@ -24,8 +24,7 @@ struct Use {
 
 // The paper's feature service with images by hand, each with one car 22 m ahead.
 struct Service final : records::Sink {
-  schedules::Cluster cluster =
-      schedules::load_cluster(TTF_SOURCE_DIR "/schedules/paper_synchronised.yaml");
+  schedules::Cluster cluster = schedules::load_cluster(TTF_SOURCE_DIR "/schedules/paper_synchronised.yaml");
   const schedules::Task& task = cluster.node(*cluster.find_node("feature")).tasks[0];
   PduId pdu = *cluster.find_pdu("image");
   FeatureService step;

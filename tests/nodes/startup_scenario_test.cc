@@ -63,8 +63,8 @@ TEST(StartupScenario, BeginsIntegratedUnlessToldOtherwise) {
 }
 
 TEST(StartupScenario, TakesTimesByNodeAndWhoWakes) {
-  const Startup startup =
-      startup_of("startup:\n  kind: cold\n  spread: 5 ms\n  wake_up: node1\n  power_on: {node0: 1500 us, node2: 0 ms}\n");
+  const Startup startup = startup_of(
+      "startup:\n  kind: cold\n  spread: 5 ms\n  wake_up: node1\n  power_on: {node0: 1500 us, node2: 0 ms}\n");
   EXPECT_EQ(startup.spread, Duration::milliseconds(5));
   EXPECT_EQ(startup.wake_up, "node1");
   ASSERT_EQ(startup.power_on.size(), 2u);

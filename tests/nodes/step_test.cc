@@ -38,8 +38,8 @@ TEST(StrobeLatch, ALostStrobeLeavesAGapNotANeighboursTime) {
   EXPECT_EQ(latch.find(5, kAllBits)->at.ns, 50);
 }
 
-// A host that started late has not seen the number wrap, a device that restarted has gone back: both mean the measurement
-// whose low bits the list carries, and its number is the device's.
+// A host that started late has not seen the number wrap, a device that restarted has gone back: both mean the
+// measurement whose low bits the list carries, and its number is the device's.
 TEST(StrobeLatch, ListsAreRecognisedByTheBitsTheBusCarries) {
   StrobeLatch latch;
   for (std::uint32_t k = 4090; k < 4100; ++k) latch.strobe(k, GlobalTime{k});
@@ -89,8 +89,8 @@ TEST(TimeStamp, RoundsToTheNearestMicrosecondAlsoBeforeTheStart) {
   }
 }
 
-// The sender has restarted, or the reader has, any number of times: they count different rounds. What the stamp says is found
-// on the reader's count, whatever instant within half a round it is looked at from.
+// The sender has restarted, or the reader has, any number of times: they count different rounds. What the stamp says is
+// found on the reader's count, whatever instant within half a round it is looked at from.
 TEST(TimeStamp, IsUnderstoodModuloARoundOfTheCycleCounter) {
   RandomStream draw({.seed = 10});
   const schedules::PduLayout layout = stamped(32);
@@ -103,8 +103,9 @@ TEST(TimeStamp, IsUnderstoodModuloARoundOfTheCycleCounter) {
       const std::int64_t meant_us = sent_us + rounds * round_us;
       const std::int64_t off = k == 0 ? half - 1 : k == 1 ? -half + 1 : draw.integer(-half + 1, half - 1);
       out.begin(0, 1, GlobalTime{sent_us * 1000});
-      ASSERT_EQ(time_stamp(layout, out.view(), GlobalTime{(meant_us + off) * 1000}, Duration::microseconds(round_us)).ns,
-                meant_us * 1000)
+      ASSERT_EQ(
+          time_stamp(layout, out.view(), GlobalTime{(meant_us + off) * 1000}, Duration::microseconds(round_us)).ns,
+          meant_us * 1000)
           << cycle_us << " " << sent_us << " " << rounds << " " << off;
     }
   }
@@ -145,8 +146,19 @@ TEST(Output, HoldsWhatWasSetAndNothingOfTheListBefore) {
 // Counts of rounds as lists come: which of them are of a known age.
 TEST(RoundsBelieved, AnotherCountTakesTwoListsInARow) {
   RoundsBelieved rounds;
-  for (const auto& [count, believed] : {std::pair{0, true}, {0, true}, {5, false}, {0, true}, {5, false}, {5, true}, {5, true},
-                                        {-2, false}, {7, false}, {-2, false}, {-2, true}, {5, false}, {-2, true}})
+  for (const auto& [count, believed] : {std::pair{0, true},
+                                        {0, true},
+                                        {5, false},
+                                        {0, true},
+                                        {5, false},
+                                        {5, true},
+                                        {5, true},
+                                        {-2, false},
+                                        {7, false},
+                                        {-2, false},
+                                        {-2, true},
+                                        {5, false},
+                                        {-2, true}})
     EXPECT_EQ(rounds.believed(count), believed) << count;
 }
 

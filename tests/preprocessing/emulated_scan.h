@@ -9,7 +9,7 @@
 
 namespace ttf::nodes {
 
-inline constexpr std::size_t kMostPoints = 1300;   // four layers of 325 beams
+inline constexpr std::size_t kMostPoints = 1300;  // four layers of 325 beams
 
 inline world::ObjectState car_at(double x, double y, double heading, double length = 4.4, double width = 1.8,
                                  std::uint16_t id = 0) {
@@ -24,8 +24,7 @@ inline world::ObjectState car_at(double x, double y, double heading, double leng
 }
 
 inline std::vector<ScanPoint> emulated_scan(const world::LaserConfig& config,
-                                            const std::vector<world::ObjectState>& objects,
-                                            std::uint32_t sequence) {
+                                            const std::vector<world::ObjectState>& objects, std::uint32_t sequence) {
   std::vector<world::HitPoint> hits;
   std::vector<ObjectId> truth;
   world::measure_laser(config, objects, 1, 0, 0, sequence, hits, truth);

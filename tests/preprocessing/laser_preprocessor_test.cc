@@ -18,8 +18,8 @@ std::vector<world::ObjectState> fan() {
   std::vector<world::ObjectState> cars;
   for (int k = 0; k < 12; ++k) {
     const double azimuth = 0.072 * (k - 5.5), range = k % 2 == 0 ? 35.0 : 22.0;
-    cars.push_back(car_at(range * std::cos(azimuth), range * std::sin(azimuth), azimuth, 4.4, 1.8,
-                          static_cast<std::uint16_t>(k)));
+    cars.push_back(
+        car_at(range * std::cos(azimuth), range * std::sin(azimuth), azimuth, 4.4, 1.8, static_cast<std::uint16_t>(k)));
   }
   return cars;
 }
@@ -53,8 +53,7 @@ TEST(LaserPreprocessor, WallsAndSpecksAreNoObjects) {
 TEST(LaserPreprocessor, SameScanSameBits) {
   LaserPreprocessor used({}, kMostPoints), fresh({}, kMostPoints);
   std::vector<LaserObject> first, second;
-  for (std::uint32_t sequence = 0; sequence < 5; ++sequence)
-    used.process(emulated_scan({}, fan(), sequence), first);
+  for (std::uint32_t sequence = 0; sequence < 5; ++sequence) used.process(emulated_scan({}, fan(), sequence), first);
   fresh.process(emulated_scan({}, fan(), 4), second);
   ASSERT_EQ(first.size(), second.size());
   for (std::size_t i = 0; i < first.size(); ++i) {
@@ -64,8 +63,8 @@ TEST(LaserPreprocessor, SameScanSameBits) {
   }
 }
 
-// A scan of returns in groups that belong together, each group far from the next: as many segments as it can have with a
-// group of one, as many objects with the fewest returns an object may have.
+// A scan of returns in groups that belong together, each group far from the next: as many segments as it can have with
+// a group of one, as many objects with the fewest returns an object may have.
 std::vector<ScanPoint> broken_scan(std::size_t group) {
   std::vector<ScanPoint> scan;
   for (std::size_t i = 0; i < kMostPoints; ++i)
@@ -76,8 +75,7 @@ std::vector<ScanPoint> broken_scan(std::size_t group) {
 TEST(LaserPreprocessor, DoesNotAllocate) {
   LaserPreprocessor preprocessor({}, kMostPoints);
   std::vector<std::vector<ScanPoint>> scans;
-  for (std::uint32_t sequence = 0; sequence < 20; ++sequence)
-    scans.push_back(emulated_scan({}, fan(), sequence));
+  for (std::uint32_t sequence = 0; sequence < 20; ++sequence) scans.push_back(emulated_scan({}, fan(), sequence));
   const auto single = broken_scan(1), triple = broken_scan(3);
   std::vector<LaserObject> objects;
   objects.reserve(preprocessor.most_objects());

@@ -24,8 +24,7 @@ RecordedInput one_row(const std::string& sensor, RecordedObservation::Kind kind)
 
 // What is said of this recording as the source of the shipped cluster's sensor; empty if it fits.
 std::string refusal(const std::string& sensor, RecordedInput input) {
-  static const schedules::Cluster cluster =
-      schedules::load_cluster(TTF_SOURCE_DIR "/schedules/laser_radar.yaml");
+  static const schedules::Cluster cluster = schedules::load_cluster(TTF_SOURCE_DIR "/schedules/laser_radar.yaml");
   const SensorId id = *cluster.find_sensor(sensor);
   const schedules::Task& task = cluster.node(cluster.sensor(id).device).tasks.front();
   try {

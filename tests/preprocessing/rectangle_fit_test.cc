@@ -16,8 +16,7 @@ namespace ttf::nodes {
 namespace {
 
 // Through segmentation: a car is one object, whatever its aspect.
-LaserObject fitted(const world::ObjectState& car, std::uint32_t sequence,
-                   const world::LaserConfig& laser = {}) {
+LaserObject fitted(const world::ObjectState& car, std::uint32_t sequence, const world::LaserConfig& laser = {}) {
   LaserPreprocessor preprocessor({}, kMostPoints);
   std::vector<LaserObject> objects;
   preprocessor.process(emulated_scan(laser, {car}, sequence), objects);

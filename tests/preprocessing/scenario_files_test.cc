@@ -32,10 +32,8 @@ TEST(ScenarioFiles, EveryShippedOneLoadsAndItsClustersAreThere) {
     EXPECT_FALSE(scenario.description.empty());
     EXPECT_LT(scenario.evaluate_from, scenario.duration);
     EXPECT_EQ(scenario.world.duration, scenario.duration);
-    for (const std::string& cluster : scenario.cluster_files)
-      EXPECT_TRUE(std::filesystem::exists(cluster)) << cluster;
-    EXPECT_EQ(scenario.cluster_files[0], scenario.cluster_files[1])
-        << "BUFF and ADVA share their configuration";
+    for (const std::string& cluster : scenario.cluster_files) EXPECT_TRUE(std::filesystem::exists(cluster)) << cluster;
+    EXPECT_EQ(scenario.cluster_files[0], scenario.cluster_files[1]) << "BUFF and ADVA share their configuration";
     // Drives that compare the strategies give TT a schedule of its own; what starts up, or compares phases of a
     // schedule, is one cluster.
     const bool one_cluster = scenario.startup.cold || scenario.name == "twin_cameras";

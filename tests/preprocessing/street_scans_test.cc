@@ -28,7 +28,8 @@ std::vector<std::vector<ScanPoint>> street_scans() {
   return scans;
 }
 
-// Ten scans a second in a city, where 50 km/h is the limit: what is there is within 1.4 m of where it was, and a little.
+// Ten scans a second in a city, where 50 km/h is the limit: what is there is within 1.4 m of where it was, and a
+// little.
 constexpr double kMostStep_m = 1.5;
 
 TEST(StreetScans, YieldPlausibleVehicles) {

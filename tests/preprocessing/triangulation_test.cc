@@ -17,13 +17,13 @@ TEST(Triangulation, UndoesTheProjection) {
   CameraCalibration k;
   for (const double depth : {8.0, 25.0, 60.0})
     for (const double bearing : {-0.4, 0.0, 0.2}) {
-      const CameraObject o =
-          triangulate(k, bearing, k.focal_px * k.baseline_m / depth, k.focal_px * 1.8 / depth);
+      const CameraObject o = triangulate(k, bearing, k.focal_px * k.baseline_m / depth, k.focal_px * 1.8 / depth);
       // The point seen, then half a length on along the line of sight.
       EXPECT_NEAR(o.x - k.half_length_m * std::cos(bearing), depth, 1e-9);
       EXPECT_NEAR(o.y - k.half_length_m * std::sin(bearing), depth * std::tan(bearing), 1e-9);
       EXPECT_NEAR(o.width, 1.8, 1e-9);
-      EXPECT_NEAR(o.span, 1.8 * std::cos(bearing) / depth, 1e-12) << "1.8 m across the line of sight, seen from depth / cos";
+      EXPECT_NEAR(o.span, 1.8 * std::cos(bearing) / depth, 1e-12)
+          << "1.8 m across the line of sight, seen from depth / cos";
       EXPECT_NEAR(o.sigma_span, k.width_sigma_px * std::cos(bearing) / k.focal_px, 1e-12);
     }
 }
@@ -115,7 +115,8 @@ TEST(Triangulation, CovarianceIsHonestForTheEmulatedCamera) {
   for (std::uint32_t frame = 0; frame < 3000; ++frame) {
     const double range = draw.uniform(12.0, 40.0), azimuth = draw.uniform(-0.35, 0.35);
     // Every second car is followed or met, the others are turned anyhow.
-    const double heading = azimuth + (frame % 2 == 0 ? draw.uniform(-0.05, 0.05) : draw.uniform(-std::numbers::pi, std::numbers::pi));
+    const double heading =
+        azimuth + (frame % 2 == 0 ? draw.uniform(-0.05, 0.05) : draw.uniform(-std::numbers::pi, std::numbers::pi));
     const auto car = car_at(range * std::cos(azimuth), range * std::sin(azimuth), heading);
     world::measure_camera(camera, std::vector<world::ObjectState>{car}, 1, 0, 1, frame, detections, truth);
     ASSERT_EQ(detections.size(), 1U);

@@ -153,9 +153,8 @@ TEST(CaptureCheck, AFlaggedFrameWithoutAHeaderIsACodingErrorAndMissingInItsSlot)
       writer.packet(0, frames[i].time_ns, frames[i].packet().substr(0, i == at ? bytes_left : 400), "");
     const CaptureVerdict verdict = check_capture(parse_capture(bytes, "bus.pcapng"), "bus.pcapng", paper(), {});
     EXPECT_EQ(verdict.counts, counts({{Contradiction::kCoding, 1}, {Contradiction::kMissing, 1}}));
-    EXPECT_THAT(
-        texts(verdict),
-        testing::Contains(packet(at) + "on B: coding errors are flagged (0x02), and there is no header"));
+    EXPECT_THAT(texts(verdict),
+                testing::Contains(packet(at) + "on B: coding errors are flagged (0x02), and there is no header"));
   }
 }
 

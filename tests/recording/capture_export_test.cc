@@ -151,7 +151,7 @@ Exported disturbed() {
   const std::array payload{std::byte{1}, std::byte{0xab}};
   std::array<std::byte, 10> bytes{};
   wire::encode_frame(header, Channel::kA, payload, bytes);
-  log.on_channel(16, 6, 6, 0, 0, bytes);   // late
+  log.on_channel(16, 6, 6, 0, 0, bytes);  // late
   bytes[6] = std::byte{0xaa};
   log.on_channel(7, 7, 7, 0, records::kChannelFrameCrc, bytes);
   log.on_channel(8, 8, 8, 0, records::kChannelCoding | records::kChannelCut, std::span(bytes).first(6));
@@ -185,12 +185,12 @@ TEST(CaptureExport, PacketsOfFramesThatWereNotAsTheyWereSentSayWhoseTheyAre) {
     sizes.push_back(packet.data_size);
   }
   const std::string list = "measurement laser 12: laser_objects, fragment 0";
-  EXPECT_THAT(comments, testing::ElementsAre(
-                            "slot 7 of gateway; " + list, "slot 8 of gateway; " + list,
-                            "slot 10 of gateway; " + list, "the controller of gateway did not send it",
-                            "the controller of gateway did not send it", "slot 6 of gateway; " + list));
-  EXPECT_THAT(errors, testing::ElementsAre(kFrameCrcError, kCodingError | kFrameEndError, kCodingError, 0,
-                                           kCodingError, 0));
+  EXPECT_THAT(comments,
+              testing::ElementsAre("slot 7 of gateway; " + list, "slot 8 of gateway; " + list,
+                                   "slot 10 of gateway; " + list, "the controller of gateway did not send it",
+                                   "the controller of gateway did not send it", "slot 6 of gateway; " + list));
+  EXPECT_THAT(errors,
+              testing::ElementsAre(kFrameCrcError, kCodingError | kFrameEndError, kCodingError, 0, kCodingError, 0));
   EXPECT_THAT(sizes, testing::ElementsAre(9u, 8u, 2u, 9u, 2u, 9u));
 }
 
@@ -231,7 +231,7 @@ TEST(CaptureExport, SymbolsArePacketsOfTheirOwnKind) {
       EXPECT_EQ(packet.data_size, 2u);
       EXPECT_EQ(packet.interface, 0u);
     }
-    const int low = bit_ps == 200'000 ? 20 : 39;   // 39 bits at 10 Mbit/s, which is taken for granted
+    const int low = bit_ps == 200'000 ? 20 : 39;  // 39 bits at 10 Mbit/s, which is taken for granted
     EXPECT_THAT(bits, testing::ElementsAre(127, low, low, low));
     EXPECT_THAT(comments, testing::ElementsAre("wake-up pattern of gateway, 792.0 us",
                                                "collision avoidance symbol of gateway, 3.9 us",

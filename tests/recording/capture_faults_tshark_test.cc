@@ -22,7 +22,7 @@ class FaultyExpectation final : public Expectation {
     Flags flags;
   };
   int nowhere = 0, foreign = 0, broken_off = 0;
-  std::map<std::string, int> acts;   // of faults, by kind
+  std::map<std::string, int> acts;  // of faults, by kind
 
   void on(const records::SlotFrameSent& record) override {
     collector_.on(record);
@@ -137,12 +137,16 @@ TEST(CaptureTshark, EveryFrameOfADriveWithFaultsIsAsItWasOnTheChannel) {
   // A node dies twenty microseconds, or some twenty bytes, into a frame.
   const NodeId camera_pre = *drive.cluster.find_node("camera_pre");
   const TrueTime dies = next_frame(drive, camera_pre, sim::kFirstCycle + Duration::milliseconds(1'600));
-  std::vector<nodes::Fault> faults = {
-      fault(FaultKind::kBitFlipHeader, "gateway", 1'000, 40),  fault(FaultKind::kBitFlipPayload, "gateway", 1'200, 40),
-      fault(FaultKind::kBitFlipTrailer, "gateway", 1'400, 40), fault(FaultKind::kCrash, "camera_pre", 0, 50),
-      fault(FaultKind::kNoise, "", 2'000, 50),                 fault(FaultKind::kChannelSwap, "gateway", 2'200, 10),
-      fault(FaultKind::kOmission, "gateway", 2'300, 10),       fault(FaultKind::kMasquerading, "feature", 2'400, 50),
-      fault(FaultKind::kSosTiming, "laser_pre", 2'500, 50),    fault(FaultKind::kTransient, "", 2'600, 5)};
+  std::vector<nodes::Fault> faults = {fault(FaultKind::kBitFlipHeader, "gateway", 1'000, 40),
+                                      fault(FaultKind::kBitFlipPayload, "gateway", 1'200, 40),
+                                      fault(FaultKind::kBitFlipTrailer, "gateway", 1'400, 40),
+                                      fault(FaultKind::kCrash, "camera_pre", 0, 50),
+                                      fault(FaultKind::kNoise, "", 2'000, 50),
+                                      fault(FaultKind::kChannelSwap, "gateway", 2'200, 10),
+                                      fault(FaultKind::kOmission, "gateway", 2'300, 10),
+                                      fault(FaultKind::kMasquerading, "feature", 2'400, 50),
+                                      fault(FaultKind::kSosTiming, "laser_pre", 2'500, 50),
+                                      fault(FaultKind::kTransient, "", 2'600, 5)};
   faults[0].probability = faults[1].probability = faults[2].probability = 0.3;
   faults[0].flips = 2;
   faults[3].from = dies + Duration::microseconds(20) - sim::kFirstCycle;
@@ -168,7 +172,7 @@ TEST(CaptureTshark, EveryFrameOfADriveWithFaultsIsAsItWasOnTheChannel) {
     due.emplace(seconds(packet.line.time_ns) + "\t" + packet.line.text, packet.flags);
   const std::vector<std::string> seen = tshark(file);
   EXPECT_EQ(seen.size(), due.size());
-  std::vector<Flags> flags;   // by packet
+  std::vector<Flags> flags;  // by packet
   int strange = 0;
   for (const std::string& line : seen) {
     const auto found = due.find(line);
@@ -202,9 +206,9 @@ TEST(CaptureTshark, EveryFrameOfADriveWithFaultsIsAsItWasOnTheChannel) {
   std::set<std::pair<Contradiction, std::uint64_t>> found;
   for (const CaptureFinding& finding : verdict.findings) found.emplace(finding.kind, finding.packet);
   for (std::size_t i = 0; i < flags.size(); ++i)
-    for (const auto& [flagged, kind] : {std::pair{flags[i].header_crc, Contradiction::kHeaderCrc},
-                                        std::pair{flags[i].frame_crc, Contradiction::kFrameCrc},
-                                        std::pair{flags[i].coding, Contradiction::kCoding}})
+    for (const auto& [flagged, kind] :
+         {std::pair{flags[i].header_crc, Contradiction::kHeaderCrc},
+          std::pair{flags[i].frame_crc, Contradiction::kFrameCrc}, std::pair{flags[i].coding, Contradiction::kCoding}})
       EXPECT_EQ(found.count({kind, i + 1}) == 1, flagged)
           << "packet " << i + 1 << ": " << kContradictionNames[static_cast<std::size_t>(kind)];
   EXPECT_EQ(verdict.counts[static_cast<std::size_t>(Contradiction::kMalformed)], 0u);

@@ -20,8 +20,7 @@ std::string text_of(const Capture& capture, const CapturedPacket& packet) {
 struct Bytes {
   bool big = false;
   std::string out;
-  template <class Int>
-  Bytes& put(Int value) {
+  template <class Int> Bytes& put(Int value) {
     for (std::size_t i = 0; i < sizeof(Int); ++i)
       out.push_back(static_cast<char>(value >> 8 * (big ? sizeof(Int) - 1 - i : i)));
     return *this;

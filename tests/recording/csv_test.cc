@@ -25,7 +25,8 @@ TEST(Csv, FieldsQuotesAndBlanks) {
 }
 
 TEST(Csv, ByteOrderMarkWindowsLineEndsAndNoLastEnd) {
-  EXPECT_THAT(all_lines("\xef\xbb\xbf" "a,b\r\n\r\n# a remark, too\r\n1,2"),
+  EXPECT_THAT(all_lines("\xef\xbb\xbf"
+                        "a,b\r\n\r\n# a remark, too\r\n1,2"),
               ElementsAre(ElementsAre("a", "b"), ElementsAre("1", "2")));
   EXPECT_TRUE(all_lines("").empty());
   EXPECT_TRUE(all_lines("\n \r\n#\n").empty());

@@ -43,12 +43,11 @@ class Fill {
   std::uint32_t whole(const FieldDescriptor& field) {
     if (field.full_name() == "ttfusion.Guardian.channel" || field.full_name() == "ttfusion.TimingProblem.channel")
       return 1;
-    const bool small = field.name() == "disposition" || field.name() == "hop" ||
-                       field.full_name() == "ttfusion.ImageObject.status" ||
-                       field.full_name() == "ttfusion.Symbol.kind" ||
-                       field.full_name() == "ttfusion.Guardian.signal" || field.full_name() == "ttfusion.Fault.what" ||
-                       field.full_name() == "ttfusion.TimingProblem.what" ||
-                       field.full_name() == "ttfusion.Lateness.of";
+    const bool small =
+        field.name() == "disposition" || field.name() == "hop" || field.full_name() == "ttfusion.ImageObject.status" ||
+        field.full_name() == "ttfusion.Symbol.kind" || field.full_name() == "ttfusion.Guardian.signal" ||
+        field.full_name() == "ttfusion.Fault.what" || field.full_name() == "ttfusion.TimingProblem.what" ||
+        field.full_name() == "ttfusion.Lateness.of";
     return small ? 3 : ++next_;
   }
   void set(Message& message, const FieldDescriptor& field) {
@@ -66,9 +65,7 @@ class Fill {
       case FieldDescriptor::CPPTYPE_UINT64:
         many ? reflection.AddUInt64(&message, &field, ++next_) : reflection.SetUInt64(&message, &field, ++next_);
         break;
-      case FieldDescriptor::CPPTYPE_INT64:
-        reflection.SetInt64(&message, &field, ++next_);
-        break;
+      case FieldDescriptor::CPPTYPE_INT64: reflection.SetInt64(&message, &field, ++next_); break;
       case FieldDescriptor::CPPTYPE_DOUBLE:
         many ? reflection.AddDouble(&message, &field, ++next_) : reflection.SetDouble(&message, &field, ++next_);
         break;
@@ -81,8 +78,7 @@ class Fill {
       case FieldDescriptor::CPPTYPE_MESSAGE:
         fill(many ? *reflection.AddMessage(&message, &field) : *reflection.MutableMessage(&message, &field));
         break;
-      default:
-        FAIL() << field.full_name() << " is of a type this test does not know";
+      default: FAIL() << field.full_name() << " is of a type this test does not know";
     }
   }
 
@@ -96,8 +92,7 @@ class Again final : public records::Every<Again> {
   Payloads payloads;
   int seen = 0;
 
-  template <class Record>
-  void each(const Record& record) {
+  template <class Record> void each(const Record& record) {
     encode(record, payloads);
     ++seen;
   }
@@ -149,23 +144,19 @@ TEST(LogFields, EveryFieldOfEveryPayloadIsInTheLog) {
 // The number of fields of a struct: the most values it can be initialised from (with fewer it may not be: some types
 // have no default).
 struct Anything {
-  template <class T>
-  operator T() const;   // never called
+  template <class T> operator T() const;  // never called
 };
-template <class T, std::size_t... I>
-constexpr bool takes(std::index_sequence<I...>) {
+template <class T, std::size_t... I> constexpr bool takes(std::index_sequence<I...>) {
   return requires { T{(static_cast<void>(I), Anything{})...}; };
 }
-template <class T, std::size_t kMost = 30>
-constexpr int fields_of() {
+template <class T, std::size_t kMost = 30> constexpr int fields_of() {
   if constexpr (takes<T>(std::make_index_sequence<kMost>{}))
     return kMost;
   else
     return fields_of<T, kMost - 1>();
 }
 
-template <class Record, class Payload>
-void expect_same_fields(int apart = 0) {
+template <class Record, class Payload> void expect_same_fields(int apart = 0) {
   EXPECT_EQ(fields_of<Record>() + apart, Payload::descriptor()->field_count()) << Payload::descriptor()->full_name();
 }
 

@@ -105,7 +105,9 @@ records::BinnedDurations wake_ups_of(const std::vector<Told>& all) {
   LatenessSums sums;
   for (const Told& told : all)
     sums.on(records::LatenessHistogram{{{}, LocalTime{told.local_us * 1000}, {}, NodeId{4}},
-                                       records::kLatenessOfWakeUps, us(told.longest_us), told.counts});
+                                       records::kLatenessOfWakeUps,
+                                       us(told.longest_us),
+                                       told.counts});
   return sums.nodes()[NodeId{4}].wake_ups;
 }
 

@@ -50,7 +50,7 @@ TEST(LogBehind, WritesAllInOrder) {
     for (std::uint64_t i = 0; i < count; ++i) add(log, i);
     log.close();
     EXPECT_EQ(check.written(), count);
-    log.close();   // again
+    log.close();  // again
     EXPECT_EQ(check.written(), count);
   }
 }
@@ -93,7 +93,7 @@ TEST(LogBehind, WhoAddsNeverWaits) {
   stands.get_future().wait();
   const std::string payload(100, 'x');
   const std::int64_t allocations = support::allocations();
-  for (std::uint64_t i = 1; i <= 30'000; ++i)   // in the room of 4 MiB
+  for (std::uint64_t i = 1; i <= 30'000; ++i)  // in the room of 4 MiB
     log.add({static_cast<std::uint8_t>(i % 251), i, i + 1, payload});
   EXPECT_EQ(support::allocations(), allocations);
   go_on.set_value();
@@ -114,7 +114,7 @@ TEST(LogBehind, KeepsWhatThereIsNoRoomFor) {
   });
   add(log, 0);
   stands.get_future().wait();
-  constexpr std::uint64_t kMany = 300'000;   // of 72 bytes on average
+  constexpr std::uint64_t kMany = 300'000;  // of 72 bytes on average
   for (std::uint64_t i = 1; i < kMany; ++i) add(log, i);
   go_on.set_value();
   log.close();

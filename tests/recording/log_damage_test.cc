@@ -28,8 +28,7 @@ Result read(std::string_view bytes) {
 // A second of log in several chunks.
 const std::string& small_log() {
   static const std::string bytes = log_of([](records::Sink& sink) {
-    for (std::uint32_t i = 0; i < 36; ++i)
-      emit(sink, kind_of(i), Values::kDrawn, i, std::int64_t{i} * 30'000'000);
+    for (std::uint32_t i = 0; i < 36; ++i) emit(sink, kind_of(i), Values::kDrawn, i, std::int64_t{i} * 30'000'000);
   });
   return bytes;
 }
@@ -139,10 +138,9 @@ TEST(LogDamage, OneChangedByteCostsAtMostItsChunk) {
     const auto from = static_cast<std::size_t>(first - result.lines.begin());
     const std::size_t missing = whole.lines.size() - result.lines.size();
     ASSERT_TRUE(chunks.count({from, from + missing}) == 1)
-        << "seed " << seed << " byte " << at << ": records " << from << " to " << from + missing
-        << " are missing";
-    ASSERT_TRUE(std::equal(first, result.lines.end(),
-                           whole.lines.begin() + static_cast<std::ptrdiff_t>(from + missing)))
+        << "seed " << seed << " byte " << at << ": records " << from << " to " << from + missing << " are missing";
+    ASSERT_TRUE(
+        std::equal(first, result.lines.end(), whole.lines.begin() + static_cast<std::ptrdiff_t>(from + missing)))
         << "seed " << seed << " byte " << at;
     ASSERT_NE(result.info.warning.find("byte "), std::string::npos) << result.info.warning;
   }
@@ -158,20 +156,12 @@ TEST(LogDamage, ManyChangesNeverCrashNorInventRecords) {
     RandomStream stream({.seed = seed, .purpose = Purpose::kTest, .entity = 1});
     std::string damaged = bytes;
     for (std::int64_t changes = stream.integer(2, 12); changes > 0; --changes) {
-      const auto at =
-          static_cast<std::size_t>(stream.integer(8, static_cast<std::int64_t>(damaged.size()) - 1));
+      const auto at = static_cast<std::size_t>(stream.integer(8, static_cast<std::int64_t>(damaged.size()) - 1));
       switch (stream.integer(0, 3)) {
-        case 0:
-          damaged[at] = static_cast<char>(stream.integer(0, 255));
-          break;
-        case 1:
-          damaged.erase(at, static_cast<std::size_t>(stream.integer(1, 40)));
-          break;
-        case 2:
-          damaged.insert(at, static_cast<std::size_t>(stream.integer(1, 40)), '\xff');
-          break;
-        default:
-          damaged.insert(at, damaged.substr(8, static_cast<std::size_t>(stream.integer(1, 300))));
+        case 0: damaged[at] = static_cast<char>(stream.integer(0, 255)); break;
+        case 1: damaged.erase(at, static_cast<std::size_t>(stream.integer(1, 40))); break;
+        case 2: damaged.insert(at, static_cast<std::size_t>(stream.integer(1, 40)), '\xff'); break;
+        default: damaged.insert(at, damaged.substr(8, static_cast<std::size_t>(stream.integer(1, 300))));
       }
     }
     try {

@@ -59,8 +59,7 @@ inline int kind_of(std::uint32_t i) {
 
 // `count` drawn records of all kinds, one per millisecond.
 inline void emit_drive(records::Sink& sink, std::uint32_t count) {
-  for (std::uint32_t i = 0; i < count; ++i)
-    emit(sink, kind_of(i), Values::kDrawn, i, std::int64_t{i} * 1'000'000);
+  for (std::uint32_t i = 0; i < count; ++i) emit(sink, kind_of(i), Values::kDrawn, i, std::int64_t{i} * 1'000'000);
 }
 
 inline std::string log_of(const std::function<void(records::Sink&)>& drive) {

@@ -89,8 +89,7 @@ TEST(Log, SameRecordsGiveTheSameBytes) {
 TEST(Log, ChunksCloseOnLogTimeOrSize) {
   TextSink read;
   const std::string quiet = log_of([](records::Sink& sink) {
-    for (int i = 0; i <= 100; ++i)
-      sink.on(records::PrecisionSample{TrueTime{i * 10'000'000}, i, Duration{1}});  // 1 s
+    for (int i = 0; i <= 100; ++i) sink.on(records::PrecisionSample{TrueTime{i * 10'000'000}, i, Duration{1}});  // 1 s
   });
   EXPECT_EQ(read_log_bytes(quiet, "quiet", read).chunks_read,
             4u);  // 0..250, 260..510, 520..770, 780..1000 ms
@@ -128,8 +127,7 @@ TEST(Log, HashChangesWithAnyRecordAndNotWithTheOrderOfArrival) {
     EXPECT_EQ(hash({{static_cast<int>(kind), Values::kDrawn}}), hash({})) << topic_of(kind);
   // Twice the same record is not once, nor none.
   EXPECT_TRUE(seen.insert(hash({{1, Values::kZero}, {1, Values::kZero}})).second);
-  EXPECT_EQ(hash({{1, Values::kZero}, {17, Values::kDrawn}}),
-            hash({{17, Values::kDrawn}, {1, Values::kZero}}));
+  EXPECT_EQ(hash({{1, Values::kZero}, {17, Values::kDrawn}}), hash({{17, Values::kDrawn}, {1, Values::kZero}}));
 }
 
 TEST(Log, HashChangesWithEveryBitOfAPayload) {
@@ -149,8 +147,7 @@ TEST(Log, HashChangesWithEveryBitOfAPayload) {
     changed[bit / 8] ^= std::byte{1} << static_cast<int>(bit % 8);
     EXPECT_TRUE(seen.insert(hash(changed, 0, 0)).second) << "bit " << bit;
   }
-  for (std::uint32_t sequence = 1; sequence < 50; ++sequence)
-    EXPECT_TRUE(seen.insert(hash(bytes, sequence, 0)).second);
+  for (std::uint32_t sequence = 1; sequence < 50; ++sequence) EXPECT_TRUE(seen.insert(hash(bytes, sequence, 0)).second);
   for (std::int64_t time = 1; time < 50; ++time) EXPECT_TRUE(seen.insert(hash(bytes, 0, time)).second);
   for (std::size_t size = 0; size < 21; ++size)
     EXPECT_TRUE(seen.insert(hash(std::vector<std::byte>(size), 0, 0)).second);
@@ -181,8 +178,7 @@ TEST(Log, WhatIsNoLogIsInvalidInput) {
   foreign.replace(profile, 8, "rosbags2");
   for (std::size_t at = 0; (at = foreign.find("ttfusion.manifest", at)) != std::string::npos; ++at)
     foreign.replace(at, 8, "whatever");
-  EXPECT_EQ(message(foreign),
-            "some/file.mcap: profile = rosbags2: is an MCAP file, but its profile must be ttfusion");
+  EXPECT_EQ(message(foreign), "some/file.mcap: profile = rosbags2: is an MCAP file, but its profile must be ttfusion");
   EXPECT_THROW(read_log("no/such/file.mcap", read), InputError);
   EXPECT_THROW(read_log(std::filesystem::temp_directory_path().string(), read), InputError);
   EXPECT_TRUE(read.lines.empty());
@@ -277,9 +273,9 @@ TEST(Log, RecordingDoesNotAllocatePerRecord) {
       writer.on(records::TrackState{stamp, 1, TrackId{1}, {}, state, covariance, false});
       writer.on(records::ImageWritten{stamp, 1, {}, {}, std::span(images).first(objects), newest});
       writer.on(records::FeatureUsed{stamp, 1, {}, true, std::span(features).first(objects)});
-      writer.on(records::StateChanged{
-          stamp, 0x22, 0x23, "coldstart collision resolution", "coldstart consistency check",
-          i % 2 == 0 ? "no other node tried to start the cluster in four cycles" : "", ""});
+      writer.on(records::StateChanged{stamp, 0x22, 0x23, "coldstart collision resolution",
+                                      "coldstart consistency check",
+                                      i % 2 == 0 ? "no other node tried to start the cluster in four cycles" : "", ""});
       writer.on(records::LatenessHistogram{.stamp = stamp, .counts = std::span(late).first(objects * 20)});
     }
     counts.push_back(support::allocations() - before);

@@ -1,7 +1,7 @@
 // Whole drives, recorded by one process or by one per node: merged, everything that is made of the logs is the same,
 // and what it was before anything was merged.
-#include <gtest/gtest.h>
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include <filesystem>
 
@@ -28,9 +28,8 @@ constexpr TrueTime kNever{-1};
 
 // What is told of a drive, from its records alone.
 std::string told(const experiments::DriveSummary& s) {
-  std::string text =
-      fmt::format("{} {} {} {} {}", s.position_rmse_truth, s.velocity_rmse_truth, s.position_rmse_reference,
-                  s.velocity_rmse_reference, s.reference_compared);
+  std::string text = fmt::format("{} {} {} {} {}", s.position_rmse_truth, s.velocity_rmse_truth,
+                                 s.position_rmse_reference, s.velocity_rmse_reference, s.reference_compared);
   text += fmt::format(" | {} {} {} {} {} {}", s.matched, s.missed, s.spurious, s.uses, s.stale_uses, s.warnings);
   text += fmt::format(" | {} {} {} {}", s.nees, s.nees_samples, s.nees_low, s.nees_high);
   text += fmt::format(" | {} {} {} {} {} {} {}", s.received, s.out_of_sequence, s.fused, s.fused_late, s.held,

@@ -250,8 +250,8 @@ TEST(Merge, TheWholeAmongItsPartsIsPassedOver) {
     logs.emplace(logs.begin() + static_cast<std::ptrdiff_t>(place), read_file(path), "whole.mcap");
     const MergedLogs all(std::move(logs));
     ASSERT_EQ(all.logs().size(), 3u);
-    EXPECT_EQ(all.warnings(), std::vector<std::string>{
-                                  "whole.mcap: is passed over: it holds what the other 3 logs hold together"});
+    EXPECT_EQ(all.warnings(),
+              std::vector<std::string>{"whole.mcap: is passed over: it holds what the other 3 logs hold together"});
     EXPECT_EQ(lines_of(all), lines_of(parts));
     EXPECT_EQ(all.content_hash().value(), parts.content_hash().value());
   }
@@ -265,9 +265,7 @@ TEST(Merge, TheWholeAmongItsPartsIsPassedOver) {
     overlapping.read(sink);
     ADD_FAILURE() << "read twice";
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("and a merged one without its parts"),
-              std::string::npos)
-        << error.what();
+    EXPECT_NE(std::string(error.what()).find("and a merged one without its parts"), std::string::npos) << error.what();
   }
 }
 

@@ -94,7 +94,7 @@ void drive_one_way(Drive& drive) {
   drive.hop(kLaser, records::Hop::kRead, 3, 3 * kMs);
   drive.run(kLaser, 0, 3 * kMs, 5 * kMs);
   drive.hop(kLaser, records::Hop::kWritten, 3, 5 * kMs);
-  drive.run(kLaser, 0, 5 * kMs, 6 * kMs);   // of another list: what is written then is not its
+  drive.run(kLaser, 0, 5 * kMs, 6 * kMs);  // of another list: what is written then is not its
   for (const std::int64_t when : {6, 8})
     for (const std::uint8_t channel : {0, 1}) drive.slot(kLaser, kList, kSensor, 3, channel, when * kMs);
   drive.fused(3, records::Disposition::kHeld, 10 * kMs);
@@ -169,7 +169,7 @@ TEST(PerfettoExport, WhatIsLostEndsWhereItWasLostAndMissesAreMarked) {
   drive.measured(3, 1 * kMs);
   drive.can(3, 0, 2 * kMs, 3 * kMs);
   drive.hop(kLaser, records::Hop::kOverwritten, 3, 4 * kMs);
-  drive.measured(4, 5 * kMs);   // nothing becomes of it
+  drive.measured(4, 5 * kMs);  // nothing becomes of it
   drive.run(kFeature, 0, 6 * kMs, 7 * kMs, false);
   const PerfettoTrace trace = drive.finished();
   EXPECT_THAT(trace.problems, IsEmpty());
@@ -200,8 +200,8 @@ TEST(PerfettoExport, WhatOverlapsGoesBeside) {
   drive.run(kFusion, 0, 10 * kMs, 20 * kMs);
   drive.run(kFusion, 0, 15 * kMs, 25 * kMs);
   drive.run(kFusion, 0, 20 * kMs, 21 * kMs);
-  drive.run(kFusion, 0, 30 * kMs, 30 * kMs);       // no length
-  drive.run(kFusion, 0, 31 * kMs, 31'000 * kMs);   // none that a task can have
+  drive.run(kFusion, 0, 30 * kMs, 30 * kMs);      // no length
+  drive.run(kFusion, 0, 31 * kMs, 31'000 * kMs);  // none that a task can have
   const PerfettoTrace trace = drive.finished();
   EXPECT_THAT(trace.problems, IsEmpty());
   EXPECT_EQ(trace.count("fuse"), 4u);

@@ -16,7 +16,7 @@ namespace ttf::recording {
 struct PerfettoTrace {
   struct Slice {
     std::string group, lane, name;
-    std::uint64_t begin = 0, end = 0;   // of an instant the same
+    std::uint64_t begin = 0, end = 0;  // of an instant the same
     std::map<std::string, std::string> notes;
   };
   struct Value {
@@ -24,10 +24,10 @@ struct PerfettoTrace {
     std::uint64_t at = 0;
     double value = 0;
   };
-  std::vector<Slice> slices;   // in the order of their begins
+  std::vector<Slice> slices;  // in the order of their begins
   std::vector<Value> values;
-  std::map<std::uint64_t, std::vector<std::size_t>> flows;   // through which slices, in order
-  std::vector<std::string> problems;                         // of the trace as a trace
+  std::map<std::uint64_t, std::vector<std::size_t>> flows;  // through which slices, in order
+  std::vector<std::string> problems;                        // of the trace as a trace
 
   explicit PerfettoTrace(std::string_view bytes) {
     ttfusion::perfetto::Trace trace;
@@ -98,14 +98,9 @@ struct PerfettoTrace {
           open.pop_back();
         }
         return;
-      case Event::TYPE_INSTANT:
-        break;
-      case Event::TYPE_COUNTER:
-        values.push_back({group, lane, now_, event.double_counter_value()});
-        return;
-      case Event::TYPE_UNSPECIFIED:
-        problems.push_back(lane + ": an event of no type");
-        return;
+      case Event::TYPE_INSTANT: break;
+      case Event::TYPE_COUNTER: values.push_back({group, lane, now_, event.double_counter_value()}); return;
+      case Event::TYPE_UNSPECIFIED: problems.push_back(lane + ": an event of no type"); return;
     }
     Slice slice{group, lane, event.name(), now_, now_, {}};
     for (const auto& note : event.debug_annotations())

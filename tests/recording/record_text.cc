@@ -17,8 +17,7 @@ class Line {
  public:
   explicit Line(std::string name) : text_(std::move(name)) {}
 
-  template <class T>
-  Line& add(const T& value) {
+  template <class T> Line& add(const T& value) {
     if constexpr (std::is_same_v<T, double>)
       text_ += fmt::format(" {:016x}", std::bit_cast<std::uint64_t>(value));
     else if constexpr (std::is_same_v<T, std::string_view>)
@@ -34,9 +33,9 @@ class Line {
     else if constexpr (std::is_same_v<T, records::Stamp>)
       add(value.true_time).add(value.local).add(value.global).add(value.node);
     else if constexpr (std::is_same_v<T, records::ImageObject>)
-      all(value.track, value.x, value.y, value.heading, value.speed, value.acceleration, value.length,
-          value.width, value.sigma_x, value.sigma_y, value.correlation_xy, value.sigma_heading,
-          value.sigma_speed, value.sigma_acceleration, value.sigma_length, value.sigma_width, value.status);
+      all(value.track, value.x, value.y, value.heading, value.speed, value.acceleration, value.length, value.width,
+          value.sigma_x, value.sigma_y, value.correlation_xy, value.sigma_heading, value.sigma_speed,
+          value.sigma_acceleration, value.sigma_length, value.sigma_width, value.status);
     else if constexpr (std::is_same_v<T, records::FeatureObject>)
       all(value.image, value.time_gap_s, value.time_to_collision_s, value.warning);
     else if constexpr (requires { value.ns; })
@@ -45,16 +44,14 @@ class Line {
       list(value);
     return *this;
   }
-  template <class... T>
-  Line& all(const T&... values) {
+  template <class... T> Line& all(const T&... values) {
     (add(values), ...);
     return *this;
   }
   const std::string& text() const { return text_; }
 
  private:
-  template <class List>
-  void list(const List& items) {
+  template <class List> void list(const List& items) {
     text_ += fmt::format(" [{}", items.size());
     for (const auto& item : items) add(item);
     text_ += "]";
@@ -62,8 +59,7 @@ class Line {
   std::string text_;
 };
 
-template <class... T>
-std::string line(std::string name, const T&... fields) {
+template <class... T> std::string line(std::string name, const T&... fields) {
   return Line(std::move(name)).all(fields...).text();
 }
 
@@ -71,15 +67,10 @@ std::string line(std::string name, const T&... fields) {
 class Draw {
  public:
   Draw(int kind, Values values, std::uint32_t index, std::int64_t at)
-      : values_(values),
-        at_(at),
-        stream_({.seed = 7,
-                 .purpose = Purpose::kTest,
-                 .entity = static_cast<std::uint16_t>(kind),
-                 .index = index}) {}
+      : values_(values), at_(at),
+        stream_({.seed = 7, .purpose = Purpose::kTest, .entity = static_cast<std::uint16_t>(kind), .index = index}) {}
 
-  template <class T>
-  T get() {
+  template <class T> T get() {
     if constexpr (std::is_same_v<T, bool>)
       return get<std::uint8_t>() % 2 == 1;
     else if constexpr (std::is_same_v<T, double>)
@@ -97,9 +88,9 @@ class Draw {
     else if constexpr (std::is_same_v<T, records::ImageObject>) {
       records::ImageObject object{get<TrackId>()};
       for (double* field :
-           {&object.x, &object.y, &object.heading, &object.speed, &object.acceleration, &object.length,
-            &object.width, &object.sigma_x, &object.sigma_y, &object.correlation_xy, &object.sigma_heading,
-            &object.sigma_speed, &object.sigma_acceleration, &object.sigma_length, &object.sigma_width})
+           {&object.x, &object.y, &object.heading, &object.speed, &object.acceleration, &object.length, &object.width,
+            &object.sigma_x, &object.sigma_y, &object.correlation_xy, &object.sigma_heading, &object.sigma_speed,
+            &object.sigma_acceleration, &object.sigma_length, &object.sigma_width})
         *field = number();
       object.status = get<std::uint8_t>() & 15;
       return object;
@@ -113,21 +104,18 @@ class Draw {
       return values_ == Values::kZero ? T{} : static_cast<T>(stream_.bits());
     }
   }
-  template <class T>
-  T choice(T low, T high) {
+  template <class T> T choice(T low, T high) {
     if (values_ == Values::kLargest) return high;
     if (values_ != Values::kDrawn) return low;
     return static_cast<T>(stream_.integer(static_cast<int>(low), static_cast<int>(high)));
   }
-  template <class T>
-  std::vector<T> list(std::size_t largest) {
+  template <class T> std::vector<T> list(std::size_t largest) {
     std::size_t count = 0;
     if (values_ == Values::kLargest) count = largest;
     if (values_ == Values::kDrawn) count = static_cast<std::size_t>(stream_.integer(0, 30));
     return fixed<T>(count);
   }
-  template <class T>
-  std::vector<T> fixed(std::size_t count) {
+  template <class T> std::vector<T> fixed(std::size_t count) {
     std::vector<T> items;
     for (std::size_t i = 0; i < count; ++i) items.push_back(get<T>());
     return items;
@@ -143,14 +131,10 @@ class Draw {
   double number() {
     using Limits = std::numeric_limits<double>;
     switch (values_) {
-      case Values::kZero:
-        return -0.0;
-      case Values::kSmallest:
-        return Limits::denorm_min();
-      case Values::kLargest:
-        return Limits::infinity();
-      case Values::kDrawn:
-        break;
+      case Values::kZero: return -0.0;
+      case Values::kSmallest: return Limits::denorm_min();
+      case Values::kLargest: return Limits::infinity();
+      case Values::kDrawn: break;
     }
     return std::bit_cast<double>(stream_.bits());  // any pattern, not-a-numbers with their payloads too
   }
@@ -162,16 +146,14 @@ class Draw {
 
 }  // namespace
 
-void TextSink::on(const records::Measured& r) {
-  lines.push_back(line("measured", r.stamp, r.id, r.truth_ids));
-}
+void TextSink::on(const records::Measured& r) { lines.push_back(line("measured", r.stamp, r.id, r.truth_ids)); }
 void TextSink::on(const records::CanFrameSent& r) {
-  lines.push_back(line("can", r.bus, r.start, r.end, r.identifier, r.flexible_data_rate, r.pdu, r.sensor,
-                       r.sequence, r.fragment, r.data));
+  lines.push_back(line("can", r.bus, r.start, r.end, r.identifier, r.flexible_data_rate, r.pdu, r.sensor, r.sequence,
+                       r.fragment, r.data));
 }
 void TextSink::on(const records::SlotFrameSent& r) {
-  lines.push_back(line("slot", r.stamp, r.end, r.cycle, r.slot, r.channel, r.null_frame, r.pdu, r.sensor,
-                       r.sequence, r.fragment, r.bytes));
+  lines.push_back(line("slot", r.stamp, r.end, r.cycle, r.slot, r.channel, r.null_frame, r.pdu, r.sensor, r.sequence,
+                       r.fragment, r.bytes));
 }
 void TextSink::on(const records::SlotProblem& r) {
   lines.push_back(line("problem", r.stamp, r.cycle, r.slot, r.channel, r.status));
@@ -186,12 +168,9 @@ void TextSink::on(const records::ClockCorrected& r) {
   lines.push_back(line("clock", r.stamp, r.cycle, r.offset_microticks, r.rate_microticks, r.offset_missing,
                        r.rate_missing, r.offset_limited, r.rate_limited));
 }
-void TextSink::on(const records::PrecisionSample& r) {
-  lines.push_back(line("precision", r.at, r.cycle, r.precision));
-}
+void TextSink::on(const records::PrecisionSample& r) { lines.push_back(line("precision", r.at, r.cycle, r.precision)); }
 void TextSink::on(const records::FusionInput& r) {
-  lines.push_back(line("input", r.stamp, r.step, r.pdu, r.sensor, r.sequence, r.measured, r.count,
-                       r.fragments));
+  lines.push_back(line("input", r.stamp, r.step, r.pdu, r.sensor, r.sequence, r.measured, r.count, r.fragments));
 }
 void TextSink::on(const records::ListFused& r) {
   lines.push_back(line("fused", r.stamp, r.step, r.id, r.measured, r.disposition));
@@ -200,8 +179,7 @@ void TextSink::on(const records::FusionStep& r) {
   lines.push_back(line("step", r.stamp, r.step, r.confirmed, r.tentative));
 }
 void TextSink::on(const records::TrackState& r) {
-  lines.push_back(
-      line("track", r.stamp, r.step, r.track, r.valid_at, r.state, r.covariance, r.predicted_for_image));
+  lines.push_back(line("track", r.stamp, r.step, r.track, r.valid_at, r.state, r.covariance, r.predicted_for_image));
 }
 void TextSink::on(const records::ObservationSeen& r) {
   lines.push_back(line("observation", r.stamp, r.id, r.measured, r.index, r.x, r.y, r.sxx, r.sxy, r.syy));
@@ -217,16 +195,14 @@ void TextSink::on(const records::ReferenceFix& r) {
                        r.sigma_velocity, r.measured_local));
 }
 void TextSink::on(const records::TruthState& r) {
-  lines.push_back(line("truth", r.at, r.object, r.x, r.y, r.heading, r.speed, r.acceleration, r.yaw_rate,
-                       r.length, r.width, r.local, r.global, r.node));
+  lines.push_back(line("truth", r.at, r.object, r.x, r.y, r.heading, r.speed, r.acceleration, r.yaw_rate, r.length,
+                       r.width, r.local, r.global, r.node));
 }
 
 void TextSink::on(const records::StateChanged& r) {
   lines.push_back(line("state", r.stamp, r.from, r.to, r.from_name, r.to_name, r.why, r.consequence));
 }
-void TextSink::on(const records::SymbolSent& r) {
-  lines.push_back(line("symbol", r.stamp, r.end, r.channel, r.kind));
-}
+void TextSink::on(const records::SymbolSent& r) { lines.push_back(line("symbol", r.stamp, r.end, r.channel, r.kind)); }
 void TextSink::on(const records::PowerChanged& r) { lines.push_back(line("power", r.stamp, r.on)); }
 void TextSink::on(const records::FaultActivity& r) {
   lines.push_back(line("fault", r.at, r.fault, r.what, r.node, r.kind, r.text));
@@ -272,11 +248,10 @@ void emit(records::Sink& sink, int kind, Values values, std::uint32_t index, std
     case 3: {
       const auto bytes = d.list<std::byte>(262);
       return sink.on(records::SlotFrameSent{stamp, d.get<records::Stamp>(), d.get<I64>(), d.get<U16>(), d.get<U8>(),
-                                            d.get<bool>(), d.get<PduId>(), d.get<SensorId>(), d.get<U32>(),
-                                            d.get<U8>(), bytes});
+                                            d.get<bool>(), d.get<PduId>(), d.get<SensorId>(), d.get<U32>(), d.get<U8>(),
+                                            bytes});
     }
-    case 4:
-      return sink.on(records::SlotProblem{stamp, d.get<I64>(), d.get<U16>(), d.get<U8>(), d.get<U8>()});
+    case 4: return sink.on(records::SlotProblem{stamp, d.get<I64>(), d.get<U16>(), d.get<U8>(), d.get<U8>()});
     case 5:
       return sink.on(records::ListHop{stamp, d.choice(records::Hop::kWritten, records::Hop::kDiscarded), d.get<PduId>(),
                                       d.get<SensorId>(), d.get<U32>(), d.get<std::int8_t>()});
@@ -286,19 +261,16 @@ void emit(records::Sink& sink, int kind, Values values, std::uint32_t index, std
     case 7:
       return sink.on(records::ClockCorrected{stamp, d.get<I64>(), d.get<I32>(), d.get<I32>(), d.get<bool>(),
                                              d.get<bool>(), d.get<bool>(), d.get<bool>()});
-    case 8:
-      return sink.on(records::PrecisionSample{d.get<TrueTime>(), d.get<I64>(), d.get<Duration>()});
+    case 8: return sink.on(records::PrecisionSample{d.get<TrueTime>(), d.get<I64>(), d.get<Duration>()});
     case 9: {
       const auto fragments = d.list<std::byte>(5000);
       return sink.on(records::FusionInput{stamp, d.get<U32>(), d.get<PduId>(), d.get<SensorId>(), d.get<U32>(),
                                           d.get<GlobalTime>(), d.get<U16>(), fragments});
     }
     case 10:
-      return sink.on(
-          records::ListFused{stamp, d.get<U32>(), d.get<MeasurementId>(), d.get<GlobalTime>(),
-                             d.choice(records::Disposition::kFused, records::Disposition::kDuplicate)});
-    case 11:
-      return sink.on(records::FusionStep{stamp, d.get<U32>(), d.get<U16>(), d.get<U16>()});
+      return sink.on(records::ListFused{stamp, d.get<U32>(), d.get<MeasurementId>(), d.get<GlobalTime>(),
+                                        d.choice(records::Disposition::kFused, records::Disposition::kDuplicate)});
+    case 11: return sink.on(records::FusionStep{stamp, d.get<U32>(), d.get<U16>(), d.get<U16>()});
     case 12: {
       const auto state = d.fixed<double>(6), covariance = d.fixed<double>(36);
       return sink.on(records::TrackState{stamp, d.get<U32>(), d.get<TrackId>(), d.get<GlobalTime>(),
@@ -306,30 +278,29 @@ void emit(records::Sink& sink, int kind, Values values, std::uint32_t index, std
                                          std::span<const double, 36>(covariance.data(), 36), d.get<bool>()});
     }
     case 13:
-      return sink.on(records::ObservationSeen{stamp, d.get<MeasurementId>(), d.get<GlobalTime>(),
-                                              d.get<U16>(), d.get<double>(), d.get<double>(), d.get<double>(),
-                                              d.get<double>(), d.get<double>()});
+      return sink.on(records::ObservationSeen{stamp, d.get<MeasurementId>(), d.get<GlobalTime>(), d.get<U16>(),
+                                              d.get<double>(), d.get<double>(), d.get<double>(), d.get<double>(),
+                                              d.get<double>()});
     case 14: {
       const auto objects = d.list<records::ImageObject>(25);
       const auto newest = d.list<MeasurementId>(255);
-      return sink.on(records::ImageWritten{stamp, d.get<U32>(), d.get<GlobalTime>(), d.get<GlobalTime>(),
-                                           objects, newest});
+      return sink.on(
+          records::ImageWritten{stamp, d.get<U32>(), d.get<GlobalTime>(), d.get<GlobalTime>(), objects, newest});
     }
     case 15: {
       const auto objects = d.list<records::FeatureObject>(25);
-      return sink.on(records::FeatureUsed{stamp, d.get<U32>(), d.get<GlobalTime>(), d.get<bool>(), objects,
-                                          d.get<bool>()});
+      return sink.on(
+          records::FeatureUsed{stamp, d.get<U32>(), d.get<GlobalTime>(), d.get<bool>(), objects, d.get<bool>()});
     }
     case 16:
       return sink.on(records::ReferenceFix{d.get<TrueTime>(), d.get<GlobalTime>(), d.get<GlobalTime>(),
-                                           d.get<ObjectId>(), d.get<double>(), d.get<double>(),
-                                           d.get<double>(), d.get<double>(), d.get<double>(),
-                                           d.get<double>(), d.get<LocalTime>()});
+                                           d.get<ObjectId>(), d.get<double>(), d.get<double>(), d.get<double>(),
+                                           d.get<double>(), d.get<double>(), d.get<double>(), d.get<LocalTime>()});
     case 17:
-      return sink.on(records::TruthState{d.get<TrueTime>(), d.get<ObjectId>(), d.get<double>(),
+      return sink.on(records::TruthState{d.get<TrueTime>(), d.get<ObjectId>(), d.get<double>(), d.get<double>(),
                                          d.get<double>(), d.get<double>(), d.get<double>(), d.get<double>(),
-                                         d.get<double>(), d.get<double>(), d.get<double>(), d.get<LocalTime>(),
-                                         d.get<GlobalTime>(), d.get<NodeId>()});
+                                         d.get<double>(), d.get<double>(), d.get<LocalTime>(), d.get<GlobalTime>(),
+                                         d.get<NodeId>()});
     case 18: {
       const auto words = d.fixed<std::string>(4);
       return sink.on(records::StateChanged{stamp, d.get<U8>(), d.get<U8>(), words[0], words[1], words[2], words[3]});
@@ -337,8 +308,7 @@ void emit(records::Sink& sink, int kind, Values values, std::uint32_t index, std
     case 19:
       return sink.on(records::SymbolSent{stamp, d.get<records::Stamp>(), d.get<U8>(),
                                          d.choice(records::kSymbolCas, records::kSymbolMediaTest)});
-    case 20:
-      return sink.on(records::PowerChanged{stamp, d.get<bool>()});
+    case 20: return sink.on(records::PowerChanged{stamp, d.get<bool>()});
     case 21: {
       const auto words = d.fixed<std::string>(2);
       return sink.on(records::FaultActivity{d.get<TrueTime>(), d.get<U32>(),

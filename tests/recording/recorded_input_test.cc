@@ -68,18 +68,16 @@ TEST(LaserRadar, EachBrokenLineIsOneSentence) {
                            "L\t1\t2\t999\t0\t0\t0\t0\t0\t0\n"
                            "L\t1\t2\t2000\t0\t0\t0\t0\t0\t1e400\n" +
                            kRadarRow;
-  const std::vector<std::string> expected{
-      "m.txt:2: sensor = X: must be L (laser) or R (radar)",
-      "m.txt:3: columns = 4: must be 10 columns, separated by tabs, in a row of L",
-      "m.txt:4: px = abc: must be a number in -10000..10000 m",
-      "m.txt:5: py = nan: must be a number in -10000..10000 m",
-      "m.txt:6: range = -1.5: must be a number in 0..10000 m",
-      "m.txt:7: t_us = 1.5e3: must be a whole number of at least 0 us",
-      "m.txt:8: t_us = 999: must not be before the row above, 1000 us",
-      "m.txt:9: gt_yawrate = 1e400: must be a number in -100..100 rad/s"};
+  const std::vector<std::string> expected{"m.txt:2: sensor = X: must be L (laser) or R (radar)",
+                                          "m.txt:3: columns = 4: must be 10 columns, separated by tabs, in a row of L",
+                                          "m.txt:4: px = abc: must be a number in -10000..10000 m",
+                                          "m.txt:5: py = nan: must be a number in -10000..10000 m",
+                                          "m.txt:6: range = -1.5: must be a number in 0..10000 m",
+                                          "m.txt:7: t_us = 1.5e3: must be a whole number of at least 0 us",
+                                          "m.txt:8: t_us = 999: must not be before the row above, 1000 us",
+                                          "m.txt:9: gt_yawrate = 1e400: must be a number in -100..100 rad/s"};
   EXPECT_EQ(sentences(text), expected);
-  EXPECT_EQ(sentences(""),
-            std::vector<std::string>{"m.txt: holds no rows; expected rows that begin with L or R"});
+  EXPECT_EQ(sentences(""), std::vector<std::string>{"m.txt: holds no rows; expected rows that begin with L or R"});
 }
 
 TEST(LaserRadar, RandomBytesNeverCrash) {
@@ -158,8 +156,7 @@ const std::filesystem::path kData = std::filesystem::path(TTF_SOURCE_DIR) / ".."
 
 TEST(LaserRadar, ReadsTheRecordingNobodyHereWrote) {
   const auto path = kData / "laser_radar" / "measurements.txt";
-  if (!std::filesystem::exists(path))
-    GTEST_SKIP() << "the laser and radar recording is not beside the repository";
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << "the laser and radar recording is not beside the repository";
   ASSERT_EQ(sniff_recording(path.string()), RecordingFormat::kLaserRadar);
   const RecordedInput input = read_laser_radar(path.string());
   ASSERT_EQ(input.observations.size(), 500u);

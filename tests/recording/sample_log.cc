@@ -33,8 +33,7 @@ int main(int argc, char** argv) {
   std::map<std::string_view, std::uint64_t> counts;
   for (std::size_t i = 0; i < kRecordKinds; ++i) counts[kTopics[i]] = info.counts[i];
   std::string text;
-  for (const auto& [topic, count] : counts)
-    text += fmt::format("{}\"{}\":{}", text.empty() ? "" : ",", topic, count);
+  for (const auto& [topic, count] : counts) text += fmt::format("{}\"{}\":{}", text.empty() ? "" : ",", topic, count);
   fmt::print("{{\"counts\":{{{}}},\"hash\":\"{}\"}}\n", text, writer.content_hash_text());
   return 0;
 }

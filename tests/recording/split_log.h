@@ -17,12 +17,11 @@ namespace ttf::recording {
 class ByNode final : public records::Every<ByNode> {
  public:
   explicit ByNode(std::vector<records::Sink*> processes) : processes_(std::move(processes)) {}
-  template <class Record>
-  void each(const Record& record) {
+  template <class Record> void each(const Record& record) {
     std::size_t node = 0;
     if constexpr (requires { record.stamp; })
       node = index_of(record.stamp.node);
-    else if constexpr (requires { record.end.node; })   // a CAN frame or a task's run
+    else if constexpr (requires { record.end.node; })  // a CAN frame or a task's run
       node = index_of(record.end.node);
     else if constexpr (std::is_same_v<Record, records::TruthState>)
       node = index_of(record.node);

@@ -44,16 +44,16 @@ struct Flags {
 // As tshark should print a packet with these bytes of a frame, trailer included where the frame has come to its end.
 inline std::string flexray_text(const std::string& comment, int channel, std::span<const std::byte> bytes,
                                 const Flags& flags) {
-  const std::string errors = fmt::format("{:d}\t{:d}\t{:d}\t{:d}\t0", flags.header_crc, flags.frame_crc,
-                                         flags.frame_end, flags.coding);
+  const std::string errors =
+      fmt::format("{:d}\t{:d}\t{:d}\t{:d}\t0", flags.header_crc, flags.frame_crc, flags.frame_end, flags.coding);
   if (bytes.empty())
     return fmt::format("FlexRay\t{}\t{}{}{}{}", comment, channel, std::string(9, '\t'), errors, std::string(8, '\t'));
   const wire::FrameHeader h = wire::header_of(bytes).value();
   const std::size_t payload = bytes.size() - wire::kHeaderBytes - (flags.frame_end ? 0 : wire::kTrailerBytes);
   return fmt::format("FlexRay\t{}\t{}\t{}\t{}\t{:d}\t{:d}\t{:d}\t{:d}\t{}\t{}\t{}\t{}\t{}\t\t\t\t\t\t", comment,
-                     channel,
-                     h.frame_id, h.cycle, h.payload_preamble, !h.null_frame, h.sync, h.startup, h.payload_words,
-                     h.header_crc, errors, payload == 2U * h.payload_words ? "" : "1", h.startup && !h.sync ? "1" : "");
+                     channel, h.frame_id, h.cycle, h.payload_preamble, !h.null_frame, h.sync, h.startup,
+                     h.payload_words, h.header_crc, errors, payload == 2U * h.payload_words ? "" : "1",
+                     h.startup && !h.sync ? "1" : "");
 }
 
 // Sync to the end of the header CRC.

@@ -20,7 +20,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-constexpr std::int64_t kSlot = 84'000, kCycle = 5'000'000;   // of the paper's cluster [ns]
+constexpr std::int64_t kSlot = 84'000, kCycle = 5'000'000;  // of the paper's cluster [ns]
 
 std::vector<BusFrame> without(std::vector<BusFrame> frames, int slot) {
   std::erase_if(frames, [&](const BusFrame& frame) { return frame.header.frame_id == slot; });
@@ -104,15 +104,14 @@ TEST(WrongSlot, AStaticFrameOutsideOfItsSegmentAndADynamicOneInItAreWrong) {
   frames = scheduled_frames(paper(), 8);
   const std::size_t at = place_of(frames, 21, Channel::kB, 4);
   frames[at].header.frame_id = 60;
-  EXPECT_EQ(verdict_on(frames).counts, counts({{Contradiction::kWrongSlot, 1},
-                                               {Contradiction::kUnownedSlot, 1},
-                                               {Contradiction::kMissing, 1}}));
-  frames[at].time_ns += 20 * kSlot;   // in the dynamic segment
+  EXPECT_EQ(verdict_on(frames).counts,
+            counts({{Contradiction::kWrongSlot, 1}, {Contradiction::kUnownedSlot, 1}, {Contradiction::kMissing, 1}}));
+  frames[at].time_ns += 20 * kSlot;  // in the dynamic segment
   EXPECT_EQ(verdict_on(frames).counts, counts({{Contradiction::kUnownedSlot, 1}, {Contradiction::kMissing, 1}}));
 }
 
 TEST(WrongSlot, ASmallClusterIsEnough) {
-  const schedules::Cluster demo = shipped_cluster("flexray_demo");   // six senders, some dynamic frames
+  const schedules::Cluster demo = shipped_cluster("flexray_demo");  // six senders, some dynamic frames
   std::vector<BusFrame> frames = without(scheduled_frames(demo, 12), 6);
   for (BusFrame& frame : frames)
     if (frame.header.frame_id == 5 && frame.header.cycle >= 4 && frame.header.cycle <= 6) frame.header.frame_id = 6;
@@ -150,9 +149,7 @@ TEST(WrongSlot, AClockThatIsSetTripsNothing) {
 // Microseconds are good enough for slots of 84 us. Milliseconds are not: nothing is said then but what was said
 // without.
 TEST(WrongSlot, CoarseStampsTellWhatTheyCan) {
-  const auto resolved = [](std::int64_t unit) {
-    return [unit](std::int64_t time) { return time / unit * unit; };
-  };
+  const auto resolved = [](std::int64_t unit) { return [unit](std::int64_t time) { return time / unit * unit; }; };
   for (const std::int64_t ppm : {-1500, 0, 700}) {
     EXPECT_THAT(texts(verdict_on(stamped_by(scheduled_frames(paper(), 130, 0, ppm), resolved(1'000)))), IsEmpty());
     EXPECT_EQ(wrong_slots(verdict_on(stamped_by(masquerade(40, ppm), resolved(1'000)))), 6u);
@@ -221,7 +218,7 @@ TEST(WrongSlot, S3FewOrDisagreeingWitnessesSayNothing) {
   const auto first = std::find_if(all.begin(), all.end(), [](const StampedFrame& frame) { return frame.slot == 6; });
   for (const std::size_t around : {1u, 2u, 3u, 4u, 5u, 8u}) {
     const auto reach = static_cast<std::ptrdiff_t>(around);
-    const std::vector<StampedFrame> few(first - reach, first + reach + 2);   // the pair itself is no witness
+    const std::vector<StampedFrame> few(first - reach, first + reach + 2);  // the pair itself is no witness
     const auto found = frames_in_wrong_slots(paper().flexray, few);
     EXPECT_EQ(found[around], 2 * around >= kLeastWitnesses ? std::optional(5) : std::nullopt) << around;
   }

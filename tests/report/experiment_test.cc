@@ -47,7 +47,8 @@ class ExperimentReport : public testing::Test {
 
   static std::string answer_of(const std::string& points) {
     return R"({"experiment": "e", "question": "Is <it> so?", "seed": 1, "confidence": 0.95, "runs": 12, "failed": 0,
-      "baseline": "adva", "answer": "a sentence.\n", "points": [)" + points + R"(], "expectations":
+      "baseline": "adva", "answer": "a sentence.\n", "points": [)" +
+           points + R"(], "expectations":
       [{"expected": "tt less than adva", "holds": false, "where_not": ["noise 40 m"]}]})";
   }
   void write(const std::string& answer) { std::ofstream(folder_ + "/answer.json") << answer; }

@@ -63,7 +63,7 @@ TEST(LatenessPicture, CurvesShowTheShareThatIsAsLate) {
   // The first point is at 1 us, from which on all are as late: the frame's upper left corner.
   const double top = curve.points.front().y, decade_y = 420.0 / 3;
   EXPECT_NEAR(curve.points.front().x, left, 0.01);
-  const auto share_at = [&](double us) {   // on the last point that is not beyond
+  const auto share_at = [&](double us) {  // on the last point that is not beyond
     double y = top;
     for (const Point& p : curve.points)
       if (p.x <= left + decade_x * std::log10(us) + 0.01) y = p.y;
@@ -90,7 +90,7 @@ TEST(LatenessPicture, AllFloorsAreOneDashedCurve) {
   for (std::uint8_t n = 0; n < 3; ++n) {
     nodes[NodeId{n}].wake_ups = late_by({{60 + n, 100}});
     nodes[NodeId{n}].floor = late_by({{50, 100}, {200 + n, 1}});
-    nodes[NodeId{n}].arrivals = late_by({{9999, 5}});   // is another story
+    nodes[NodeId{n}].arrivals = late_by({{9999, 5}});  // is another story
   }
   const std::string svg = lateness_svg(nodes, three_names());
   const auto curves = curves_in(svg);
@@ -127,8 +127,8 @@ TEST(LatenessPicture, NumbersThatNoRunHasAreDrawnAllTheSame) {
   last.back() = 1;
   LatenessOfNodes nodes;
   std::uint8_t n = 0;
-  for (const std::int64_t longest_ns : {std::numeric_limits<std::int64_t>::min(), std::int64_t{0},
-                                        std::numeric_limits<std::int64_t>::max()}) {
+  for (const std::int64_t longest_ns :
+       {std::numeric_limits<std::int64_t>::min(), std::int64_t{0}, std::numeric_limits<std::int64_t>::max()}) {
     nodes[NodeId{n++}].wake_ups = BinnedDurations(full, Duration{longest_ns});
     nodes[NodeId{n++}].wake_ups = BinnedDurations(last, Duration{longest_ns});
   }

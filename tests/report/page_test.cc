@@ -26,7 +26,12 @@ TEST(Page, NothingOfANameIsMarkup) {
   page.points({kHostile});
   page.facts({{kHostile, kHostile}});
   page.table({kHostile, {kHostile, kHostile}, {{kHostile, kHostile}}});
-  page.plot({kHostile, kHostile, kHostile, Plot::Kind::kLines, false, false,
+  page.plot({kHostile,
+             kHostile,
+             kHostile,
+             Plot::Kind::kLines,
+             false,
+             false,
              {{kHostile, kHostile, {{kHostile, 0, {1, 2}, {3, 4}, {}, {}}}}}});
   page.diagrams({{kHostile, "<svg></svg>"}}, kHostile);
   page.command(kHostile);
@@ -59,7 +64,7 @@ TEST(Page, ItsDataComeBackAsTheyWere) {
   const auto& curve = plots[0]["views"][0]["curves"][0];
   EXPECT_EQ(curve["label"], "</script>");
   EXPECT_EQ(curve["colour"], 3);
-  EXPECT_EQ(curve["y"][0], 0.1234568);   // as much as anybody sees
+  EXPECT_EQ(curve["y"][0], 0.1234568);  // as much as anybody sees
   EXPECT_TRUE(curve["y"][1].is_null());
   EXPECT_EQ(curve["y"][2], 1e-9);
   EXPECT_EQ(curve["high"][2], 1);
@@ -94,8 +99,7 @@ TEST(Page, PicturesInItShareNoIds) {
 TEST(Page, APictureStaysAsItIsButForItsIds) {
   Page page("", "");
   page.picture("<svg id=\"a\" data-id=\"1:2\"><g fill=\"url(#b)\" id=\"b\"/>url(#c)</svg>", "one");
-  const char* const wanted =
-      "<svg id=\"p0-a\" data-id=\"1:2\"><g fill=\"url(#p0-b)\" id=\"p0-b\"/>url(#p0-c)</svg>";
+  const char* const wanted = "<svg id=\"p0-a\" data-id=\"1:2\"><g fill=\"url(#p0-b)\" id=\"p0-b\"/>url(#p0-c)</svg>";
   EXPECT_EQ(count(page.html(), wanted), 1u);
   Page bare("", "");
   bare.picture("<svg></svg>", "none");

@@ -47,9 +47,8 @@ TEST(PaperExperiment, OneTableAndOneScriptAMeasure) {
             "b_mean,b_half_width,b_difference,b_difference_half_width\n"
             "0,0.5,0.5,1.5,0.25,,,1.25,0.5,-0.25,0.125\n"
             "0,50,50,2,0.5,,,3,0.5,1,0.125\n");
-  EXPECT_THAT(files.at("error.gp"),
-              AllOf(HasSubstr("error [m²]"), HasSubstr("what it is"), HasSubstr("set logscale x"),
-                    HasSubstr("difference from a"), HasSubstr("set multiplot layout 1,2")));
+  EXPECT_THAT(files.at("error.gp"), AllOf(HasSubstr("error [m²]"), HasSubstr("what it is"), HasSubstr("set logscale x"),
+                                          HasSubstr("difference from a"), HasSubstr("set multiplot layout 1,2")));
   // A paradigm without a value of a measure has no curve there; without differences there is one panel.
   EXPECT_THAT(files.at("age.gp"), AllOf(Not(HasSubstr("title \"b\"")), HasSubstr("set multiplot layout 1,1")));
 }
@@ -85,7 +84,7 @@ TEST(PaperExperiment, WhatIsNoSummaryIsRefused) {
   EXPECT_THAT(refusal(std::string("point,") + kHead + "0,a,../error,9,1,,,\n"), HasSubstr("letters, digits"));
   EXPECT_THAT(refusal(std::string("point,") + kHead + "0,a,error,9,1,,,\n0,a,error,9,1,,,\n"),
               HasSubstr("summary.csv:3: must be the only row of its point"));
-  std::string strange = std::string("point,") + kHead;   // every row another point, paradigm and measure
+  std::string strange = std::string("point,") + kHead;  // every row another point, paradigm and measure
   for (int n = 0; n < 100; ++n) strange += fmt::format("{0},p{0},m{0},9,1,,,\n", n);
   EXPECT_THAT(refusal(strange), HasSubstr("must have a row for each point, paradigm and measure"));
 }

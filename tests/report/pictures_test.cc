@@ -36,13 +36,11 @@ TEST(Pictures, ForLookingAt) {
   const std::array<const PositionPlots*, 2> two{&position, &position};
   const std::vector<std::string> titles{"BUFF", "ADVA"};
   write_picture(comparison_svg(two, titles, PositionView::kPlane, "Scenario 2"), to + "/comparison.png");
-  write_picture(comparison_svg(two, titles, PositionView::kXOverTime, "Scenario 1"),
-                to + "/comparison_x.png");
+  write_picture(comparison_svg(two, titles, PositionView::kXOverTime, "Scenario 1"), to + "/comparison_x.png");
   write_picture(schedule_svg(synthetic_cluster()), to + "/schedule.png");
   for (const std::string name : {"paper_unsynchronised", "laser_radar"})
-    write_picture(
-        schedule_svg(schedules::load_cluster(TTF_SOURCE_DIR "/schedules/" + name + ".yaml")),
-        to + "/" + name + ".png");
+    write_picture(schedule_svg(schedules::load_cluster(TTF_SOURCE_DIR "/schedules/" + name + ".yaml")),
+                  to + "/" + name + ".png");
   std::map<NodeId, recording::NodeLateness> lateness;
   RandomStream stream({.seed = 1, .purpose = Purpose::kTest});
   const auto late = [&stream](double median_us, double spread) {
@@ -56,8 +54,7 @@ TEST(Pictures, ForLookingAt) {
   write_picture(lateness_svg(lateness, synthetic_names()), to + "/lateness.png");
   std::vector<Point> points;
   for (int i = 0; i < 60; ++i)
-    points.push_back({10 + 0.03 * i, 2 + (i % 7) * 0.01}),
-        points.push_back({20 + (i % 5) * 0.01, -4 + 0.03 * i});
+    points.push_back({10 + 0.03 * i, 2 + (i % 7) * 0.01}), points.push_back({20 + (i % 5) * 0.01, -4 + 0.03 * i});
   const std::vector<Box> boxes{{10.9, 2.9, 0, 1.9, 1.8, "1"}, {22.2, -3.1, 0.1, 4.4, 1.8, "2"}};
   write_picture(boxes_svg(points, boxes, "Boxes"), to + "/boxes.png");
 }

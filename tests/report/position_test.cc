@@ -75,14 +75,13 @@ TEST(PositionPlots, ShowEverythingTheyPromise) {
   for (const std::string& svg : {plots.over_time_svg(), plots.plane_svg()}) {
     const std::size_t panels = svg == plots.plane_svg() ? 1 : 2;
     EXPECT_EQ(count_class(svg, "dgps"), panels * s.reference.size());
-    EXPECT_EQ(count_class(svg, "observation"),
-              panels * (s.observations[0].size() + s.observations[1].size()));
+    EXPECT_EQ(count_class(svg, "observation"), panels * (s.observations[0].size() + s.observations[1].size()));
     EXPECT_EQ(count_class(svg, "fusion"), panels * s.fusion.size());
     EXPECT_EQ(count_class(svg, "arrow") + count_class(svg, "arrow late"), panels * s.laser_arrows.size());
     EXPECT_EQ(count_class(svg, "truth"), panels);
     EXPECT_GT(count_class(svg, "instant"), s.laser_arrows.size() / 2);
-    for (const char* part : {"ISO 8855", "x, forward [m]", "y, left [m]", "A &amp; B", ">dgps<", ">laser<",
-                             ">camera<", ">truth<"})
+    for (const char* part :
+         {"ISO 8855", "x, forward [m]", "y, left [m]", "A &amp; B", ">dgps<", ">laser<", ">camera<", ">truth<"})
       EXPECT_NE(svg.find(part), std::string::npos) << part;
     expect_no_overlaps(svg);
     expect_inside(svg);
@@ -216,8 +215,7 @@ TEST(SchedulePicture, ShowsSlotsTasksAndMultiplexing) {
   EXPECT_EQ(count_class(svg, "overrun"), 1u) << "track starts at 3.5 ms and takes 3 ms of a 5 ms cycle";
   // Eight cycles: three status slots in each, two lists of five slots in every other, the image in one.
   EXPECT_EQ(count_class(svg, "cell"), 8u * 3u + 4u * 10u + 5u);
-  EXPECT_NE(svg.find("gateway: forward_laser runs when a list of laser_objects has arrived"),
-            std::string::npos);
+  EXPECT_NE(svg.find("gateway: forward_laser runs when a list of laser_objects has arrived"), std::string::npos);
   expect_no_overlaps(svg);
   expect_inside(svg);
   expect_renders(svg);

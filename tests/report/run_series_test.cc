@@ -48,7 +48,7 @@ TEST(RunSeries, AnErrorIsTheRootMeanSquareOverPairsClosestFirst) {
   use(sink, 1000, {{10.3, 0.4}, {20.0, 1.0}, {80.0, 0.0}});
   sink.on(truth(1000, 0, 20.0, 0.0));
   sink.on(truth(1000, 1, 10.0, 0.0));
-  sink.on(truth(1000, 0, 20.0, 0.0, 7));   // the same, as another node recorded it
+  sink.on(truth(1000, 0, 20.0, 0.0, 7));  // the same, as another node recorded it
   use(sink, 2000, {{30.0, 0.0}});
   sink.on(truth(2000, 0, 30.0, 0.25));
   const RunSeries series = sink.finish();
@@ -75,8 +75,11 @@ TEST(RunSeries, WhatIsTooFarOrStaleIsNotCompared) {
 TEST(RunSeries, AgesAreOfWhatIsInTheImageThatIsUsed) {
   RunSeriesSink sink;
   const auto fused = [&](int sensor, std::uint32_t sequence, std::int64_t measured_us, std::int64_t at_us) {
-    sink.on(records::ListFused{stamp(at_us), 1, {SensorId(static_cast<std::uint8_t>(sensor)), sequence},
-                               GlobalTime{measured_us * 1000}, records::Disposition::kFused});
+    sink.on(records::ListFused{stamp(at_us),
+                               1,
+                               {SensorId(static_cast<std::uint8_t>(sensor)), sequence},
+                               GlobalTime{measured_us * 1000},
+                               records::Disposition::kFused});
   };
   fused(0, 4, 10'000, 40'000);
   fused(1, 9, 25'000, 41'000);
@@ -88,7 +91,7 @@ TEST(RunSeries, AgesAreOfWhatIsInTheImageThatIsUsed) {
   image.newest = newest;
   sink.on(image);
   use(sink, 60'000, {}, 7);
-  use(sink, 61'000, {}, 8);   // an image that nobody wrote
+  use(sink, 61'000, {}, 8);  // an image that nobody wrote
   const RunSeries series = sink.finish();
   EXPECT_EQ(series.age_fused.at(SensorId{0}), std::vector<double>{30.0});
   EXPECT_EQ(series.age_used.at(SensorId{0}), std::vector<double>{50.0});
@@ -142,7 +145,7 @@ TEST(RunAnswer, OfSeveralSeedsDifferencesArePaired) {
     drives.push_back(drive_of(static_cast<std::uint64_t>(seed), "buff", 0.1 * seed + 0.01 + 0.001 * (seed % 2)));
     drives.push_back(drive_of(static_cast<std::uint64_t>(seed), "tt", 0.1 * seed));
   }
-  drives.push_back(drive_of(5, "tt", 7.0));   // its partner is missing
+  drives.push_back(drive_of(5, "tt", 7.0));  // its partner is missing
   std::vector<ToldDrive> told;
   for (const Drive& drive : drives) told.push_back({&drive, {}});
   const RunAnswer answer = run_answer(told);
@@ -158,7 +161,7 @@ TEST(RunAnswer, AStrategyWithoutAFigureWinsNothing) {
   std::vector<Drive> drives;
   for (const std::uint64_t seed : {1u, 2u}) {
     drives.push_back({"out", "bend", "adva", {}, "adva", seed, {}, nullptr});
-    drives.back().summary["deadlines_missed"] = -3;   // no count
+    drives.back().summary["deadlines_missed"] = -3;  // no count
     drives.push_back(drive_of(seed, "buff", 0.2 + 0.01 * static_cast<double>(seed)));
     drives.push_back(drive_of(seed, "tt", 0.1));
   }
@@ -168,8 +171,7 @@ TEST(RunAnswer, AStrategyWithoutAFigureWinsNothing) {
   EXPECT_NE(answer.answer.find(", tt has the smallest position error"), std::string::npos) << answer.answer;
   EXPECT_NE(answer.answer.find("; of adva there is no figure; buff +0.1"), std::string::npos) << answer.answer;
   EXPECT_TRUE(answer.more.empty());
-  EXPECT_EQ(run_answer({told[0], told[3]}).answer,
-            "Over 2 runs of bend: No position was compared with the truth.");
+  EXPECT_EQ(run_answer({told[0], told[3]}).answer, "Over 2 runs of bend: No position was compared with the truth.");
 }
 
 }  // namespace

@@ -23,8 +23,8 @@ struct SyntheticStartup {
 
   static void change(records::Sink& sink, std::int64_t us, int node, int from, const char* from_name, int to,
                      const char* to_name, const char* why, const char* consequence = "") {
-    sink.on(records::StateChanged{stamp(us, node), static_cast<std::uint8_t>(from),
-                                  static_cast<std::uint8_t>(to), from_name, to_name, why, consequence});
+    sink.on(records::StateChanged{stamp(us, node), static_cast<std::uint8_t>(from), static_cast<std::uint8_t>(to),
+                                  from_name, to_name, why, consequence});
   }
   static void frame(records::Sink& sink, int c, int slot, int node, bool startup, bool null) {
     const std::array<std::byte, 5> header{startup ? std::byte{0x18} : std::byte{}};
@@ -68,8 +68,7 @@ struct SyntheticStartup {
         change(sink, cycle(4), 1, 0x26, "integration coldstart check", 0x25, "coldstart join", "confirmed");
       }
       if (c == 6)
-        change(sink, cycle(6), 0, 0x23, "coldstart consistency check", 0x02, "normal active",
-               "joined by <others>");
+        change(sink, cycle(6), 0, 0x23, "coldstart consistency check", 0x02, "normal active", "joined by <others>");
       if (c == 7) change(sink, cycle(7), 1, 0x25, "coldstart join", 0x02, "normal active", "joined");
       if (c == 8) change(sink, cycle(8), 2, 0x28, "integration consistency check", 0x02, "normal active", "integrated");
       frame(sink, c, 1, 0, true, c < 6);
@@ -138,8 +137,8 @@ TEST(StartupDiagram, DrawsFramesSymbolsAndPower) {
 TEST(StartupDiagram, AFaultHasALaneFromItsBeginToItsEnd) {
   StartupDiagram d(four(), Duration::milliseconds(5), {}, {70'000'000});
   SyntheticStartup::drive(d);
-  d.on(records::FaultActivity{
-      {10'000'000}, 0, records::kFaultBegins, NodeId{1}, "babbling_idiot", "camera_pc babbles"});
+  d.on(
+      records::FaultActivity{{10'000'000}, 0, records::kFaultBegins, NodeId{1}, "babbling_idiot", "camera_pc babbles"});
   d.on(records::FaultActivity{{11'000'000}, 0, records::kFaultActs, NodeId{1}, "babbling_idiot", "it sends in slot 3"});
   d.on(records::FaultActivity{
       {30'000'000}, 0, records::kFaultEnds, NodeId{1}, "babbling_idiot", "camera_pc is quiet again"});
@@ -265,7 +264,10 @@ TEST(StartupStates, AStateLastsUntilItIsLeftOrItsNodeLosesItsSupply) {
 
 TEST(StartupStates, WhoLosesASupplyThatNobodyGaveItOrOnlySendsWasActiveFromTheStart) {
   StartupData data;
-  data.power = {{{10}, NodeId{0}, false}, {{10}, NodeId{1}, true}, {{20}, NodeId{1}, false}, {{30}, NodeId{2}, false},
+  data.power = {{{10}, NodeId{0}, false},
+                {{10}, NodeId{1}, true},
+                {{20}, NodeId{1}, false},
+                {{30}, NodeId{2}, false},
                 {{50}, NodeId{0}, true}};
   data.changes = {change(10, 1, kStateDefaultConfig, kStateReady), change(25, 2, kStateNormalActive, kStateHalt),
                   change(50, 0, kStateDefaultConfig, kStateReady)};
@@ -281,7 +283,7 @@ TEST(StartupStates, FaultsAreThereFromBeginToEnd) {
     return StartupData::Fault{{at}, fault, what, kNoNode, "noise", ""};
   };
   const std::vector<StartupData::Fault> faults = {
-      record(10, 0, records::kFaultBegins), record(20, 0, records::kFaultEnds),  record(10, 1, records::kFaultBegins),
+      record(10, 0, records::kFaultBegins), record(20, 0, records::kFaultEnds),   record(10, 1, records::kFaultBegins),
       record(60, 1, records::kFaultEnds),   record(30, 2, records::kFaultBegins), record(90, 3, records::kFaultBegins)};
   EXPECT_EQ(faults_within(faults, {40}, {80}).size(), 3u);
   EXPECT_EQ(faults_within(faults, {0}, {100}).size(), faults.size());
@@ -327,10 +329,10 @@ TEST(StartupCycles, BeginWhereTheLeadingNodesFramesSay) {
   frame(1, 1'580);
   frame(3, 3'600);
   frame(3, 3'650, 0, 4);
-  frame(4, 9'999);   // of another schedule
+  frame(4, 9'999);  // of another schedule
   const auto starts = cycles_of(data, leader, Duration{1000}, {4'600});
-  EXPECT_EQ(starts, (std::map<std::int64_t, TrueTime>{
-                        {0, {500}}, {1, {1'510}}, {2, {2'510}}, {3, {3'530}}, {4, {4'530}}}));
+  EXPECT_EQ(starts,
+            (std::map<std::int64_t, TrueTime>{{0, {500}}, {1, {1'510}}, {2, {2'510}}, {3, {3'530}}, {4, {4'530}}}));
 }
 
 }  // namespace

@@ -23,8 +23,7 @@ namespace ttf::report {
 
 namespace {
 std::string scratch(const std::string& name) {
-  return (std::filesystem::temp_directory_path() / ("ttf_report_" + std::to_string(getpid()) + "_" + name))
-      .string();
+  return (std::filesystem::temp_directory_path() / ("ttf_report_" + std::to_string(getpid()) + "_" + name)).string();
 }
 
 std::string bytes_of(const std::string& path) {
@@ -65,8 +64,8 @@ TEST(Svg, EscapesWhatXmlReserves) {
 TEST(Svg, EveryShapeIsWellFormed) {
   Svg svg(200, 100, "shapes");
   svg.open_group("clipped", {10, 10, 50, 50});
-  for (const Marker m : {Marker::kCircle, Marker::kCross, Marker::kTriangle, Marker::kSquare,
-                         Marker::kDiamond, Marker::kDownTriangle})
+  for (const Marker m :
+       {Marker::kCircle, Marker::kCross, Marker::kTriangle, Marker::kSquare, Marker::kDiamond, Marker::kDownTriangle})
     svg.marker(m, {20, 20}, 8, {.stroke = kBlack}, "m");
   svg.close_group();
   svg.arrow({0, 0}, {10, 10}, {.stroke = kBlue});
@@ -80,8 +79,7 @@ TEST(Svg, EveryShapeIsWellFormed) {
 TEST(Svg, TextWidthFollowsTheFont) {
   EXPECT_NEAR(text_width("0000000000", 10), 63.6, 0.1);  // DejaVu Sans digits are 0.636 em wide
   EXPECT_LT(text_width("iii", 10), text_width("mmm", 10));
-  EXPECT_DOUBLE_EQ(text_width("\xc3\xa4", 10), text_width("\xe2\x80\xa6", 10))
-      << "one character each, not bytes";
+  EXPECT_DOUBLE_EQ(text_width("\xc3\xa4", 10), text_width("\xe2\x80\xa6", 10)) << "one character each, not bytes";
 }
 
 TEST(Axes, TicksAreOneTwoFiveAndInside) {
@@ -170,8 +168,7 @@ std::string message_of(const std::string& svg, const std::string& path) {
 }
 
 TEST(Render, NamesTheExtensionsItKnows) {
-  EXPECT_NE(message_of("", "out/a.jpg").find(".svg, .png or .pdf"), std::string::npos)
-      << message_of("", "out/a.jpg");
+  EXPECT_NE(message_of("", "out/a.jpg").find(".svg, .png or .pdf"), std::string::npos) << message_of("", "out/a.jpg");
   EXPECT_NE(message_of("", "out/a.jpg").find(".jpg"), std::string::npos);
   EXPECT_NE(message_of("", "dir.png/a").find("none"), std::string::npos);
   EXPECT_THROW(check_picture_path("x"), InputError);
@@ -194,9 +191,8 @@ TEST(Tables, AlignNumbersRightAndWordsLeft) {
   t.add({"BUFF", "0.25"});
   t.add({"ADVA", "12.5"});
   t.add({"TT", "-"});
-  EXPECT_EQ(
-      t.text(),
-      "strategy  rmse [m]\n--------  --------\nBUFF          0.25\nADVA          12.5\nTT               -\n");
+  EXPECT_EQ(t.text(),
+            "strategy  rmse [m]\n--------  --------\nBUFF          0.25\nADVA          12.5\nTT               -\n");
 }
 
 TEST(Tables, CountCharactersAndFillShortRows) {
@@ -209,8 +205,7 @@ TEST(Tables, CountCharactersAndFillShortRows) {
 }
 
 TEST(IndexPage, ListsPicturesAndTables) {
-  const std::vector<IndexEntry> entries{
-      {"Timing <1>", "a b.svg", "caption & more", "x  y\n1  2\n", {"a.pdf"}}};
+  const std::vector<IndexEntry> entries{{"Timing <1>", "a b.svg", "caption & more", "x  y\n1  2\n", {"a.pdf"}}};
   const std::string dir = scratch("index");
   std::filesystem::create_directories(dir);
   write_index(dir, "A \"run\"", entries);

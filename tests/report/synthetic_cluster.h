@@ -48,10 +48,8 @@ inline schedules::Cluster synthetic_cluster() {
   laser.at = {3, 16, Macroticks{1000}};
   camera.name = "camera";
   c.sensors = {laser, camera};
-  const auto frame = [&](int slot, Channels channels, int base, int repetition, int node, PduId id,
-                         int fragment) {
-    c.frames.push_back(
-        {slot, channels, base, repetition, NodeId(static_cast<std::uint8_t>(node)), id, fragment, 0});
+  const auto frame = [&](int slot, Channels channels, int base, int repetition, int node, PduId id, int fragment) {
+    c.frames.push_back({slot, channels, base, repetition, NodeId(static_cast<std::uint8_t>(node)), id, fragment, 0});
   };
   for (int s = 1; s <= 3; ++s) frame(s, Channels::kAB, 0, 1, s - 1, kNoPdu, 0);
   for (int s = 4; s <= 8; ++s)

@@ -19,9 +19,8 @@ inline Names synthetic_names() {
   names.pdus = {"laser_points", "camera_frame", "laser_objects", "camera_objects", "image"};
   names.sensors = {"laser", "camera"};
   names.can_buses = {"laser_can", "camera_can", "object_can"};
-  names.tasks = {
-      {"emulate"},        {"emulate"}, {"extract"}, {"extract"}, {"forward_laser", "forward_camera"},
-      {"track", "image"}, {"serve"}};
+  names.tasks = {{"emulate"},        {"emulate"}, {"extract"}, {"extract"}, {"forward_laser", "forward_camera"},
+                 {"track", "image"}, {"serve"}};
   return names;
 }
 
@@ -32,8 +31,7 @@ struct SyntheticRun {
   std::int64_t global_offset_us = 3;  // global minus true time
 
   records::Stamp stamp(std::int64_t us, int node) const {
-    return {
-        at_us(us), {us * 1000}, {(us + global_offset_us) * 1000}, NodeId(static_cast<std::uint8_t>(node))};
+    return {at_us(us), {us * 1000}, {(us + global_offset_us) * 1000}, NodeId(static_cast<std::uint8_t>(node))};
   }
 
   void slot(records::Sink& sink, std::int64_t cycle, int number, int node, PduId pdu, std::uint32_t sequence,
@@ -57,8 +55,8 @@ struct SyntheticRun {
                              static_cast<std::int8_t>(bus)});
   }
 
-  void task(records::Sink& sink, std::int64_t activated, std::int64_t start, std::int64_t end, int node,
-            int number, bool met = true) const {
+  void task(records::Sink& sink, std::int64_t activated, std::int64_t start, std::int64_t end, int node, int number,
+            bool met = true) const {
     sink.on(records::TaskRun{stamp(start, node), static_cast<std::uint8_t>(number), stamp(activated, node),
                              stamp(end, node), met});
   }
@@ -169,17 +167,13 @@ struct SyntheticRun {
           o.y = y_at(tm) + noise(a.id.sequence * 7 + 3, 0.2);
           sink.on(o);
         }
-        records::ListFused fused{stamp(t, 5),
-                                 step,
-                                 a.id,
-                                 {(a.measured_us + global_offset_us) * 1000},
-                                 records::Disposition::kFused};
+        records::ListFused fused{
+            stamp(t, 5), step, a.id, {(a.measured_us + global_offset_us) * 1000}, records::Disposition::kFused};
         if (late) fused.disposition = records::Disposition::kFusedLate;
         sink.on(fused);
       }
       const double now = 1e-6 * static_cast<double>(t);
-      const std::array<double, 6> state{
-          x_at(now) + noise(step, 0.08), y_at(now) + noise(step + 9, 0.06), 4, 0, 0, 0};
+      const std::array<double, 6> state{x_at(now) + noise(step, 0.08), y_at(now) + noise(step + 9, 0.06), 4, 0, 0, 0};
       const std::array<double, 36> covariance{};
       records::TrackState track{stamp(t, 5), step,       TrackId(1), {(t + global_offset_us) * 1000},
                                 state,       covariance, false};

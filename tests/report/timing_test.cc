@@ -22,9 +22,9 @@ std::string timing_diagram(std::int64_t from_ms, std::int64_t to_ms) {
 
 TEST(TimingDiagram, HasALaneForEverythingThatTakesPart) {
   const std::string svg = timing_diagram(200, 350);
-  for (const char* lane : {"laser", "camera", "laser_can", "camera_can", "object_can", "laser_pc: extract",
-                           "camera_pc: extract", "gateway: forward_laser", "FlexRay A", "FlexRay B",
-                           "fusion: track", "fusion: image", "feature: serve"})
+  for (const char* lane :
+       {"laser", "camera", "laser_can", "camera_can", "object_can", "laser_pc: extract", "camera_pc: extract",
+        "gateway: forward_laser", "FlexRay A", "FlexRay B", "fusion: track", "fusion: image", "feature: serve"})
     EXPECT_EQ(count(svg, std::string(">") + lane + "</text>"), 1u) << lane;
   EXPECT_NE(svg.find("true time [ms]"), std::string::npos);
 }
@@ -108,7 +108,7 @@ TEST(TimingDiagram, WhereAllStartAnewTheNumbersAreTheirs) {
   Restarted all(d, {NodeId{4}, NodeId{5}, NodeId{6}}, at_us(0), 2);
   SyntheticRun{}.drive(all, 1'500'000);
   const std::string svg = d.svg();
-  for (int cycle = 0; cycle < 22; ++cycle)   // 600 ms is 8 cycles before it
+  for (int cycle = 0; cycle < 22; ++cycle)  // 600 ms is 8 cycles before it
     EXPECT_EQ(count(svg, fmt::format("fill=\"#444444\">{}</text>", cycle)), 1u) << cycle;
   EXPECT_EQ(count(svg, ">-1</text>"), 0u);
 }
@@ -146,8 +146,7 @@ TEST(TimingDiagram, FaultsHaveLanesAndWhatBecameOfFramesIsMarked) {
   EXPECT_EQ(count_class(svg, "missing"), 1u);
   for (const char* words :
        {"bit 7 is inverted", "slot 1 of gateway: frame CRC wrong", "nobody sent it: nobody can make it out",
-        "feature, but its controller did not send it: sound",
-        "slot 1 of gateway: nothing of it reached anybody"})
+        "feature, but its controller did not send it: sound", "slot 1 of gateway: nothing of it reached anybody"})
     EXPECT_EQ(count(svg, words), 1u) << words;
   for (const char* entry : {"fault, from its begin to its end", "the fault acts",
                             "frame damaged, displaced or sent by no controller", "frame that reached nobody"})
@@ -159,8 +158,8 @@ TEST(TimingDiagram, FaultsHaveLanesAndWhatBecameOfFramesIsMarked) {
 }
 
 TEST(TimingDiagram, NoLabelsOverlapInAnyWindow) {
-  for (const auto& [from, to] : {std::pair{200, 350}, std::pair{0, 150}, std::pair{100, 110},
-                                 std::pair{0, 1500}, std::pair{640, 1000}}) {
+  for (const auto& [from, to] :
+       {std::pair{200, 350}, std::pair{0, 150}, std::pair{100, 110}, std::pair{0, 1500}, std::pair{640, 1000}}) {
     SCOPED_TRACE(fmt::format("{} to {} ms", from, to));
     const std::string svg = timing_diagram(from, to);
     expect_no_overlaps(svg);
@@ -179,8 +178,8 @@ TEST(TimingDiagram, MarksDeadlinesNullFramesStatusFramesAndLateWays) {
   EXPECT_GT(count_class(svg, "null"), 0u);
   EXPECT_GT(count_class(svg, "status"), 0u);
   EXPECT_GT(count_class(svg, "arrow late"), 0u);
-  for (const char* entry : {"task, deadline missed", "null frame", "status frame", "out of sequence",
-                            "way of the real-time image"})
+  for (const char* entry :
+       {"task, deadline missed", "null frame", "status frame", "out of sequence", "way of the real-time image"})
     EXPECT_EQ(count(svg, std::string(">") + entry + "</text>"), 1u) << entry;
 }
 
@@ -194,8 +193,7 @@ TEST(TimingDiagram, AnEmptyWindowSaysSo) {
 TEST(TimingDiagram, NamesAndTasksMayBeMissing) {
   TimingDiagram d({}, {}, at_us(0), at_us(100'000));
   d.on(records::Measured{SyntheticRun{}.stamp(5000, 0), {SensorId{1}, 0}, {}});
-  d.on(records::ListFused{
-      SyntheticRun{}.stamp(9000, 1), 1, {SensorId{1}, 0}, {5'000'000}, Disposition::kFused});
+  d.on(records::ListFused{SyntheticRun{}.stamp(9000, 1), 1, {SensorId{1}, 0}, {5'000'000}, Disposition::kFused});
   const std::string svg = d.svg();
   EXPECT_NE(svg.find(">sensor 1</text>"), std::string::npos);
   EXPECT_EQ(count_class(svg, "arrow"), 1u);
@@ -204,8 +202,7 @@ TEST(TimingDiagram, NamesAndTasksMayBeMissing) {
 
 TEST(TimingDiagram, WhatIsFusedAloneMakesNoLane) {
   TimingDiagram d(synthetic_names(), Duration::milliseconds(5), at_us(0), at_us(100'000));
-  d.on(records::ListFused{
-      SyntheticRun{}.stamp(9000, 1), 1, {SensorId{1}, 0}, {5'000'000}, Disposition::kFused});
+  d.on(records::ListFused{SyntheticRun{}.stamp(9000, 1), 1, {SensorId{1}, 0}, {5'000'000}, Disposition::kFused});
   EXPECT_NE(d.svg().find("no records"), std::string::npos);
   expect_renders(d.svg());
 }
@@ -260,8 +257,8 @@ TEST(TimingDiagram, CyclesNoBusCanHaveMakeNoGrid) {
 // Ways, checked stop by stop.
 class Ways : public ::testing::Test {
  protected:
-  static TimingData::Fused fused(std::int64_t us, std::uint32_t sequence, std::int64_t measured_us,
-                                 Disposition what, std::uint8_t sensor = 0) {
+  static TimingData::Fused fused(std::int64_t us, std::uint32_t sequence, std::int64_t measured_us, Disposition what,
+                                 std::uint8_t sensor = 0) {
     return {at_us(us), NodeId{5}, 1, {SensorId{sensor}, sequence}, {measured_us * 1000}, what};
   }
   std::vector<Way> ways() const { return measurement_ways(data_, synthetic_names(), transfers_of(data_)); }
@@ -276,8 +273,7 @@ TEST_F(Ways, LeadFromTheSensorThroughEveryHop) {
   data_.runs = {{at_us(3000), at_us(4000), at_us(9000), NodeId{2}, 0, true},
                 {at_us(13000), at_us(13000), at_us(14000), NodeId{5}, 0, true}};
   for (std::uint8_t channel : {0, 1})
-    data_.slot_frames.push_back(
-        {at_us(10000), at_us(11000), {}, NodeId{4}, 2, 3, channel, false, PduId{2}, 7, 0});
+    data_.slot_frames.push_back({at_us(10000), at_us(11000), {}, NodeId{4}, 2, 3, channel, false, PduId{2}, 7, 0});
   data_.steps = {{at_us(13000), NodeId{5}, 1}};
   data_.fused = {fused(13000, 7, 0, Disposition::kFused)};
   const auto all = ways();
@@ -331,17 +327,8 @@ TEST_F(Ways, ARepeatedStateMessageTravelsTheFirstTime) {
   data_.measurements = {{at_us(0), {SensorId{0}, 0}}};
   for (std::int64_t cycle = 2; cycle < 8; ++cycle) {
     const std::uint8_t fragment = cycle % 2 == 0 ? 0 : 1;
-    data_.slot_frames.push_back({at_us(cycle * 5000),
-                                 at_us(cycle * 5000 + 70),
-                                 {},
-                                 NodeId{4},
-                                 cycle,
-                                 3,
-                                 0,
-                                 false,
-                                 PduId{2},
-                                 0,
-                                 fragment});
+    data_.slot_frames.push_back(
+        {at_us(cycle * 5000), at_us(cycle * 5000 + 70), {}, NodeId{4}, cycle, 3, 0, false, PduId{2}, 0, fragment});
   }
   const auto transfers = transfers_of(data_);
   ASSERT_EQ(transfers.size(), 1u);
@@ -371,8 +358,7 @@ TEST_F(Ways, ADroppedOrOverwrittenListEndsThere) {
 TEST_F(Ways, AWrappedCounterIsNotMistakenForAnOldList) {
   // Sequence 3 and, 256 measurements later, 259 (3 on an eight-bit wire).
   data_.measurements = {{at_us(0), {SensorId{0}, 3}}, {at_us(20'480'000), {SensorId{0}, 259}}};
-  data_.fused = {fused(13000, 3, 0, Disposition::kFused),
-                 fused(20'493'000, 3, 20'480'000, Disposition::kFused)};
+  data_.fused = {fused(13000, 3, 0, Disposition::kFused), fused(20'493'000, 3, 20'480'000, Disposition::kFused)};
   const auto all = ways();
   ASSERT_EQ(all[0].legs.size(), 1u);
   ASSERT_EQ(all[1].legs.size(), 1u);

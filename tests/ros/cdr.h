@@ -12,9 +12,8 @@ namespace ttf::test {
 
 class Cdr {
  public:
-  template <class Number>
-  Cdr& put(Number number) {
-    while (bytes_.size() % sizeof number != 0) bytes_.push_back(0);   // aligned to its size, from the payload's begin
+  template <class Number> Cdr& put(Number number) {
+    while (bytes_.size() % sizeof number != 0) bytes_.push_back(0);  // aligned to its size, from the payload's begin
     const std::size_t at = bytes_.size();
     bytes_.resize(at + sizeof number);
     std::memcpy(bytes_.data() + at, &number, sizeof number);

@@ -34,10 +34,21 @@ inline records::Stamp stamp_at(std::int64_t true_ns) {
 inline records::ImageObject image_object(int i) {
   const double d = i;
   return {.track = TrackId{static_cast<std::uint16_t>(100 + i)},
-          .x = 10 + d, .y = 20 + d, .heading = 0.1 + d / 100, .speed = 30 + d, .acceleration = -1 - d,
-          .length = 4 + d, .width = 2 + d,
-          .sigma_x = 0.1 + d, .sigma_y = 0.2 + d, .correlation_xy = 0.5, .sigma_heading = 0.3 + d,
-          .sigma_speed = 0.4 + d, .sigma_acceleration = 0.6 + d, .sigma_length = 0.7 + d, .sigma_width = 0.8 + d,
+          .x = 10 + d,
+          .y = 20 + d,
+          .heading = 0.1 + d / 100,
+          .speed = 30 + d,
+          .acceleration = -1 - d,
+          .length = 4 + d,
+          .width = 2 + d,
+          .sigma_x = 0.1 + d,
+          .sigma_y = 0.2 + d,
+          .correlation_xy = 0.5,
+          .sigma_heading = 0.3 + d,
+          .sigma_speed = 0.4 + d,
+          .sigma_acceleration = 0.6 + d,
+          .sigma_length = 0.7 + d,
+          .sigma_width = 0.8 + d,
           .status = static_cast<std::uint8_t>(i % 2 == 0 ? 1 : 6)};
 }
 
@@ -63,8 +74,13 @@ struct DrawnImage {
 // A track whose step runs at true_ns, and which is valid 2 ms before.
 struct DrawnTrack {
   DrawnTrack(std::int64_t true_ns, std::uint32_t step, int number, bool predicted = false)
-      : record{stamp_at(true_ns), step, TrackId{static_cast<std::uint16_t>(number)},
-               stamp_at(true_ns - 2'000'000).global, state, covariance, predicted} {
+      : record{stamp_at(true_ns),
+               step,
+               TrackId{static_cast<std::uint16_t>(number)},
+               stamp_at(true_ns - 2'000'000).global,
+               state,
+               covariance,
+               predicted} {
     for (std::size_t i = 0; i < state.size(); ++i) state[i] = number + static_cast<double>(i) / 10;
     for (std::size_t i = 0; i < covariance.size(); ++i) covariance[i] = number + static_cast<double>(i) / 100;
   }
@@ -76,9 +92,19 @@ struct DrawnTrack {
 };
 
 inline records::TruthState truth_at(std::int64_t true_ns, std::uint16_t object, std::uint8_t node = 2) {
-  return {.at = TrueTime{true_ns}, .object = ObjectId{object}, .x = 11.5 + object, .y = -3.25, .heading = 0.5,
-          .speed = 27.5, .acceleration = 0.75, .yaw_rate = 0.0625, .length = 4.5, .width = 1.75,
-          .local = LocalTime{true_ns}, .global = GlobalTime{true_ns}, .node = NodeId{node}};
+  return {.at = TrueTime{true_ns},
+          .object = ObjectId{object},
+          .x = 11.5 + object,
+          .y = -3.25,
+          .heading = 0.5,
+          .speed = 27.5,
+          .acceleration = 0.75,
+          .yaw_rate = 0.0625,
+          .length = 4.5,
+          .width = 1.75,
+          .local = LocalTime{true_ns},
+          .global = GlobalTime{true_ns},
+          .node = NodeId{node}};
 }
 
 }  // namespace ttf::test

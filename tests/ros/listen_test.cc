@@ -79,8 +79,7 @@ TEST_F(RosListen, TheBoxesOfAnImageArrive) {
   EXPECT_EQ(second.at("id"), "101");
   EXPECT_EQ(second.at("stamp_ns"), boxes.at("stamp_ns"));
   EXPECT_EQ(second.at("position"), json({object.x, object.y, 0.0}));
-  EXPECT_EQ(second.at("orientation"),
-            json({0.0, 0.0, std::sin(object.heading / 2), std::cos(object.heading / 2)}));
+  EXPECT_EQ(second.at("orientation"), json({0.0, 0.0, std::sin(object.heading / 2), std::cos(object.heading / 2)}));
   EXPECT_EQ(second.at("size"), json({object.length, object.width, 0.0}));
   ASSERT_EQ(second.at("results").size(), 1u);
   EXPECT_EQ(second.at("results").at(0).at("class_id"), "tentative");

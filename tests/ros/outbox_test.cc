@@ -33,7 +33,7 @@ TEST(Outbox, GivesWhatWasPut) {
   const WaitingImage* waiting = outbox.images.first();
   ASSERT_NE(waiting, nullptr);
   EXPECT_EQ(waiting->written, TrueTime{1'000'000'000});
-  EXPECT_EQ(waiting->valid_at, TrueTime{1'020'000'000});   // true time, though the record says it in the node's
+  EXPECT_EQ(waiting->valid_at, TrueTime{1'020'000'000});  // true time, though the record says it in the node's
   EXPECT_EQ(waiting->newest_measurement, TrueTime{995'000'000});
   EXPECT_EQ(waiting->sequence, 17u);
   ASSERT_EQ(waiting->objects.size(), 3u);
@@ -56,7 +56,7 @@ TEST(Outbox, WhatHasNoRoomIsDroppedAndCountedTheNewestFirst) {
   EXPECT_EQ(outbox.dropped().images, 2u);
   for (std::uint32_t i = 0; i < 3; ++i, outbox.images.pop()) EXPECT_EQ(outbox.images.first()->sequence, i);
   EXPECT_EQ(outbox.images.first(), nullptr);
-  EXPECT_TRUE(outbox.put(DrawnImage(9, 9, 1).record));   // there is room again
+  EXPECT_TRUE(outbox.put(DrawnImage(9, 9, 1).record));  // there is room again
   EXPECT_EQ(outbox.dropped().images, 2u);
   EXPECT_EQ(outbox.dropped().steps + outbox.dropped().truths + outbox.dropped().healths + outbox.dropped().cut, 0u);
 }
@@ -74,7 +74,7 @@ TEST(Outbox, TooManyObjectsAreCutAndCounted) {
 TEST(Outbox, TracksWaitForTheirStep) {
   Outbox outbox(small());
   EXPECT_FALSE(outbox.put(DrawnTrack(1'000'000'000, 5, 31).record));
-  EXPECT_FALSE(outbox.put(DrawnTrack(1'000'000'000, 5, 99, true).record));   // an image's prediction, no state
+  EXPECT_FALSE(outbox.put(DrawnTrack(1'000'000'000, 5, 99, true).record));  // an image's prediction, no state
   EXPECT_FALSE(outbox.put(DrawnTrack(1'000'000'000, 5, 32).record));
   EXPECT_EQ(outbox.steps.first(), nullptr);
   EXPECT_TRUE(outbox.put(records::FusionStep{test::stamp_at(1'000'000'000), 5, 2, 7}));
@@ -93,7 +93,7 @@ TEST(Outbox, TracksWaitForTheirStep) {
 
 TEST(Outbox, AStepHasItsOwnTracksOnly) {
   Outbox outbox(small());
-  outbox.put(DrawnTrack(0, 5, 31).record);   // of a step that never ended: its node lost its supply
+  outbox.put(DrawnTrack(0, 5, 31).record);  // of a step that never ended: its node lost its supply
   outbox.put(DrawnTrack(1, 6, 41).record);
   outbox.put(records::FusionStep{test::stamp_at(1), 6, 1, 0});
   outbox.put(records::FusionStep{test::stamp_at(2), 7, 0, 0});
@@ -133,9 +133,9 @@ TEST(Outbox, TheTruthOfAnInstantIsTakenOnceWhoeverTellsIt) {
   Outbox outbox(small());
   EXPECT_TRUE(outbox.put(truth_at(100, 0, 1)));
   EXPECT_TRUE(outbox.put(truth_at(100, 1, 1)));
-  EXPECT_FALSE(outbox.put(truth_at(100, 0, 2)));   // another node, the same instant
-  EXPECT_FALSE(outbox.put(truth_at(90, 0, 2)));    // what is past
-  EXPECT_FALSE(outbox.put(truth_at(200, 2, 1)));   // nobody asked for object 2
+  EXPECT_FALSE(outbox.put(truth_at(100, 0, 2)));  // another node, the same instant
+  EXPECT_FALSE(outbox.put(truth_at(90, 0, 2)));   // what is past
+  EXPECT_FALSE(outbox.put(truth_at(200, 2, 1)));  // nobody asked for object 2
   EXPECT_TRUE(outbox.put(truth_at(200, 0, 2)));
   EXPECT_EQ(outbox.dropped().truths, 0u);
   EXPECT_EQ(outbox.truths.first()->state.object, ObjectId{0});
@@ -143,7 +143,7 @@ TEST(Outbox, TheTruthOfAnInstantIsTakenOnceWhoeverTellsIt) {
 
 // Else it would be missing, though there was room for it when another node told it.
 TEST(Outbox, ATruthThatHadNoRoomMayComeAgain) {
-  Outbox outbox(small());   // room for 3 instants of 2 objects
+  Outbox outbox(small());  // room for 3 instants of 2 objects
   for (std::int64_t at = 0; at < 6; ++at) EXPECT_TRUE(outbox.put(truth_at(at, 0)));
   EXPECT_FALSE(outbox.put(truth_at(6, 0, 1)));
   EXPECT_EQ(outbox.dropped().truths, 1u);
@@ -159,13 +159,15 @@ TEST(Outbox, AHealthIsKeptAsText) {
   EXPECT_EQ(health->values, 2u);
   EXPECT_EQ(health->level, HealthLevel::kWarn);
   using namespace std::string_literals;
-  const std::string expected = "fusion: schedule\0normal active\0late wake-ups\0""3\0state\0\0"s;
+  const std::string expected =
+      "fusion: schedule\0normal active\0late wake-ups\0"
+      "3\0state\0\0"s;
   EXPECT_EQ(std::string(health->text.data(), expected.size()), expected);
 }
 
 TEST(Outbox, AHealthThatIsTooLongIsDropped) {
   Outbox outbox(small());
-  const std::string most(kHealthText - 2, 'x');   // with its zero, and that of the empty message
+  const std::string most(kHealthText - 2, 'x');  // with its zero, and that of the empty message
   EXPECT_TRUE(outbox.put(Health{{}, HealthLevel::kOk, most, "", {}}));
   EXPECT_EQ(outbox.dropped().healths, 0u);
   const std::string more = most + 'x';

@@ -25,8 +25,7 @@ long waits() {
   return usage.ru_nvcsw;
 }
 
-template <class Holds>
-bool soon(Holds holds) {
+template <class Holds> bool soon(Holds holds) {
   for (int i = 0; i < 1000; ++i, std::this_thread::sleep_for(10ms))
     if (holds()) return true;
   return holds();
@@ -58,7 +57,8 @@ TEST(RosPublisher, NeverWaitsAlsoWhenItIsFlooded) {
   EXPECT_GE(counts.images.written, options.queue);
   EXPECT_EQ(counts.boxes.written, counts.images.written);
   EXPECT_EQ(counts.images.refused + counts.boxes.refused + counts.tracks.refused + counts.truth.refused +
-                counts.health.refused, 0u);
+                counts.health.refused,
+            0u);
   EXPECT_EQ(counts.cut, 0u);
 }
 
@@ -73,7 +73,7 @@ TEST(RosPublisher, AListenerThatStandsStillHoldsNobodyUp) {
     ++sequence;
     return DrawnImage(1'000'000 * std::int64_t{sequence}, sequence, 64);
   };
-  ASSERT_TRUE(soon([&] {   // until it hears us
+  ASSERT_TRUE(soon([&] {  // until it hears us
     publisher.on(next_image().record);
     return listener.find([&](const nlohmann::json& line) { return test::is_sample_of(line, topic); }, 0ms).has_value();
   }));
@@ -96,11 +96,15 @@ TEST(RosPublisher, AListenerThatStandsStillHoldsNobodyUp) {
   })) << "the writing thread stood still, too";
   EXPECT_EQ(publisher.counts().images.refused, 0u);
 
-  listener.signal(SIGCONT);   // and it hears the newest that is there
+  listener.signal(SIGCONT);  // and it hears the newest that is there
   const std::uint32_t newest = sequence;
-  EXPECT_TRUE(listener.find([&](const nlohmann::json& line) {
-    return test::is_sample_of(line, topic) && sequence_of(line) + options.queue >= newest;
-  }, 20s).has_value());
+  EXPECT_TRUE(listener
+                  .find(
+                      [&](const nlohmann::json& line) {
+                        return test::is_sample_of(line, topic) && sequence_of(line) + options.queue >= newest;
+                      },
+                      20s)
+                  .has_value());
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ int main(int count, char** arguments) {
   options.domain = static_cast<std::uint32_t>(std::stoul(arguments[1]));
   options.node_name = arguments[2];
   options.image_period = options.step_period = options.truth_period = options.health_period = Duration{period};
-  options.deadline_slack = 4;   // the machine has other work, too
+  options.deadline_slack = 4;  // the machine has other work, too
   options.truth_objects = 1;
   ros::RosPublisher publisher(options);
   const auto start = std::chrono::steady_clock::now();

@@ -34,7 +34,7 @@ class Stranger {
 
   void listen(const dds_topic_descriptor_t& type, const std::string& topic) {
     const dds_entity_t made = dds_create_topic(participant_.handle(), &type, topic.c_str(), nullptr, nullptr);
-    dds_qos_t* qos = dds_create_qos();   // as ROS' readers: reliable, volatile, the last 10
+    dds_qos_t* qos = dds_create_qos();  // as ROS' readers: reliable, volatile, the last 10
     dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_INFINITY);
     dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, 10);
     reader_ = dds_create_reader(participant_.handle(), made, qos, nullptr);
@@ -56,7 +56,7 @@ class Stranger {
       ddsi_serdata_to_ser(sample, 0, bytes.size(), bytes.data());
       ddsi_serdata_unref(sample);
       EXPECT_EQ(bytes.at(0), 0u);
-      EXPECT_EQ(bytes.at(1), 1u);   // CDR_LE
+      EXPECT_EQ(bytes.at(1), 1u);  // CDR_LE
       bytes.erase(bytes.begin(), bytes.begin() + 4);
       return bytes;
     }
@@ -121,7 +121,7 @@ TEST(RosWire, AnImageHasTheBytesOfItsMessage) {
   Stranger stranger;
   stranger.listen(ttfusion_msgs_msg_dds__RealTimeImage__desc, "rt/" + options.node_name + "/image");
   publisher.on(DrawnImage(1'000'000'000, 17, 2).record);
-  Cdr expected = header(1'700'000'001, 270'000'000);   // of use 20 ms after it was written, 1 s after the origin
+  Cdr expected = header(1'700'000'001, 270'000'000);  // of use 20 ms after it was written, 1 s after the origin
   expected.u32(17).time(1'700'000'001, 250'000'000).time(1'700'000'001, 245'000'000).u32(2);
   for (int i = 0; i < 2; ++i) {
     const records::ImageObject object = test::image_object(i);
@@ -143,7 +143,7 @@ TEST(RosWire, StampsAreOnTheClockThatAStretchedDriveGoesBy) {
   Stranger stranger;
   stranger.listen(ttfusion_msgs_msg_dds__RealTimeImage__desc, "rt/" + options.node_name + "/image");
   publisher.on(DrawnImage(1'000'000'000, 17, 0).record);
-  Cdr expected = header(1'700'000'004, 330'000'000);   // 1.02 s times 4 after the origin, which is at 0.25 s
+  Cdr expected = header(1'700'000'004, 330'000'000);  // 1.02 s times 4 after the origin, which is at 0.25 s
   expected.u32(17).time(1'700'000'004, 250'000'000).time(1'700'000'004, 230'000'000).u32(0);
   expect_bytes(stranger.next(), expected);
 }
@@ -204,7 +204,7 @@ TEST(RosWire, TruthHasTheBytesOfOdometry) {
   RosPublisher publisher(options);
   Stranger stranger;
   stranger.listen(nav_msgs_msg_dds__Odometry__desc, "rt/" + options.node_name + "/truth/object_1");
-  publisher.on(test::truth_at(3'000'000'000, 0));   // on its own topic
+  publisher.on(test::truth_at(3'000'000'000, 0));  // on its own topic
   publisher.on(test::truth_at(3'000'000'000, 1));
   Cdr expected = header(1'700'000'003, 250'000'000);
   expected.text("object_1");
@@ -247,7 +247,7 @@ TEST(RosWire, AHealthHasTheBytesOfDiagnosticsAndIsKept) {
       ddsi_serdata_unref(sample);
       bytes.erase(bytes.begin(), bytes.begin() + 4);
       const std::string text(bytes.begin(), bytes.end());
-      if (text.find(options.node_name) == std::string::npos) continue;   // somebody else's
+      if (text.find(options.node_name) == std::string::npos) continue;  // somebody else's
       EXPECT_EQ(text.find("fine"), std::string::npos) << "of a volatile writer's past the newest only is kept";
       expect_bytes(bytes, expected);
       seen = true;
@@ -312,7 +312,7 @@ TEST(RosTime, CountsNanosecondsOnFromTheSecondBefore) {
   };
   EXPECT_TRUE(is(0, 0, 0));
   EXPECT_TRUE(is(1'700'000'000, 1, 700'000'000));
-  EXPECT_TRUE(is(-1'700'000'000, -2, 300'000'000));   // the example of builtin_interfaces/msg/Time.msg
+  EXPECT_TRUE(is(-1'700'000'000, -2, 300'000'000));  // the example of builtin_interfaces/msg/Time.msg
   EXPECT_TRUE(is(-2'000'000'000, -2, 0));
   EXPECT_TRUE(is(std::numeric_limits<std::int64_t>::max(), std::numeric_limits<std::int32_t>::max(), 999'999'999));
   EXPECT_TRUE(is(std::numeric_limits<std::int64_t>::min(), std::numeric_limits<std::int32_t>::min(), 0));

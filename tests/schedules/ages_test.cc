@@ -12,8 +12,8 @@
 namespace ttf::schedules {
 namespace {
 
-// Measured at 0, written at 1 ms, sent in the next cycle's slot 3: at worst until its end, 5.252 ms; at best the frame's 652
-// bits from the action point on, 5.175 ms + 65.2 us. Fused at 6 ms, published at 10 ms, used at 10.5 ms.
+// Measured at 0, written at 1 ms, sent in the next cycle's slot 3: at worst until its end, 5.252 ms; at best the
+// frame's 652 bits from the action point on, 5.175 ms + 65.2 us. Fused at 6 ms, published at 10 ms, used at 10.5 ms.
 TEST(Ages, OfAScheduledSensorAreExact) {
   const auto ages = measurement_ages(small(true));
   ASSERT_EQ(ages.size(), 1u);
@@ -28,8 +28,8 @@ TEST(Ages, OfAScheduledSensorAreExact) {
   EXPECT_EQ(ages[0].newest_worst.ns, ages[0].use_worst.ns + kApart);
 }
 
-// Adverse phase: written just after slot 3 of cycle c has begun at 168 us, so sent in cycle c + 1. If that is even, the list
-// is fused in c + 2 and used in c + 3, 15.332 ms after it was written; if odd, 5 ms earlier.
+// Adverse phase: written just after slot 3 of cycle c has begun at 168 us, so sent in cycle c + 1. If that is even, the
+// list is fused in c + 2 and used in c + 3, 15.332 ms after it was written; if odd, 5 ms earlier.
 TEST(Ages, OfAFreeSensorAreTheAdversePhases) {
   const auto ages = measurement_ages(small(false));
   ASSERT_EQ(ages.size(), 1u);
@@ -64,7 +64,7 @@ TEST(Ages, ContributionsComeInTheOrderOfTheWay) {
 // Sent within the clocks' distance before the fusion begins: at worst it misses it, at best it does not.
 TEST(Ages, ClocksThatDifferCountAtCloseInstants) {
   Cluster cluster = small(true);
-  cluster.nodes[1].tasks[0].activation.at.offset = Macroticks{255};   // slot 3 ends at 252 us
+  cluster.nodes[1].tasks[0].activation.at.offset = Macroticks{255};  // slot 3 ends at 252 us
   const auto ages = measurement_ages(cluster);
   EXPECT_EQ(ages[0].fused_best.ns, 5'255'000 - kClocks);
   EXPECT_EQ(ages[0].fused_worst.ns, 15'255'000 + kClocks);
@@ -82,8 +82,8 @@ TEST(Ages, ATaskInTheWayCountsOnce) {
 }
 
 // The gateway's tasks read lists that come over one CAN, the laser's before the camera's. What is left of the camera's
-// execution when the laser's list is there: that list took nine frames since the camera's last one. The other way round it is
-// one frame.
+// execution when the laser's list is there: that list took nine frames since the camera's last one. The other way round
+// it is one frame.
 TEST(Ages, ListsOnOneCanComeOneAfterTheOther) {
   Cluster cluster = load_cluster(shipped_path("paper_unsynchronised"));
   const auto waits = [&](const std::string& sensor) {
@@ -94,9 +94,9 @@ TEST(Ages, ListsOnOneCanComeOneAfterTheOther) {
     return Duration{};
   };
   const CanBus bus = *std::find_if(cluster.can_buses.begin(), cluster.can_buses.end(),
-                                    [](const CanBus& b) { return b.name == "observation_can"; });
+                                   [](const CanBus& b) { return b.name == "observation_can"; });
   const Duration frame = can_worst_case(bus, 56);
-  const Duration unsure = Duration::microseconds(20);   // 3000 ppm and rounding
+  const Duration unsure = Duration::microseconds(20);  // 3000 ppm and rounding
   ASSERT_GT(Duration::microseconds(200), frame);
   EXPECT_EQ(waits("laser"), Duration{});
   EXPECT_GT(waits("camera"), Duration::microseconds(200) - frame);
@@ -118,29 +118,28 @@ TEST(Ages, ListsOnOneCanComeOneAfterTheOther) {
 }
 
 // Written when slot 3 of an odd cycle begins at the latest, a list is fused in that cycle at 1 ms; written later, 10 ms
-// later. So BUFF holds no list longer than the way to the slot, 0.832 ms from there to the fusion and the 10 ms; a stamp
-// may be 1.5 us off.
+// later. So BUFF holds no list longer than the way to the slot, 0.832 ms from there to the fusion and the 10 ms; a
+// stamp may be 1.5 us off.
 TEST(Ages, OfHeldMeasurements) {
   const auto ages = measurement_ages(small(false));
-  EXPECT_EQ(ages[0].buffered_fused_worst.ns,
-            1'000'000 + kRounding + kApart + 1'500 + 832'000 + 10'000'000 + kClocks);
+  EXPECT_EQ(ages[0].buffered_fused_worst.ns, 1'000'000 + kRounding + kApart + 1'500 + 832'000 + 10'000'000 + kClocks);
   EXPECT_EQ(ages[0].buffered_use_worst.ns, ages[0].buffered_fused_worst.ns + 4'500'000);
   EXPECT_EQ(ages[0].buffered_newest_worst - ages[0].buffered_use_worst, ages[0].newest_worst - ages[0].use_worst);
 }
 
-// The same with a CAN before the bus, and with tasks that messages and other tasks activate (classic CAN, 8 bytes at 1 Mbit/s:
-// 135 us at worst, 111 us less the intermission of 3 us at best):
+// The same with a CAN before the bus, and with tasks that messages and other tasks activate (classic CAN, 8 bytes at 1
+// Mbit/s: 135 us at worst, 111 us less the intermission of 3 us at best):
 //
-//   device:  measure 1 ms -> CAN;  gateway: forward, on the list's arrival, 0.2 to 0.5 ms -> list in slot 3 of every cycle
-//   fusion:  fuse 2 ms at 1 ms of odd cycles; publish 0.1 ms when it ends -> image in slot 4 of every cycle
-//   user:    use, on the image's arrival
+//   device:  measure 1 ms -> CAN;  gateway: forward, on the list's arrival, 0.2 to 0.5 ms -> list in slot 3 of every
+//   cycle fusion:  fuse 2 ms at 1 ms of odd cycles; publish 0.1 ms when it ends -> image in slot 4 of every cycle user:
+//   use, on the image's arrival
 Cluster over_can(bool scheduled) {
   Cluster cluster = small(scheduled);
   PduLayout raw;
   raw.fragment_bytes = 8;
   raw.max_elements = raw.elements_per_fragment = 1;
   raw.sensor = SensorId{0};
-  cluster.pdus.push_back(raw);   // PduId 2
+  cluster.pdus.push_back(raw);  // PduId 2
   CanBus bus;
   bus.name = "can";
   bus.nominal_bit_rate = bus.data_bit_rate = 1'000'000;
@@ -191,7 +190,8 @@ TEST(Ages, AFrameOfLowerPriorityOnTheCanIsWaitedFor) {
   EXPECT_EQ(delayed[0].fusion_worst.ns - plain[0].fusion_worst.ns, 135'000);
 }
 
-// Fused at 6 ms, ended at 8 ms, published at 8.1 ms, in slot 4 of the next cycle: 10.252 to 10.336 ms, used when it is there.
+// Fused at 6 ms, ended at 8 ms, published at 8.1 ms, in slot 4 of the next cycle: 10.252 to 10.336 ms, used when it is
+// there.
 TEST(Ages, PublishedWhenTheFusionEndsAndUsedWhenTheImageArrives) {
   const auto ages = measurement_ages(over_can(true));
   ASSERT_TRUE(ages[0].reaches_use);

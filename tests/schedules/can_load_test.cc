@@ -34,11 +34,11 @@ TEST(CanFrames, ClassicWorstCaseIsTheKnownBound) {
 TEST(CanFrames, FlexibleDataRateByHand) {
   EXPECT_EQ(can_worst_case(fast(), 64), Duration{33'000 + 678 * 200});
   EXPECT_EQ(can_best_case(fast(), 64), Duration{30'000 + 549 * 200});
-  EXPECT_EQ(can_worst_case(fast(), 56), can_worst_case(fast(), 64));   // padded
+  EXPECT_EQ(can_worst_case(fast(), 56), can_worst_case(fast(), 64));  // padded
 }
 
-// 0 0000 [1] 1111 [0] 000 00 [1] 1 0 1 at the nominal rate, then 0 1111 1 [0] 0000 [1] 1111 [0] ... at the data rate: one
-// stuff bit is missing, because ESI and the length's code differ.
+// 0 0000 [1] 1111 [0] 000 00 [1] 1 0 1 at the nominal rate, then 0 1111 1 [0] 0000 [1] 1111 [0] ... at the data rate:
+// one stuff bit is missing, because ESI and the length's code differ.
 TEST(CanFrames, AllButOneOfTheStuffBitsAreReached) {
   const std::vector<std::byte> data(64, std::byte{0x87});
   EXPECT_EQ(wire::can_frame_duration(fast(), 0x078, data), can_worst_case(fast(), 64) - Duration{200});
@@ -57,7 +57,7 @@ TEST(CanFrames, LengthsAreTheOnesThereAre) {
 }
 
 TEST(CanFrames, RoundUpToWholeNanoseconds) {
-  EXPECT_EQ(can_best_case(classic(300'000), 0), Duration{156'667});   // 47 / 300 kHz = 156'666.7 ns
+  EXPECT_EQ(can_best_case(classic(300'000), 0), Duration{156'667});  // 47 / 300 kHz = 156'666.7 ns
 }
 
 // What frames on the wire really take lies between the two.
@@ -88,9 +88,9 @@ TEST(CanResponse, BlockingAndHigherPriorities) {
                   {PduId{1}, 20, NodeId{0}, Duration::milliseconds(1), 0},
                   {PduId{2}, 30, NodeId{0}, Duration::milliseconds(1), 0}};
   EXPECT_DOUBLE_EQ(can_worst_load(cluster, bus), 3 * 0.135);
-  EXPECT_EQ(can_worst_response(cluster, bus, bus.messages[0]), Duration::microseconds(270));   // one below, itself
-  EXPECT_EQ(can_worst_response(cluster, bus, bus.messages[1]), Duration::microseconds(405));   // all three
-  EXPECT_EQ(can_worst_response(cluster, bus, bus.messages[2]), Duration::microseconds(405));   // two above, itself
+  EXPECT_EQ(can_worst_response(cluster, bus, bus.messages[0]), Duration::microseconds(270));  // one below, itself
+  EXPECT_EQ(can_worst_response(cluster, bus, bus.messages[1]), Duration::microseconds(405));  // all three
+  EXPECT_EQ(can_worst_response(cluster, bus, bus.messages[2]), Duration::microseconds(405));  // two above, itself
   // Half of the bus is others': a longest frame of them too, and all at half the speed.
   bus.other_load = 0.5;
   EXPECT_EQ(can_worst_response(cluster, bus, bus.messages[0]), Duration::microseconds(810));

@@ -14,16 +14,14 @@ namespace ttf::schedules {
 
 inline const std::vector<std::string>& shipped_clusters() {
   static const std::vector<std::string> kNames{"paper_unsynchronised", "paper_synchronised", "paper_event_triggered",
-                                               "paper_free_running", "paper_free_flexray", "paper_fitted",
-                                               "paper_dynamic", "laser_radar", "laser_radar_synchronised",
-                                               "flexray_demo", "twin_cameras", "thousand_unsynchronised",
+                                               "paper_free_running",   "paper_free_flexray", "paper_fitted",
+                                               "paper_dynamic",        "laser_radar",        "laser_radar_synchronised",
+                                               "flexray_demo",         "twin_cameras",       "thousand_unsynchronised",
                                                "thousand_synchronised"};
   return kNames;
 }
 
-inline std::string shipped_path(const std::string& name) {
-  return TTF_SOURCE_DIR "/schedules/" + name + ".yaml";
-}
+inline std::string shipped_path(const std::string& name) { return TTF_SOURCE_DIR "/schedules/" + name + ".yaml"; }
 
 inline std::string shipped_text(const std::string& name) {
   std::ifstream stream(shipped_path(name), std::ios::binary);

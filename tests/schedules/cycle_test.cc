@@ -73,7 +73,7 @@ TEST(CycleRules, SecondExampleNeedsAtLeast33MacroticksPerSlot) {
   g.gdSymbolWindow = 1;
   g.gdNIT = 3636 - 70 * 31 - 291 * 5 - 1;
   g.gOffsetCorrectionStart = 3632;
-  g.gdMaxPropagationDelay_ps = 0;   // even without any cable
+  g.gdMaxPropagationDelay_ps = 0;  // even without any cable
   EXPECT_EQ(shortest_static_slot(g), 33);
   const auto findings = findings_of_cycle(g);
   ASSERT_NE(about(findings, "gdStaticSlot"), nullptr);
@@ -83,7 +83,7 @@ TEST(CycleRules, SecondExampleNeedsAtLeast33MacroticksPerSlot) {
 
 TEST(CycleRules, ACycleIsWholeNanoseconds) {
   GlobalParameters g = fibex_example();
-  EXPECT_EQ(about(findings_of_cycle(g), "gdCycle"), nullptr);   // 3636 * 1.375 us = 4999.5 us
+  EXPECT_EQ(about(findings_of_cycle(g), "gdCycle"), nullptr);  // 3636 * 1.375 us = 4999.5 us
   g.gdMacrotick_ps = 1'375'001;
   g.gdCycle_ps = 3636 * g.gdMacrotick_ps;
   const auto findings = findings_of_cycle(g);
@@ -111,7 +111,7 @@ TEST(CycleRules, TheAssumedPrecisionIsWholeNanosecondsRoundedUp) {
 
 TEST(Instants, ActionPointDifferenceCountsOnlyWithADynamicSegment) {
   GlobalParameters g = fibex_example();
-  g.gdMinislotActionPointOffset = 1;   // one below the action point: one macrotick more
+  g.gdMinislotActionPointOffset = 1;  // one below the action point: one macrotick more
   EXPECT_NE(about(findings_of_cycle(g), "gMacroPerCycle"), nullptr);
   g.gNumberOfMinislots = 0;
   g.gMacroPerCycle -= 210 * 5;
@@ -121,7 +121,7 @@ TEST(Instants, ActionPointDifferenceCountsOnlyWithADynamicSegment) {
 TEST(Instants, NextOccurrenceIsTheFirstAtOrAfter) {
   GlobalParameters g;
   g.gMacroPerCycle = 3636;
-  g.gdMacrotick_ps = 1'375'000;   // 1.375 us: instants between nanoseconds
+  g.gdMacrotick_ps = 1'375'000;  // 1.375 us: instants between nanoseconds
   for (const int repetition : {1, 2, 8, 64})
     for (const int base : {0, repetition - 1})
       for (const std::int64_t offset : {0, 1, 777, 3635}) {

@@ -43,8 +43,8 @@ TEST_P(DbcOfShipped, DecodesEveryFrameAsWeDo) {
       EXPECT_EQ(dbc.length, can_data_length(bus.flexible_data_rate, layout.fragment_bytes));
       EXPECT_EQ(dbc.attributes.at("CAN"), bus.name);
       EXPECT_EQ(dbc.attributes.count("VFrameFormat"), bus.flexible_data_rate ? 1u : 0u);
-      ASSERT_EQ(dbc.signals.size(), layout.header.size() + layout.element.size() *
-                                                               static_cast<std::size_t>(layout.elements_per_fragment));
+      ASSERT_EQ(dbc.signals.size(),
+                layout.header.size() + layout.element.size() * static_cast<std::size_t>(layout.elements_per_fragment));
       RandomStream draw({.seed = 5, .index = message.identifier});
       for (int trial = 0; trial < 20; ++trial) {
         std::vector<std::byte> data(static_cast<std::size_t>(dbc.length));
@@ -70,7 +70,7 @@ TEST_P(DbcOfShipped, DecodesEveryFrameAsWeDo) {
   std::size_t sensors = 0;
   for (std::size_t s = 0; s < cluster_.sensors.size(); ++s)
     if (can_of_lines(cluster_, static_cast<SensorId>(s))) ++sensors;
-  EXPECT_EQ(file.messages.size(), messages + 2 * sensors + 1);   // and what is on the channels
+  EXPECT_EQ(file.messages.size(), messages + 2 * sensors + 1);  // and what is on the channels
   EXPECT_EQ(file.messages.at(0).name, "flexray_symbol");
 }
 
@@ -154,8 +154,8 @@ TEST(Dbc, TheChannelsSymbolsAreThereUnlessACanHasTheirIdentifier) {
 TEST(Dbc, ASensorsLinesAreMessagesOfItsCan) {
   const Cluster cluster = load_cluster(shipped_path("paper_synchronised"));
   const DbcFile file = read_dbc(dbc_text(cluster));
-  for (const auto& [sensor, device, host, can, first] :
-       {std::tuple{"laser", "laser", "laser_pre", "laser_can", 1u}, {"camera", "camera", "camera_pre", "camera_can", 3u}}) {
+  for (const auto& [sensor, device, host, can, first] : {std::tuple{"laser", "laser", "laser_pre", "laser_can", 1u},
+                                                         {"camera", "camera", "camera_pre", "camera_can", 3u}}) {
     const DbcMessage &strobe = file.messages.at(first), &trigger = file.messages.at(first + 1);
     EXPECT_EQ(strobe.name, std::string(sensor) + "_strobe");
     EXPECT_EQ(trigger.name, std::string(sensor) + "_trigger");
@@ -163,7 +163,7 @@ TEST(Dbc, ASensorsLinesAreMessagesOfItsCan) {
     EXPECT_EQ(trigger.sender, host);
     for (const DbcMessage* one : {&strobe, &trigger}) {
       EXPECT_EQ(one->attributes.at("CAN"), can);
-      EXPECT_EQ(one->attributes.count("VFrameFormat"), 0u);   // classic
+      EXPECT_EQ(one->attributes.count("VFrameFormat"), 0u);  // classic
       EXPECT_NE(one->comment.find("In real time"), std::string::npos);
     }
     EXPECT_EQ(trigger.length, 0);

@@ -17,7 +17,7 @@ namespace ttf::schedules {
 
 struct DbcSignal {
   std::string name, unit, receivers;
-  std::string multiplexed;           // "M": the multiplexor; "m4": there if that is 4; empty: always there
+  std::string multiplexed;  // "M": the multiplexor; "m4": there if that is 4; empty: always there
   bool is_signed = false;
   int start = 0, bits = 0;
   double factor = 0, offset = 0, low = 0, high = 0;
@@ -63,7 +63,8 @@ inline DbcFile read_dbc(const std::string& text) {
   static const std::string kName = "([A-Za-z_][A-Za-z0-9_]*)", kNumber = "(-?[0-9.]+(?:[eE][-+]?[0-9]+)?)";
   static const std::regex kMessage("BO_ ([0-9]+) " + kName + ": ([0-9]+) " + kName);
   static const std::regex kSignal(" SG_ " + kName + "(?: (M|m[0-9]+))? : ([0-9]+)\\|([0-9]+)@0([+-]) \\(" + kNumber +
-                                  "," + kNumber + "\\) \\[" + kNumber + "\\|" + kNumber + "\\] \"([^\"]*)\" ([A-Za-z0-9_,]+)");
+                                  "," + kNumber + "\\) \\[" + kNumber + "\\|" + kNumber +
+                                  "\\] \"([^\"]*)\" ([A-Za-z0-9_,]+)");
   static const std::regex kComment("CM_ BO_ ([0-9]+) \"([^\"]*)\";");
   static const std::regex kAttribute("BA_ \"([A-Za-z]+)\" BO_ ([0-9]+) (?:\"([^\"]*)\"|([0-9]+));");
   static const std::regex kNodes("BU_:((?: [A-Za-z_][A-Za-z0-9_]*)*)");

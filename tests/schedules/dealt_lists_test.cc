@@ -36,22 +36,33 @@ TEST(DealtLists, AreShownChannelByChannel) {
 }
 
 TEST(DealtLists, AreCompleteAndInOrder) {
-  const std::string image_on_a = "{slot: 5, channels: A, sender: fusion";   // where the entry begins
+  const std::string image_on_a = "{slot: 5, channels: A, sender: fusion";  // where the entry begins
   const std::string image_on_b = "pdu: image, fragments: 50, first_fragment: 1, fragment_step: 2";
   expect_named(
       {
-          {"third_channel", image_on_b, "pdu: image, fragments: 50, first_fragment: 1, fragment_step: 3",
+          {"third_channel",
+           image_on_b,
+           "pdu: image, fragments: 50, first_fragment: 1, fragment_step: 3",
            {"fragment_step: 3", "frames[9].fragment_step", "3", "1..2"}},
-          {"one_half_twice", image_on_b, "pdu: image, fragments: 50, fragment_step: 2",
+          {"one_half_twice",
+           image_on_b,
+           "pdu: image, fragments: 50, fragment_step: 2",
            {image_on_a, "frames.image", "", "fragment 1 has none"}},
-          {"halves_exchanged", image_on_b, "pdu: image, fragments: 50, first_fragment: 50",
-           {image_on_a, "frames.slot 6", "image, fragment 2",
-            "must be above fragment 50 of slot 5"}},
-          {"an_object_more", "(image:\\s+fragment_bytes: 248\\s+max_elements: )1000", "$011001",
+          {"halves_exchanged",
+           image_on_b,
+           "pdu: image, fragments: 50, first_fragment: 50",
+           {image_on_a, "frames.slot 6", "image, fragment 2", "must be above fragment 50 of slot 5"}},
+          {"an_object_more",
+           "(image:\\s+fragment_bytes: 248\\s+max_elements: )1000",
+           "$011001",
            {image_on_a, "frames.image", "", "fragment 100 has none"}},
-          {"more_than_the_header_counts", "(image:\\s+fragment_bytes: 248\\s+max_elements: )1000", "$011024",
+          {"more_than_the_header_counts",
+           "(image:\\s+fragment_bytes: 248\\s+max_elements: )1000",
+           "$011024",
            {"name: sequence", "pdus.image.header", "", "enough bits for 1024"}},
-          {"slots_beyond_the_cycle", "(gNumberOfStaticSlots: )56", "$0153",
+          {"slots_beyond_the_cycle",
+           "(gNumberOfStaticSlots: )56",
+           "$0153",
            {image_on_a, "frames.slot 54", "54", "must be 1..53"}},
       },
       "thousand_synchronised");

@@ -29,8 +29,7 @@ class FibexDifference {
   }
 
  private:
-  template <class T>
-  void value(const std::string& what, const T& a, const T& b) {
+  template <class T> void value(const std::string& what, const T& a, const T& b) {
     if (!(a == b)) text_ += fmt::format("{}: {} and {}\n", what, a, b);
   }
 
@@ -59,8 +58,7 @@ class FibexDifference {
       value(a[i]->name + " wake-up", static_cast<int>(a[i]->flexray->pWakeupChannel),
             static_cast<int>(b[i]->flexray->pWakeupChannel));
       for (const auto& p : kNodeFlags)
-        value(fmt::format("{}.{}", a[i]->name, p.name), (*a[i]->flexray).*p.member,
-              (*b[i]->flexray).*p.member);
+        value(fmt::format("{}.{}", a[i]->name, p.name), (*a[i]->flexray).*p.member, (*b[i]->flexray).*p.member);
     }
   }
 

@@ -87,8 +87,8 @@ TEST(FibexRoundTrip, KeepsEveryParameterOverItsWholeRange) {
     }
 }
 
-// Random schedules: one frame of a random list, sender, channel and multiplexing in each of 40 static and 20 dynamic slots;
-// random channels of every node.
+// Random schedules: one frame of a random list, sender, channel and multiplexing in each of 40 static and 20 dynamic
+// slots; random channels of every node.
 TEST(FibexRoundTrip, KeepsRandomSchedules) {
   const Cluster shipped = load_checked_cluster(shipped_path("paper_unsynchronised"));
   std::vector<NodeId> senders;
@@ -96,19 +96,18 @@ TEST(FibexRoundTrip, KeepsRandomSchedules) {
     if (shipped.nodes[i].flexray) senders.push_back(static_cast<NodeId>(i));
   for (std::uint32_t run = 0; run < 50; ++run) {
     RandomStream random({.seed = 3, .purpose = Purpose::kTest, .entity = 1, .index = run});
-    const auto below = [&](int limit) {
-      return static_cast<int>(random.bits() % static_cast<std::uint64_t>(limit));
-    };
+    const auto below = [&](int limit) { return static_cast<int>(random.bits() % static_cast<std::uint64_t>(limit)); };
     Cluster cluster = shipped;
     cluster.frames.clear();
     cluster.topology = below(2) == 0 ? Topology::kBus : Topology::kStar;
     cluster.guardian = cluster.topology == Topology::kStar && below(2) == 0;
     cluster.flexray.gNetworkManagementVectorLength = below(13);
     for (Node& node : cluster.nodes) {
-      if (!node.flexray || &node == &cluster.node(senders[0])) continue;   // the first stays on both
+      if (!node.flexray || &node == &cluster.node(senders[0])) continue;  // the first stays on both
       node.flexray->pChannels = static_cast<Channels>(1 + below(3));
-      node.flexray->pWakeupChannel =
-          node.flexray->pChannels == Channels::kAB && below(2) == 0 ? Channel::kB : default_wakeup(node.flexray->pChannels);
+      node.flexray->pWakeupChannel = node.flexray->pChannels == Channels::kAB && below(2) == 0
+                                         ? Channel::kB
+                                         : default_wakeup(node.flexray->pChannels);
     }
     for (int slot = 1; slot <= 60; ++slot) {
       const bool dynamic = slot > cluster.flexray.gNumberOfStaticSlots;
@@ -215,9 +214,7 @@ TEST_P(FibexShipped, PutsSignalsWhereTheCodecPutsTheirBits) {
         const std::string name = fmt::format("{}_{}", layout.element[s].name, e);
         ASSERT_TRUE(in_elements.contains(name)) << layout.name << " " << name;
         const Place place = in_elements.at(name);
-        EXPECT_EQ(bits_at(elements, place.position, place.bits),
-                  wire::read_element_raw(layout, payload, e, s))
-            << name;
+        EXPECT_EQ(bits_at(elements, place.position, place.bits), wire::read_element_raw(layout, payload, e, s)) << name;
       }
   }
 }
@@ -249,8 +246,7 @@ TEST(FibexExport, ByHand) {
   EXPECT_EQ(speed.position, 31 * 8 + 3);
   EXPECT_EQ(speed.bits, 14);
   EXPECT_EQ(at("//fx:PDU[ho:SHORT-NAME='image']/fx:MULTIPLEXER/fx:SWITCH/fx:BIT-POSITION"), "23");
-  EXPECT_EQ(at("//fx:PDU[ho:SHORT-NAME='image']/fx:MULTIPLEXER//fx:SWITCHED-PDU-INSTANCE[13]/fx:SWITCH-CODE"),
-            "12");
+  EXPECT_EQ(at("//fx:PDU[ho:SHORT-NAME='image']/fx:MULTIPLEXER//fx:SWITCHED-PDU-INSTANCE[13]/fx:SWITCH-CODE"), "12");
   EXPECT_EQ(at("//fx:CODING[ho:SHORT-NAME='image_speed']//ho:COMPU-NUMERATOR/ho:V[1]"), "-81.92");
   EXPECT_EQ(at("//fx:CODING[ho:SHORT-NAME='image_speed']//ho:COMPU-NUMERATOR/ho:V[2]"), "0.01");
   EXPECT_NEAR(std::stod(at("//fx:CODING[ho:SHORT-NAME='image_speed']//ho:UPPER-LIMIT")), 81.91, 1e-12);

@@ -10,14 +10,16 @@
 namespace ttf::schedules {
 namespace {
 
-std::string changed(const std::string& pattern, const std::string& replacement, const std::string& file = "flexray_demo") {
+std::string changed(const std::string& pattern, const std::string& replacement,
+                    const std::string& file = "flexray_demo") {
   const std::string original = shipped_text(file);
-  const std::string text = std::regex_replace(original, std::regex(pattern), replacement,
-                                              std::regex_constants::format_first_only);
+  const std::string text =
+      std::regex_replace(original, std::regex(pattern), replacement, std::regex_constants::format_first_only);
   EXPECT_NE(text, original) << pattern;
   return text;
 }
-bool found(const std::vector<Finding>& findings, const std::string& key, const std::string& value, const std::string& words) {
+bool found(const std::vector<Finding>& findings, const std::string& key, const std::string& value,
+           const std::string& words) {
   return std::any_of(findings.begin(), findings.end(), [&](const Finding& finding) {
     return finding.key == key && finding.value == value && finding.expected.find(words) != std::string::npos;
   });
@@ -25,7 +27,8 @@ bool found(const std::vector<Finding>& findings, const std::string& key, const s
 
 TEST(MessageIds, AreTwoBytesOfADynamicFrame) {
   const Cluster plain = parse_cluster(shipped_text("flexray_demo"), "cluster.yaml");
-  const Cluster named = parse_cluster(changed("(pdu: camera_objects, fragments: 2)", "$1, message_id: 4660"), "cluster.yaml");
+  const Cluster named =
+      parse_cluster(changed("(pdu: camera_objects, fragments: 2)", "$1, message_id: 4660"), "cluster.yaml");
   ASSERT_EQ(plain.frames.size(), named.frames.size());
   int frames = 0;
   for (std::size_t i = 0; i < plain.frames.size(); ++i) {
@@ -35,16 +38,17 @@ TEST(MessageIds, AreTwoBytesOfADynamicFrame) {
     EXPECT_EQ(named.frames[i].message_id, 0x1234);
     EXPECT_EQ(dynamic_words(named, named.frames[i]), dynamic_words(plain, plain.frames[i]) + 1);
   }
-  EXPECT_EQ(frames, 2);   // every fragment of the list
+  EXPECT_EQ(frames, 2);  // every fragment of the list
   EXPECT_EQ(check(named).size(), check(plain).size());
 }
 
 TEST(MessageIds, AreRefusedWhereTheyCannotBe) {
-  EXPECT_TRUE(found(findings_of(changed("(pdu: image, fragments: 4)", "$1, message_id: 7")), "frames.slot 7", "message_id: 7",
-                    "needs a dynamic slot, above 20 (gNumberOfStaticSlots)"));
+  EXPECT_TRUE(found(findings_of(changed("(pdu: image, fragments: 4)", "$1, message_id: 7")), "frames.slot 7",
+                    "message_id: 7", "needs a dynamic slot, above 20 (gNumberOfStaticSlots)"));
   EXPECT_TRUE(found(findings_of(changed("(pdu: camera_objects, fragments: 2)", "$1, message_id: 65536")),
                     "frames[8].message_id", "65536", "0..65535"));
-  Cluster cluster = parse_cluster(changed("(pdu: camera_objects, fragments: 2)", "$1, message_id: 65535"), "cluster.yaml");
+  Cluster cluster =
+      parse_cluster(changed("(pdu: camera_objects, fragments: 2)", "$1, message_id: 65535"), "cluster.yaml");
   const auto pdu = index_of(*cluster.find_pdu("camera_objects"));
   for (const int bytes : {252, 253}) {
     cluster.pdus[pdu].fragment_bytes = bytes;
@@ -56,7 +60,8 @@ TEST(ExternalCorrection, IsNoneUnlessAllowed) {
   const Cluster plain = parse_cluster(shipped_text("paper_unsynchronised"), "cluster.yaml");
   const Cluster allowed = parse_cluster(
       changed("\\bpWakeupPattern: 2", "pWakeupPattern: 2\n  pExternOffsetCorrection: 7\n  pExternRateCorrection: 1",
-              "paper_unsynchronised"), "cluster.yaml");
+              "paper_unsynchronised"),
+      "cluster.yaml");
   for (std::size_t n = 0; n < plain.nodes.size(); ++n) {
     if (!plain.nodes[n].flexray) continue;
     EXPECT_EQ(plain.nodes[n].flexray->pExternOffsetCorrection, 0);
@@ -72,7 +77,9 @@ TEST(ExternalCorrection, RangesAreThoseOfTheRegister) {
     for (const auto& [value, right] : {std::pair{"-1", false}, {"0", true}, {"7", true}, {"8", false}})
       EXPECT_EQ(found(findings_of(changed("\\bpWakeupPattern: 2", "pWakeupPattern: 2\n  " + name + ": " + value,
                                           "paper_unsynchronised")),
-                      "node_parameters." + name, value, "0..7 microticks"), !right) << name << ' ' << value;
+                      "node_parameters." + name, value, "0..7 microticks"),
+                !right)
+          << name << ' ' << value;
 }
 
 // 386 macroticks of 40 microticks less 601 in 5000 are 15393.. of which one each stays: 3887 fit with nothing external.

@@ -43,7 +43,7 @@ TEST(Minislots, AFrameTakesSoMany) {
   EXPECT_EQ(minislots_of(g, 4), 3 + 1 + 1);
   EXPECT_EQ(minislots_of(g, 16), 6 + 1 + 1);
   EXPECT_EQ(minislots_of(g, 28), 10 + 1 + 1);
-  EXPECT_EQ(last_start(g, 28), 29);   // 29..40
+  EXPECT_EQ(last_start(g, 28), 29);  // 29..40
   // Behind the static segment, one macrotick later for the action points' difference.
   EXPECT_EQ(minislot_start(g, 1), Macroticks{501});
   EXPECT_EQ(minislot_start(g, 41), Macroticks{501 + 40 * 7});
@@ -70,10 +70,10 @@ TEST(Minislots, OnlySlotsOfTheSameCyclesCount) {
   Cluster cluster = dynamic();
   cluster.frames = {frame(11, Channels::kA, NodeId{0}, PduId{2}), frame(11, Channels::kA, NodeId{1}, PduId{1}),
                     frame(12, Channels::kA, NodeId{2}, PduId{0})};
-  cluster.frames[0].repetition = 4;                       // cycles 0, 4, ..: 12 minislots
-  cluster.frames[1].base_cycle = 1;                       // cycles 1, 3, ..: 8
+  cluster.frames[0].repetition = 4;  // cycles 0, 4, ..: 12 minislots
+  cluster.frames[1].base_cycle = 1;  // cycles 1, 3, ..: 8
   cluster.frames[1].repetition = 2;
-  EXPECT_EQ(latest_turn(cluster, cluster.frames[2]), 1 + 12);   // in every cycle
+  EXPECT_EQ(latest_turn(cluster, cluster.frames[2]), 1 + 12);  // in every cycle
   cluster.frames[2].base_cycle = 1;
   cluster.frames[2].repetition = 2;
   EXPECT_EQ(latest_turn(cluster, cluster.frames[2]), 1 + 8);
@@ -101,8 +101,8 @@ TEST(Minislots, AListGoesOutBetweenItsTurns) {
   EXPECT_EQ(shortest_slot_gap(cluster, *cluster.find_pdu("camera_objects"))->spread, Duration::microseconds(46 * 7));
 }
 
-// At best one frame: (9 + 1 + 80 + 560 + 2) bits of 0.1 us, less drift and what oscillators round off; at worst it missed its
-// turn by a nanosecond, and is sent in the next cycle behind everything else.
+// At best one frame: (9 + 1 + 80 + 560 + 2) bits of 0.1 us, less drift and what oscillators round off; at worst it
+// missed its turn by a nanosecond, and is sent in the next cycle behind everything else.
 TEST(Minislots, AgesCountTheWaitForATurn) {
   const Cluster cluster = load_checked_cluster(shipped_path("flexray_demo"));
   for (const AgePath& path : measurement_ages(cluster)) {
@@ -122,7 +122,7 @@ TEST(DynamicLoad, IsThatOfTheFullestCycle) {
   Cluster cluster = dynamic();
   cluster.frames = {frame(11, Channels::kA, NodeId{0}, PduId{2}), frame(11, Channels::kA, NodeId{1}, PduId{1}),
                     frame(13, Channels::kAB, NodeId{1}, PduId{0})};
-  cluster.frames[0].repetition = 2;                       // 12 minislots in even cycles, 8 in odd ones
+  cluster.frames[0].repetition = 2;  // 12 minislots in even cycles, 8 in odd ones
   cluster.frames[1].base_cycle = 1;
   cluster.frames[1].repetition = 2;
   const auto loads = dynamic_load(cluster);
@@ -146,12 +146,14 @@ TEST(DynamicLoad, IsListedAndDrawn) {
   const Cluster cluster = load_checked_cluster(shipped_path("flexray_demo"));
   const std::string text = dynamic_text(cluster);
   EXPECT_NE(text.find("80 minislots of 7 macroticks; with every slot in use A takes 48 (60.0 %), B takes 48 (60.0 %)"),
-            std::string::npos) << text;
+            std::string::npos)
+      << text;
   EXPECT_NE(text.find("23-24  AB  camera_pre  camera_objects 0-1"), std::string::npos) << text;
   EXPECT_NE(text.find("12  3-37\n"), std::string::npos) << text;
   const std::string shown = show_text(cluster);
   EXPECT_NE(shown.find(text), std::string::npos);
-  EXPECT_NE(shown.find("21-22     1000-1168     AB  laser_pre   laser_objects 0-1 (dynamic)"), std::string::npos) << shown;
+  EXPECT_NE(shown.find("21-22     1000-1168     AB  laser_pre   laser_objects 0-1 (dynamic)"), std::string::npos)
+      << shown;
   EXPECT_NE(shown.find("1560-1573     AB              symbol window"), std::string::npos) << shown;
   // 48 of the 80 minislots, then the rest, then two columns with symbol window in them.
   EXPECT_NE(shown.find("sDDDDDDDDDDDDDDDDd"), std::string::npos) << shown;

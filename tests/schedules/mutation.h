@@ -14,17 +14,17 @@
 namespace ttf::schedules {
 
 struct Wanted {
-  std::string line;     // the file's line it points to contains this,
-  std::string key;      // its key and value are these,
+  std::string line;  // the file's line it points to contains this,
+  std::string key;   // its key and value are these,
   std::string value;
-  std::string words;    // and what it expects contains this
+  std::string words;  // and what it expects contains this
 };
 
 struct Mutation {
   std::string name;
-  std::string pattern;        // its first match in the shipped file ...
-  std::string replacement;    // ... becomes this
-  Wanted wanted;              // of some finding
+  std::string pattern;      // its first match in the shipped file ...
+  std::string replacement;  // ... becomes this
+  Wanted wanted;            // of some finding
 };
 
 // The header of a node or task, up to a key inside it.

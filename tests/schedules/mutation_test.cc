@@ -10,14 +10,14 @@ namespace ttf::schedules {
 namespace {
 
 TEST(Mutations, AMistakeInTheSharedParametersIsReportedOnce) {
-  const std::string text = std::regex_replace(shipped_text("paper_unsynchronised"), std::regex("pWakeupPattern: 2"),
-                                              "pWakeupPattern: 99");
+  const std::string text =
+      std::regex_replace(shipped_text("paper_unsynchronised"), std::regex("pWakeupPattern: 2"), "pWakeupPattern: 99");
   EXPECT_EQ(findings_of(text).size(), 1u) << sentences(findings_of(text));
 }
 
 TEST(Mutations, ASlotWithManyOwnersIsSaidOncePerFrameTooMany) {
-  const std::string text = std::regex_replace(shipped_text("paper_unsynchronised"), std::regex("(slot: )[2-5],"),
-                                              "$011,");
+  const std::string text =
+      std::regex_replace(shipped_text("paper_unsynchronised"), std::regex("(slot: )[2-5],"), "$011,");
   const auto findings = findings_of(text);
   EXPECT_EQ(std::count_if(findings.begin(), findings.end(),
                           [](const Finding& f) { return f.expected.find("owned twice") != std::string::npos; }),
@@ -39,19 +39,19 @@ TEST(Mutations, LinesAreThoseOfTheParameter) {
   const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
   text.replace(at, 16, "gdStaticSlot: 83");
   const auto findings = findings_of(text);
-  const auto found = std::find_if(findings.begin(), findings.end(),
-                                  [](const Finding& f) { return f.key == "flexray.gdStaticSlot"; });
+  const auto found =
+      std::find_if(findings.begin(), findings.end(), [](const Finding& f) { return f.key == "flexray.gdStaticSlot"; });
   ASSERT_NE(found, findings.end());
   EXPECT_EQ(found->line, line);
 }
 
 // A section that is not there leaves many keys unread; each finding about them points to where the section should be.
 TEST(Mutations, EveryFindingAboutAMissingSectionHasALine) {
-  for (const char* section : {"name", "synchronisation", "flexray", "node_parameters", "pdus", "sensors", "nodes", "frames",
-                              "can"}) {
-    const std::string text = std::regex_replace(shipped_text("paper_unsynchronised"),
-                                                std::regex("\n" + std::string(section) + ":"),
-                                                "\nno_" + std::string(section) + ":");
+  for (const char* section :
+       {"name", "synchronisation", "flexray", "node_parameters", "pdus", "sensors", "nodes", "frames", "can"}) {
+    const std::string text =
+        std::regex_replace(shipped_text("paper_unsynchronised"), std::regex("\n" + std::string(section) + ":"),
+                           "\nno_" + std::string(section) + ":");
     const auto findings = findings_of(text);
     ASSERT_GE(findings.size(), 2u) << section;
     for (const Finding& finding : findings) EXPECT_GT(finding.line, 0) << finding.sentence();
@@ -70,12 +70,12 @@ TEST(Mutations, MoreNamesThanRecordsCanNumber) {
     return std::find_if(findings.begin(), findings.end(), [&](const Finding& f) { return f.key == key; });
   };
   const std::string can = "{flexible_data_rate: false, nominal_bit_rate: 1000000, other_load: 0, messages: []}";
-  EXPECT_TRUE(with_more("can", can, 124).empty()) << sentences(with_more("can", can, 124));   // 127
+  EXPECT_TRUE(with_more("can", can, 124).empty()) << sentences(with_more("can", can, 124));  // 127
   const auto cans = with_more("can", can, 125);
   ASSERT_NE(about(cans, "can"), cans.end());
   EXPECT_EQ(about(cans, "can")->expected, "must have at most 127 entries; it has 128");
   const std::string node = "{microtick: 25, max_drift_ppm: 100, tasks: {}}";
-  EXPECT_TRUE(with_more("nodes", node, 193).empty()) << sentences(with_more("nodes", node, 193));   // 200
+  EXPECT_TRUE(with_more("nodes", node, 193).empty()) << sentences(with_more("nodes", node, 193));  // 200
   const auto nodes = with_more("nodes", node, 194);
   ASSERT_NE(about(nodes, "nodes"), nodes.end());
   EXPECT_EQ(about(nodes, "nodes")->expected, "must have at most 200 entries; it has 201");

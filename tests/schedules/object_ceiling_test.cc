@@ -20,10 +20,10 @@ TEST(ObjectCeiling, OfTheShippedClusters) {
     const char* name;
     int carried, with_all_static_slots;
   };
-  for (const Expected& expected : {Expected{"paper_synchronised", 25, 32}, Expected{"paper_unsynchronised", 25, 32},
-                                   Expected{"laser_radar", 3, 32}, Expected{"laser_radar_synchronised", 3, 32},
-                                   Expected{"flexray_demo", 4, 8}, Expected{"thousand_unsynchronised", 1000, 1000},
-                                   Expected{"thousand_synchronised", 1000, 1000}}) {
+  for (const Expected& expected :
+       {Expected{"paper_synchronised", 25, 32}, Expected{"paper_unsynchronised", 25, 32},
+        Expected{"laser_radar", 3, 32}, Expected{"laser_radar_synchronised", 3, 32}, Expected{"flexray_demo", 4, 8},
+        Expected{"thousand_unsynchronised", 1000, 1000}, Expected{"thousand_synchronised", 1000, 1000}}) {
     const ObjectCeiling ceiling = ceiling_of(expected.name);
     EXPECT_EQ(ceiling.carried, expected.carried) << expected.name;
     EXPECT_EQ(ceiling.with_all_static_slots, expected.with_all_static_slots) << expected.name;
@@ -74,10 +74,10 @@ std::string paper_for(int objects) {
   text = exchanged(text, "camera_objects, fragments: 7", fmt::format("camera_objects, fragments: {}", camera));
   text = exchanged(text, "slot: 22", fmt::format("slot: {}", third));
   text = exchanged(text, "image, fragments: 13", fmt::format("image, fragments: {}", image));
-  text = exchanged(text, "repetition: 2, offset: 1800",
-                   fmt::format("repetition: 2, offset: {}", 84 * (third - 1) + 36));
+  text =
+      exchanged(text, "repetition: 2, offset: 1800", fmt::format("repetition: 2, offset: {}", 84 * (third - 1) + 36));
   text = exchanged(text, "kind: time, base_cycle: 1, repetition: 8, offset: 900",
-                  fmt::format("kind: time, base_cycle: 1, repetition: 8, offset: {}", 84 * (third - 1) - 864));
+                   fmt::format("kind: time, base_cycle: 1, repetition: 8, offset: {}", 84 * (third - 1) - 864));
   return exchanged(text, "repetition: 8, offset: 2900", fmt::format("repetition: 8, offset: {}", 84 * end + 44));
 }
 

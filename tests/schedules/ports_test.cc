@@ -75,9 +75,10 @@ TEST(Ports, ASensorsPortLeadsToAPduOfThatSensor) {
   cluster.nodes[0].tasks[0].reads = {{"camera", PduId{1}, std::nullopt, 8}, {"laser", PduId{1}, std::nullopt, 9}};
   const auto findings = port_findings(cluster);
   ASSERT_EQ(findings.size(), 1u);
-  EXPECT_EQ(findings[0].sentence(),
-            "small.yaml:9: nodes.all.tasks.fuse.reads.laser = camera_objects: must be a PDU of the sensor laser, as its port "
-            "is called");
+  EXPECT_EQ(
+      findings[0].sentence(),
+      "small.yaml:9: nodes.all.tasks.fuse.reads.laser = camera_objects: must be a PDU of the sensor laser, as its port "
+      "is called");
 }
 
 TEST(Ports, FusionReadsSensorsOnlyAndAtLeastOne) {

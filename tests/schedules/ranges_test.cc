@@ -1,5 +1,5 @@
-// The ranges of FlexRay Protocol Specification 2.1 Rev. A, annex B, written down once more and held against what the loader
-// accepts: both ends are in, one beyond either end is out.
+// The ranges of FlexRay Protocol Specification 2.1 Rev. A, annex B, written down once more and held against what the
+// loader accepts: both ends are in, one beyond either end is out.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -66,9 +66,9 @@ constexpr AnnexB kRanges[] = {
 
 // What the loader, not the checker, says about the parameter with this value.
 std::string refusal(const std::string& name, int value) {
-  const std::string text = std::regex_replace(shipped_text("paper_unsynchronised"), std::regex("\\b" + name + ": [0-9.]+"),
-                                              name + ": " + std::to_string(value),
-                                              std::regex_constants::format_first_only);
+  const std::string text =
+      std::regex_replace(shipped_text("paper_unsynchronised"), std::regex("\\b" + name + ": [0-9.]+"),
+                         name + ": " + std::to_string(value), std::regex_constants::format_first_only);
   try {
     parse_cluster(text, "cluster.yaml");
   } catch (const InputError& error) {
@@ -91,17 +91,19 @@ TEST(Ranges, AreThoseOfAnnexB) {
 
 // Every parameter of the shipped files is in the table above or has its own rule.
 TEST(Ranges, CoverEveryNumberOfTheFile) {
-  const std::vector<std::string> own_rules{"gdBit", "baudrate", "gdMaxPropagationDelay", "gdMinPropagationDelay",
-                                           "gdMaxMicrotick", "pdMicrotick", "pSamplesPerMicrotick"};
+  const std::vector<std::string> own_rules{
+      "gdBit",          "baudrate",    "gdMaxPropagationDelay", "gdMinPropagationDelay",
+      "gdMaxMicrotick", "pdMicrotick", "pSamplesPerMicrotick"};
   const std::string text = shipped_text("paper_unsynchronised");
   const std::regex parameter("\\n  ([gp]d?[A-Z][A-Za-z]+|baudrate): [0-9]");
   int found = 0;
   for (std::sregex_iterator it(text.begin(), text.end(), parameter), end; it != end; ++it, ++found) {
     const std::string name = (*it)[1];
-    const bool listed = std::any_of(std::begin(kRanges), std::end(kRanges), [&](const AnnexB& r) { return name == r.name; });
+    const bool listed =
+        std::any_of(std::begin(kRanges), std::end(kRanges), [&](const AnnexB& r) { return name == r.name; });
     EXPECT_NE(listed, std::count(own_rules.begin(), own_rules.end(), name) == 1) << name;
   }
-  EXPECT_EQ(found, 52);   // pKeySlotId stands with the nodes
+  EXPECT_EQ(found, 52);  // pKeySlotId stands with the nodes
 }
 
 }  // namespace

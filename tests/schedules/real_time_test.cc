@@ -99,8 +99,7 @@ TEST(RealTime, WhereNoTimeScaleDoesItSaysSo) {
   ASSERT_EQ(findings.size(), 1u);
   EXPECT_NE(findings[0].expected.find("at most 581000 us at time scale 1000,"), std::string::npos)
       << findings[0].expected;
-  EXPECT_TRUE(findings[0].expected.ends_with("; no --time-scale up to 1000 would do"))
-      << findings[0].expected;
+  EXPECT_TRUE(findings[0].expected.ends_with("; no --time-scale up to 1000 would do")) << findings[0].expected;
 }
 
 TEST(RealTime, EachObstacleIsNamedAtItsLine) {
@@ -141,7 +140,7 @@ TEST(RealTime, ASensorsLinesHaveTheirIdentifiersToThemselves) {
   EXPECT_EQ(found(1, 3).size(), 1u);
   for (const std::uint32_t free : {0u, 3u, 4u, 5u}) EXPECT_TRUE(found(0, free).empty()) << free;
   for (const std::uint32_t free : {0u, 1u, 2u, 5u}) EXPECT_TRUE(found(1, free).empty()) << free;
-  for (std::uint32_t free = 0; free < 6; ++free) EXPECT_TRUE(found(2, free).empty()) << free;   // no sensor's
+  for (std::uint32_t free = 0; free < 6; ++free) EXPECT_TRUE(found(2, free).empty()) << free;  // no sensor's
 }
 
 // A device that keeps its raw data to itself, or whose task begins by the schedule instead of with its sensor.
@@ -174,8 +173,7 @@ TEST(RealTime, ShippedClustersHoldAtTimeScaleOne) {
                                      [&](const FrameSlot& frame) { return is_dynamic(cluster.flexray, frame); });
     EXPECT_EQ(cluster.arrival_window.has_value(), name.starts_with("paper") && !dynamic) << name;
     if (!cluster.arrival_window) continue;
-    EXPECT_TRUE(check_real_time(cluster, kTimeScaleOne).empty())
-        << sentences(check_real_time(cluster, kTimeScaleOne));
+    EXPECT_TRUE(check_real_time(cluster, kTimeScaleOne).empty()) << sentences(check_real_time(cluster, kTimeScaleOne));
     EXPECT_EQ(cluster.arrival_window->early, us(100));
     EXPECT_EQ(cluster.arrival_window->late, us(500));
   }
@@ -186,10 +184,7 @@ TEST(RealTime, TheSectionIsReadStrictly) {
   const std::string a_time = "must be a time with its unit (ns, us, ms or s), ";
   expect_named({
       {"late_0", late, "late: 0 us", {line, "real_time.late", "0 us", a_time + "1 ns..1000 ms"}},
-      {"late_long",
-       late,
-       "late: 1.000000001 s",
-       {line, "real_time.late", "1.000000001 s", a_time + "1 ns..1000 ms"}},
+      {"late_long", late, "late: 1.000000001 s", {line, "real_time.late", "1.000000001 s", a_time + "1 ns..1000 ms"}},
       {"late_unitless", late, "late: 500", {line, "real_time.late", "500", a_time}},
       {"early_negative", early, "early: -1 ns", {line, "real_time.early", "-1 ns", a_time + "0 ms..1000 ms"}},
       {"early_long", early, "early: 1001 ms", {line, "real_time.early", "1001 ms", a_time + "0 ms..1000 ms"}},
@@ -199,15 +194,11 @@ TEST(RealTime, TheSectionIsReadStrictly) {
        late,
        late + ", later: 1 us",
        {line, "real_time.later", "", "is not a known key here (known: early, late)"}},
-      {"no_mapping",
-       "real_time: .*",
-       "real_time: 500 us",
-       {line, "real_time", "500 us", "must be a mapping"}},
+      {"no_mapping", "real_time: .*", "real_time: 500 us", {line, "real_time", "500 us", "must be a mapping"}},
   });
   const auto with = [](const std::string& section) {
-    return parse_cluster(
-        std::regex_replace(shipped_text("paper_synchronised"), std::regex("\nreal_time: .*"), section),
-        "c.yaml");
+    return parse_cluster(std::regex_replace(shipped_text("paper_synchronised"), std::regex("\nreal_time: .*"), section),
+                         "c.yaml");
   };
   EXPECT_FALSE(with("").arrival_window.has_value());
   const Cluster widest = with("\nreal_time: {early: 0 ns, late: 1 s}");

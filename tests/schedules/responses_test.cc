@@ -75,7 +75,7 @@ TEST(Responses, TasksOfMessagesWaitForEachOther) {
   EXPECT_EQ(r[0].worst, us(500));
   EXPECT_EQ(r[1].worst, us(500));
   EXPECT_EQ(r[0].gap, ms(20) - Duration{100});
-  EXPECT_EQ(r[0].written, ms(20) - Duration{100} - us(300));   // one late, the next at once
+  EXPECT_EQ(r[0].written, ms(20) - Duration{100} - us(300));  // one late, the next at once
 }
 
 // Every 2 ms comes one of 0.5 ms: two of them and the first task are before the second, which is 2.1 ms later.
@@ -84,7 +84,8 @@ TEST(Responses, TasksOfMessagesWaitForEachOther) {
 //   second           ^activated  |====|
 //   short  |==|      |==|
 TEST(Responses, AMessageDelaysATaskIntoTheNextOne) {
-  Cluster cluster = cluster_of({timed_task("first", {0, 2, Macroticks{0}}, ms(2)), timed_task("second", {0, 2, Macroticks{2100}}, ms(1))});
+  Cluster cluster = cluster_of(
+      {timed_task("first", {0, 2, Macroticks{0}}, ms(2)), timed_task("second", {0, 2, Macroticks{2100}}, ms(1))});
   add_sporadic(cluster, "short", ms(2), us(500));
   const auto r = responses(cluster);
   EXPECT_EQ(r[0].worst, us(2500));
@@ -99,7 +100,7 @@ TEST(Responses, AChainsTaskStartsAtTheEndOfTheOneBefore) {
   // Another one that time activates between, and one far behind.
   cluster.nodes[0].tasks.push_back(timed_task("between", {0, 2, Macroticks{3900}}, ms(1)));
   EXPECT_EQ(responses(cluster)[1].worst, us(1500));
-  EXPECT_NEAR(static_cast<double>(responses(cluster)[2].worst.ns), 1.6e6, 200);   // publish counted before it
+  EXPECT_NEAR(static_cast<double>(responses(cluster)[2].worst.ns), 1.6e6, 200);  // publish counted before it
   cluster.nodes[0].tasks[2].activation.at = {1, 2, Macroticks{0}};
   EXPECT_EQ(responses(cluster)[1].worst, us(500));
   // A message may come at any time.
@@ -117,10 +118,11 @@ TEST(Responses, MoreWorkThanTimeHasNoBound) {
 }
 
 TEST(Responses, CorrectionsBringInstantsCloser) {
-  Cluster cluster = cluster_of({timed_task("first", {0, 2, Macroticks{0}}, ms(2)), timed_task("second", {0, 2, Macroticks{2000}}, ms(1))});
+  Cluster cluster = cluster_of(
+      {timed_task("first", {0, 2, Macroticks{0}}, ms(2)), timed_task("second", {0, 2, Macroticks{2000}}, ms(1))});
   NodeParameters& p = *cluster.nodes[0].flexray;
-  p.pRateCorrectionOut = 600;      // of 200000: 6 us in 2 ms
-  p.pOffsetCorrectionOut = 400;    // 10 us
+  p.pRateCorrectionOut = 600;    // of 200000: 6 us in 2 ms
+  p.pOffsetCorrectionOut = 400;  // 10 us
   EXPECT_NEAR(static_cast<double>(responses(cluster)[1].worst.ns), 1e6 + 16e3, 200);
   EXPECT_NEAR(static_cast<double>(responses(cluster)[0].gap->ns), 10e6 - 30e3 - 20e3, 200);
 }
@@ -137,7 +139,7 @@ TEST(SlotGaps, AreBetweenTheCyclesThatHaveTheList) {
   cluster.frames = {one, other};
   EXPECT_EQ(shortest_slot_gap(cluster, PduId{0})->gap, ms(5));
   cluster.frames[1].base_cycle = 7;
-  cluster.frames[1].slot = 12;     // 840 us earlier in its cycle
+  cluster.frames[1].slot = 12;  // 840 us earlier in its cycle
   EXPECT_EQ(shortest_slot_gap(cluster, PduId{0})->gap, ms(10) + us(840));
   cluster.frames[1] = {24, Channels::kAB, 1, 8, NodeId{0}, PduId{0}, 1, 0};
   EXPECT_EQ(shortest_slot_gap(cluster, PduId{0})->gap, ms(40));
@@ -169,10 +171,12 @@ struct Queue {
       const std::int64_t period = cluster.sensor(activation.sensor).period.ns;
       // Often at the shortest distance, and often at an instant of time.
       std::int64_t at = draws.integer(0, 1) == 0 ? draws.integer(0, 9) * 5'000'000 : draws.integer(0, period);
-      for (; at < end; at += period + (draws.integer(0, 3) == 0 ? draws.integer(0, period) : 0)) coming.push_back({t, at});
+      for (; at < end; at += period + (draws.integer(0, 3) == 0 ? draws.integer(0, period) : 0))
+        coming.push_back({t, at});
     }
     for (Job& job : coming) job.activated = std::max<std::int64_t>(0, job.activated);
-    std::stable_sort(coming.begin(), coming.end(), [](const Job& a, const Job& b) { return a.activated < b.activated; });
+    std::stable_sort(coming.begin(), coming.end(),
+                     [](const Job& a, const Job& b) { return a.activated < b.activated; });
     std::deque<Job> ready;
     std::int64_t now = 0;
     for (std::size_t next = 0; next < coming.size() || !ready.empty();) {
@@ -181,7 +185,8 @@ struct Queue {
       const Job job = ready.front();
       ready.pop_front();
       const Task& running = tasks[job.task];
-      now += draws.integer(0, 2) == 0 ? draws.integer(running.best_case.ns, running.worst_case.ns) : running.worst_case.ns;
+      now +=
+          draws.integer(0, 2) == 0 ? draws.integer(running.best_case.ns, running.worst_case.ns) : running.worst_case.ns;
       for (; next < coming.size() && coming[next].activated <= now; ++next) ready.push_back(coming[next]);
       worst[job.task] = std::max(worst[job.task], Duration{now - job.activated});
       for (std::size_t t = 0; t < tasks.size(); ++t)
@@ -199,8 +204,10 @@ TEST(Responses, NoDrawnQueueIsEverSlower) {
     Cluster cluster = cluster_of({});
     auto& tasks = cluster.nodes[0].tasks;
     const auto name = [&] { return std::string(1, static_cast<char>('a' + tasks.size())); };
-    if (stream.integer(0, 3) != 0) tasks.push_back(timed_task(name(), {0, 2, Macroticks{stream.integer(0, 900)}}, us(1500)));
-    if (stream.integer(0, 1) != 0) tasks.push_back(timed_task(name(), {0, 2, Macroticks{stream.integer(2400, 4900)}}, us(1000)));
+    if (stream.integer(0, 3) != 0)
+      tasks.push_back(timed_task(name(), {0, 2, Macroticks{stream.integer(0, 900)}}, us(1500)));
+    if (stream.integer(0, 1) != 0)
+      tasks.push_back(timed_task(name(), {0, 2, Macroticks{stream.integer(2400, 4900)}}, us(1000)));
     for (std::int64_t n = stream.integer(tasks.empty() ? 1 : 0, 2); n > 0; --n)
       add_sporadic(cluster, name(), us(static_cast<int>(stream.integer(6, 30)) * 1000),
                    us(static_cast<int>(stream.integer(2, 15)) * 100));
@@ -211,7 +218,8 @@ TEST(Responses, NoDrawnQueueIsEverSlower) {
     for (Task& one : tasks) one.best_case = one.worst_case * stream.integer(1, 4);
     for (Task& one : tasks) one.best_case = {one.best_case.ns / 4};
     const auto bounds = worst_responses(cluster, NodeId{0});
-    if (!bounds || std::any_of(bounds->begin(), bounds->end(), [](const auto& r) { return r.worst >= *r.gap; })) continue;
+    if (!bounds || std::any_of(bounds->begin(), bounds->end(), [](const auto& r) { return r.worst >= *r.gap; }))
+      continue;
     ++proved;
     Queue queue{cluster, stream, {}};
     for (int drawn = 0; drawn < 20; ++drawn) {

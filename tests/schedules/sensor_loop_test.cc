@@ -17,8 +17,9 @@ constexpr Duration microseconds(std::int64_t n) { return Duration::microseconds(
 
 Cluster following_cluster() { return load_checked_cluster(shipped_path("paper_free_running")); }
 
-// Camera: classic CAN at 1 Mbit/s, a frame of 8 bytes takes 108 us at best without its intermission, 40 of them 5.4 ms at
-// worst. Oscillators are off by 1500 ppm at most, so that two of them make 0.3 % of every time; 101 ns of rounding each way.
+// Camera: classic CAN at 1 Mbit/s, a frame of 8 bytes takes 108 us at best without its intermission, 40 of them 5.4 ms
+// at worst. Oscillators are off by 1500 ppm at most, so that two of them make 0.3 % of every time; 101 ns of rounding
+// each way.
 TEST(SensorLoop, ARoundIsExecutionTransferAndPreprocessing) {
   const Cluster cluster = following_cluster();
   const SensorId camera = *cluster.find_sensor("camera");
@@ -35,8 +36,8 @@ TEST(SensorLoop, ARoundIsExecutionTransferAndPreprocessing) {
   EXPECT_FALSE(loop_of(load_cluster(shipped_path("paper_unsynchronised")), camera).has_value());
 }
 
-// Alone on its processor the host's task ends after its execution, though the shortest period is shorter than that; its ends,
-// and with them the lists, are a round apart.
+// Alone on its processor the host's task ends after its execution, though the shortest period is shorter than that; its
+// ends, and with them the lists, are a round apart.
 TEST(SensorLoop, TheHostsTaskNeverMeetsItself) {
   const Cluster cluster = following_cluster();
   const auto found = worst_responses(cluster, *cluster.find_node("laser_pre"));
@@ -48,35 +49,53 @@ TEST(SensorLoop, TheHostsTaskNeverMeetsItself) {
 }
 
 TEST(Mutations, OfFollowingSensors) {
-  expect_named({
-      {"after_nobody", "host: camera_pre, measurement: completion, after: preprocess",
-       "host: camera_pre, measurement: completion, after: process",
-       {"after: process,", "sensors.camera.after", "process", "must be a task of camera_pre"}},
-      {"after_another_list", "host: camera_pre, measurement: completion, after: preprocess",
-       "host: laser_pre, measurement: completion, after: preprocess",
-       {"host: laser_pre, measurement: completion", "sensors.camera.after", "preprocess", "from the measuring task of camera"}},
-      {"after_followed", "(camera_pre:[^~]*?)(  gateway:)",
-       "$1      more:\n        step: gateway\n        activation: {kind: completion, after: preprocess}\n"
-       "        best_case: 1 ms\n        worst_case: 1 ms\n        draw: uniform\n        deadline: 9 ms\n$2",
-       {"measurement: completion, after: preprocess, shortest_period: 16 ms", "sensors.camera.after", "preprocess",
-        "that no other task follows"}},
-      {"longest_too_short", "longest_period: 33 ms", "longest_period: 31 ms",
-       {"longest_period: 31 ms", "sensors.camera.longest_period", "31 ms", "must be at least 31.9"}},
-      {"longest_below_shortest", "longest_period: 33 ms", "longest_period: 15 ms",
-       {"longest_period: 15 ms", "sensors.camera.longest_period", "15 ms", "16 ms"}},
-      {"a_period_of_its_own", "longest_period: 33 ms", "longest_period: 33 ms, period: 20 ms",
-       {"period: 20 ms", "sensors.camera.period", "", "not a known key"}},
-      {"lists_more_often", "sender: camera_pre, shortest_period: 12 ms", "sender: camera_pre, shortest_period: 13 ms",
-       {"shortest_period: 13 ms", "can.observation_can.messages.camera_objects.shortest_period", "13 ms", "must be at most 12.4"}},
-      {"raw_more_often", "sender: camera, shortest_period: 15 ms", "sender: camera, shortest_period: 16 ms",
-       {"shortest_period: 16 ms", "can.camera_can.messages.camera_frame.shortest_period", "16 ms", "must be at most 15.8"}},
-  }, "paper_free_running");
+  expect_named(
+      {
+          {"after_nobody",
+           "host: camera_pre, measurement: completion, after: preprocess",
+           "host: camera_pre, measurement: completion, after: process",
+           {"after: process,", "sensors.camera.after", "process", "must be a task of camera_pre"}},
+          {"after_another_list",
+           "host: camera_pre, measurement: completion, after: preprocess",
+           "host: laser_pre, measurement: completion, after: preprocess",
+           {"host: laser_pre, measurement: completion", "sensors.camera.after", "preprocess",
+            "from the measuring task of camera"}},
+          {"after_followed",
+           "(camera_pre:[^~]*?)(  gateway:)",
+           "$1      more:\n        step: gateway\n        activation: {kind: completion, after: preprocess}\n"
+           "        best_case: 1 ms\n        worst_case: 1 ms\n        draw: uniform\n        deadline: 9 ms\n$2",
+           {"measurement: completion, after: preprocess, shortest_period: 16 ms", "sensors.camera.after", "preprocess",
+            "that no other task follows"}},
+          {"longest_too_short",
+           "longest_period: 33 ms",
+           "longest_period: 31 ms",
+           {"longest_period: 31 ms", "sensors.camera.longest_period", "31 ms", "must be at least 31.9"}},
+          {"longest_below_shortest",
+           "longest_period: 33 ms",
+           "longest_period: 15 ms",
+           {"longest_period: 15 ms", "sensors.camera.longest_period", "15 ms", "16 ms"}},
+          {"a_period_of_its_own",
+           "longest_period: 33 ms",
+           "longest_period: 33 ms, period: 20 ms",
+           {"period: 20 ms", "sensors.camera.period", "", "not a known key"}},
+          {"lists_more_often",
+           "sender: camera_pre, shortest_period: 12 ms",
+           "sender: camera_pre, shortest_period: 13 ms",
+           {"shortest_period: 13 ms", "can.observation_can.messages.camera_objects.shortest_period", "13 ms",
+            "must be at most 12.4"}},
+          {"raw_more_often",
+           "sender: camera, shortest_period: 15 ms",
+           "sender: camera, shortest_period: 16 ms",
+           {"shortest_period: 16 ms", "can.camera_can.messages.camera_frame.shortest_period", "16 ms",
+            "must be at most 15.8"}},
+      },
+      "paper_free_running");
 }
 
 // An oracle: a queue with one task that a sensor follows, and one that comes at least 20 ms apart.
 struct FollowedQueue {
   const Task &followed, &other;
-  Duration pause;   // from an end of `followed` to its next activation
+  Duration pause;  // from an end of `followed` to its next activation
   RandomStream& draws;
   Duration worst_followed{}, worst_other{};
 
@@ -95,8 +114,10 @@ struct FollowedQueue {
         while (std::min(next_followed, next_other) <= now) {
           const bool is_followed = next_followed <= next_other;
           ready.push_back({is_followed, std::min(next_followed, next_other)});
-          if (is_followed) next_followed = INT64_MAX;
-          else next_other += 20'000'000 + (draws.integer(0, 2) == 0 ? draws.integer(0, 20'000'000) : 0);
+          if (is_followed)
+            next_followed = INT64_MAX;
+          else
+            next_other += 20'000'000 + (draws.integer(0, 2) == 0 ? draws.integer(0, 20'000'000) : 0);
         }
       };
       take();
@@ -119,7 +140,7 @@ TEST(SensorLoop, NoDrawnQueueIsSlowerThanItsBounds) {
   const NodeId host = *cluster.find_node("camera_pre");
   Task other;
   other.name = "other";
-  other.activation.kind = ActivationKind::kSensor;   // as if it were a device as well
+  other.activation.kind = ActivationKind::kSensor;  // as if it were a device as well
   other.activation.sensor = static_cast<SensorId>(cluster.sensors.size());
   Sensor sensor;
   sensor.period = Duration::milliseconds(20);

@@ -11,8 +11,8 @@
 namespace ttf::schedules {
 namespace {
 
-constexpr std::int64_t kStamp = 1'000 + 500;                                    // a macrotick old, rounded to 1 us
-constexpr std::int64_t kToSlot = 1'000'000 + kRounding + kApart + kStamp;       // from the stamp, at the latest
+constexpr std::int64_t kStamp = 1'000 + 500;                               // a macrotick old, rounded to 1 us
+constexpr std::int64_t kToSlot = 1'000'000 + kRounding + kApart + kStamp;  // from the stamp, at the latest
 constexpr std::int64_t kRound = 320'000'000;
 constexpr std::int64_t ms(std::int64_t n) { return n * 1'000'000; }
 
@@ -23,8 +23,8 @@ GlobalTime waited_until(const SettledRound& round, GlobalTime stamp) {
       if (stamp <= settled.measured + Duration{shift}) return settled.at + Duration{shift};
 }
 
-// Slot 3 begins at 168 us of every cycle and ends at 252 us; fusion is at 1 ms of odd cycles. What is written until slot 3
-// of an odd cycle is fused in it.
+// Slot 3 begins at 168 us of every cycle and ends at 252 us; fusion is at 1 ms of odd cycles. What is written until
+// slot 3 of an odd cycle is fused in it.
 TEST(Settled, OneStepPerFusionInstant) {
   const auto round = settled_round(small(false), SensorId{0});
   ASSERT_TRUE(round.has_value());
@@ -34,8 +34,7 @@ TEST(Settled, OneStepPerFusionInstant) {
     EXPECT_EQ(settled.at.ns % ms(10), ms(6));
     EXPECT_EQ((settled.at - settled.measured).ns, 832'000 + kToSlot);
   }
-  for (std::size_t i = 1; i < 32; ++i)
-    EXPECT_EQ((round->instants[i].at - round->instants[i - 1].at).ns, ms(10));
+  for (std::size_t i = 1; i < 32; ++i) EXPECT_EQ((round->instants[i].at - round->instants[i - 1].at).ns, ms(10));
 }
 
 // Whatever the stamp, by enumeration: the first slot that begins not before the list is there, its end, and the first
@@ -113,8 +112,7 @@ TEST(Settled, WithoutSlots) {
   ASSERT_EQ(round->instants.size(), 32u);
   for (const Settled& settled : round->instants) {
     EXPECT_EQ(settled.at.ns % ms(10), ms(6));
-    EXPECT_EQ(settled.at - settled.measured,
-              path.stages[0].worst + path.stages[1].worst + Duration{kApart + kStamp});
+    EXPECT_EQ(settled.at - settled.measured, path.stages[0].worst + path.stages[1].worst + Duration{kApart + kStamp});
   }
 }
 
@@ -127,8 +125,9 @@ TEST(Settled, NothingWhereNothingIsFusedByTime) {
   EXPECT_EQ(settled_round(unread, SensorId{0}), std::nullopt);
 }
 
-// The shipped synchronised cluster, fusion at 1.8 ms + n 10 ms: the laser of 27.7 ms has its slots in the cycle that begins
-// at 80 ms, the camera of 5.9 ms in that of 40 ms. Each is fused in the cycle of its slots, and waited for until then.
+// The shipped synchronised cluster, fusion at 1.8 ms + n 10 ms: the laser of 27.7 ms has its slots in the cycle that
+// begins at 80 ms, the camera of 5.9 ms in that of 40 ms. Each is fused in the cycle of its slots, and waited for until
+// then.
 TEST(SettledShipped, ScheduledListsAreDueInTheCycleOfTheirSlots) {
   const Cluster cluster = load_checked_cluster(shipped_path("paper_synchronised"));
   const auto laser = settled_round(cluster, *cluster.find_sensor("laser"));

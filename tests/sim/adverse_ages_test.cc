@@ -1,9 +1,10 @@
 // The bounds on ages that the checker computes are reached: everything the laser's way depends on conspires.
 //
 //   worst   full lists whose bits need the most stuff bits, on the raw CAN and on the observation CAN; a camera's frame
-//           that began just before the laser's list was queued; every execution at its upper bound; the preprocessing on
-//           the slowest oscillator there may be and the rest of the cluster on the fastest; and the phase at which the list
-//           is written just after its slot began in the very cycle that makes it wait longest for fusion, image and use
+//           that began just before the laser's list was queued; every execution at its upper bound; the preprocessing
+//           on the slowest oscillator there may be and the rest of the cluster on the fastest; and the phase at which
+//           the list is written just after its slot began in the very cycle that makes it wait longest for fusion,
+//           image and use
 //   best    the other way round
 #include <gtest/gtest.h>
 
@@ -21,7 +22,8 @@ namespace {
 
 using testing_support::Filling;
 
-constexpr std::uint32_t kMeasurement = 30;   // when the cluster's rate has settled: the one that everything conspires for
+constexpr std::uint32_t kMeasurement =
+    30;  // when the cluster's rate has settled: the one that everything conspires for
 const TrueTime kEnd = sim::kFirstCycle + Duration::milliseconds(3000);
 
 // What happened to one of the laser's lists.
@@ -30,16 +32,16 @@ struct Followed final : records::Sink {
   const schedules::Cluster& cluster;
   PduId raw, objects, camera_objects;
   std::uint32_t list;
-  std::optional<TrueTime> queued, written;         // on the observation CAN, for FlexRay
-  TrueTime camera_before{};                        // the camera's lists queued next to it
+  std::optional<TrueTime> queued, written;  // on the observation CAN, for FlexRay
+  TrueTime camera_before{};                 // the camera's lists queued next to it
   std::optional<TrueTime> camera_after;
-  records::CanFrameSent camera_frame;              // the last one of the camera that began before
-  std::vector<std::pair<std::int64_t, TrueTime>> slots;   // of its first fragment: cycle, action point
-  Duration missing{};                              // what its frames stayed under their worst case
-  Duration fused{}, used{};                        // its ages
+  records::CanFrameSent camera_frame;                    // the last one of the camera that began before
+  std::vector<std::pair<std::int64_t, TrueTime>> slots;  // of its first fragment: cycle, action point
+  Duration missing{};                                    // what its frames stayed under their worst case
+  Duration fused{}, used{};                              // its ages
   std::optional<GlobalTime> measured;
-  std::optional<std::uint32_t> image;              // the first one with the measurement in it
-  std::pair<Duration, Duration> extremes{Duration::milliseconds(1000), {}};   // of all the laser's ages when fused
+  std::optional<std::uint32_t> image;                                        // the first one with the measurement in it
+  std::pair<Duration, Duration> extremes{Duration::milliseconds(1000), {}};  // of all the laser's ages when fused
 
   Followed(const schedules::Cluster& c, std::uint32_t sequence)
       : cluster(c), raw(*c.find_pdu("laser_scan")), objects(*c.find_pdu("laser_objects")),
@@ -93,7 +95,7 @@ struct Followed final : records::Sink {
 
 struct Conspiracy {
   nodes::Scenario scenario;
-  schedules::Cluster shipped, cluster;    // as loaded; as it is simulated
+  schedules::Cluster shipped, cluster;  // as loaded; as it is simulated
   SensorId laser, camera;
   bool worst;
 
@@ -111,12 +113,14 @@ struct Conspiracy {
       }
     }
     for (const SensorId sensor : {laser, camera}) cluster.sensors[index_of(sensor)].phase = Duration{};
-    // An identifier whose arbitration field takes as many stuff bits as any: 0 0000 [1] 1111 [0] 000 00 [1] 1 0 1; and one
-    // that takes none. The order of the messages stays as it is.
+    // An identifier whose arbitration field takes as many stuff bits as any: 0 0000 [1] 1111 [0] 000 00 [1] 1 0 1; and
+    // one that takes none. The order of the messages stays as it is.
     for (schedules::CanBus& bus : cluster.can_buses)
       for (schedules::CanMessage& message : bus.messages)
-        if (cluster.pdu(message.pdu).sensor == laser) message.identifier = worst ? 0x078 : 0x255;
-        else message.identifier = 0x478;
+        if (cluster.pdu(message.pdu).sensor == laser)
+          message.identifier = worst ? 0x078 : 0x255;
+        else
+          message.identifier = 0x478;
   }
 
   // The sequence number's bits need stuff bits too: 1000 0111 1000 0111 at the measurement that counts.
@@ -144,9 +148,9 @@ struct Conspiracy {
     return seen;
   }
 
-  // Moves the sensors' phases until the list is written within a few microticks after its slot's action point (before it,
-  // for the best), and a frame of the camera's began as shortly before the list was queued. The camera comes first, and then
-  // moves with the laser: its frame shifts the laser's list.
+  // Moves the sensors' phases until the list is written within a few microticks after its slot's action point (before
+  // it, for the best), and a frame of the camera's began as shortly before the list was queued. The camera comes first,
+  // and then moves with the laser: its frame shifts the laser's list.
   Followed closed_in() {
     static constexpr Duration kAim{75}, kNear{200};
     const auto near = [](Duration d) { return d > Duration{} && d <= kNear; };

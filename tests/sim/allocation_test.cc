@@ -1,6 +1,6 @@
 // Nothing in the house allocates on its cyclic path: neither controllers, tasks and strategies nor the media between
-// them, and not the world they look at. What a run needs it takes at its start, sized by schedule and scenario, so there is
-// no warming up: what the first cycle needs is all that is ever needed.
+// them, and not the world they look at. What a run needs it takes at its start, sized by schedule and scenario, so
+// there is no warming up: what the first cycle needs is all that is ever needed.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ struct AllocationsSeen final : records::Sink {
   using records::Sink::on;
   std::optional<std::int64_t> at_start;
   std::int64_t last = 0;
-  TrueTime first_more{};   // where a failure is to be looked for
+  TrueTime first_more{};  // where a failure is to be looked for
   int fusions = 0, uses = 0;
   std::size_t most_hits = 0;
 
@@ -56,8 +56,8 @@ TEST_P(Allocations, NoneInThePapersDrives) {
 
 TEST_P(Allocations, NoneWithACrowd) { expect_none(Drive("scenarios/crowd_25.yaml", GetParam()), 5'990); }
 
-// Lists as long as they get: each of the laser's beams hits one of two fences, whose gaps cut the scan into many segments,
-// and more is seen than the observation lists and the image carry.
+// Lists as long as they get: each of the laser's beams hits one of two fences, whose gaps cut the scan into many
+// segments, and more is seen than the observation lists and the image carry.
 TEST_P(Allocations, NoneWithFullLists) {
   Drive drive("scenarios/paper_scenario1.yaml", GetParam());
   drive.scenario.world.objects.clear();

@@ -29,7 +29,7 @@ using testing_support::same;
 // What the laser's lists say of the objects, as the fusion node takes them.
 struct LaserSightings final : records::Sink {
   using records::Sink::on;
-  std::map<std::uint32_t, std::vector<double>> x, y;   // by list
+  std::map<std::uint32_t, std::vector<double>> x, y;  // by list
   void on(const records::ObservationSeen& seen) override {
     if (seen.id.sensor != SensorId{0}) return;
     x[seen.id.sequence].push_back(seen.x);
@@ -90,7 +90,7 @@ TEST(BiasedDrive, AStampsErrorMovesWhatMoves) {
 struct LastPrediction final : records::Sink {
   using records::Sink::on;
   GlobalTime at{};
-  double squared = 0.0, distance = std::numeric_limits<double>::infinity();   // NEES of (x, y), error [m]
+  double squared = 0.0, distance = std::numeric_limits<double>::infinity();  // NEES of (x, y), error [m]
   void on(const records::TrackState& track) override {
     if (!track.predicted_for_image) return;
     const Eigen::Vector2d error(track.state[0] - 30.0, track.state[1]);
@@ -165,9 +165,9 @@ TEST(MountedDrive, BackwardsIsForwardsTurned) {
         EXPECT_NEAR(turned[o].x, -image.objects[o].x, 0.02) << sequence;
         EXPECT_NEAR(turned[o].y, -image.objects[o].y, 0.02) << sequence;
         EXPECT_NEAR(turned[o].speed, image.objects[o].speed, 0.05) << sequence;
-        EXPECT_NEAR(std::remainder(turned[o].heading - image.objects[o].heading - std::numbers::pi,
-                                   2.0 * std::numbers::pi),
-                    0.0, 0.01)
+        EXPECT_NEAR(
+            std::remainder(turned[o].heading - image.objects[o].heading - std::numbers::pi, 2.0 * std::numbers::pi),
+            0.0, 0.01)
             << sequence;
       }
     }
@@ -182,7 +182,7 @@ TEST(MountedDrive, RecordedSensorsSeeFromWhereTheyAre) {
   drive.scenario.duration = drive.scenario.world.duration = Duration::milliseconds(5'000);
   std::vector<fusion::KnownSensor>& sensors = drive.scenario.tracker.sensors;
   sensors.resize(2);
-  sensors[0].name = "radar";   // not in the cluster's order
+  sensors[0].name = "radar";  // not in the cluster's order
   sensors[0].mounting = {.position = {-2.0, 1.0}, .yaw = std::numbers::pi};
   sensors[0].errors.known << 0.5, 0.0, 0.0;
   sensors[1].name = "laser";
@@ -200,7 +200,7 @@ TEST(MountedDrive, RecordedSensorsSeeFromWhereTheyAre) {
     } else {
       seen.sensor = "radar";
       seen.kind = recording::RecordedObservation::Kind::kRangeBearingRate;
-      const double qx = -(x + 2.0), qy = -(y - 1.0);   // in the radar's axes
+      const double qx = -(x + 2.0), qy = -(y - 1.0);  // in the radar's axes
       seen.range = std::hypot(qx, qy) + 0.5;
       seen.bearing = std::atan2(qy, qx);
       seen.range_rate = -5.0 * qx / std::hypot(qx, qy);

@@ -1,5 +1,5 @@
-// Clusters of any size for tests of the protocol alone: 5 ms cycles of 64 static slots and 300 minislots, every node sending a
-// status frame of 16 bytes in its key slot on both channels.
+// Clusters of any size for tests of the protocol alone: 5 ms cycles of 64 static slots and 300 minislots, every node
+// sending a status frame of 16 bytes in its key slot on both channels.
 #pragma once
 
 #include <algorithm>
@@ -12,9 +12,9 @@
 
 namespace ttf::sim {
 
-inline constexpr int kMicroPerCycle = 200'000;   // of 25 ns
-// (34 + 20 gClusterDriftDamping) gdMaxMicrotick + 2 gdMaxPropagationDelay: the worst case of FlexRay 2.1A, annex B, here with a
-// damping of 2 (schedules/checker.h).
+inline constexpr int kMicroPerCycle = 200'000;  // of 25 ns
+// (34 + 20 gClusterDriftDamping) gdMaxMicrotick + 2 gdMaxPropagationDelay: the worst case of FlexRay 2.1A, annex B,
+// here with a damping of 2 (schedules/checker.h).
 inline constexpr Duration kAssumedPrecision{(34 + 20 * 2) * 25 + 2 * 2500};
 
 // The first `coldstart` nodes are coldstart nodes, the first `sync` of all are sync nodes.
@@ -23,7 +23,7 @@ inline schedules::Cluster bus_cluster(int nodes, int coldstart, int sync) {
   cluster.name = std::to_string(nodes) + " nodes";
   schedules::GlobalParameters& g = cluster.flexray;
   g.gPayloadLengthStatic = 8;
-  g.gdStaticSlot = 43;       // 2 * 7 + ceil((9 + 1 + 80 + 160 + 2 + 11) * 0.10015 us + 2.5 us)
+  g.gdStaticSlot = 43;  // 2 * 7 + ceil((9 + 1 + 80 + 160 + 2 + 11) * 0.10015 us + 2.5 us)
   g.gNumberOfStaticSlots = 64;
   g.gNumberOfMinislots = 300;
   g.gdNIT = 5000 - 64 * 43 - 4 - 300 * 5;
@@ -58,7 +58,7 @@ struct StateLog final : bus::ControllerEvents {
     bus::PocKind from{}, to{};
     bus::PocReason reason{}, consequence{};
     Microticks at{};
-    std::int64_t cycle = -1;       // that started then, if one did
+    std::int64_t cycle = -1;  // that started then, if one did
   };
   std::vector<Change> changes;
   void state_changed(bus::PocKind from, const bus::PocStep& step, Microticks at) override {

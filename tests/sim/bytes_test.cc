@@ -15,7 +15,8 @@
 namespace ttf {
 namespace {
 
-// A forger in the medium: changes one signal of an image frame and makes both CRCs right again, so that no check can see it.
+// A forger in the medium: changes one signal of an image frame and makes both CRCs right again, so that no check can
+// see it.
 std::vector<std::byte> forged(std::span<const std::byte> frame, schedules::Channel channel,
                               const schedules::PduLayout& layout, std::size_t signal, double value) {
   const wire::DecodedFrame decoded = wire::decode_frame(channel, frame);
@@ -32,8 +33,7 @@ std::vector<std::byte> forged(std::span<const std::byte> frame, schedules::Chann
 struct Receiver final : bus::ControllerEvents, bus::FlexRayPort {
   const schedules::Cluster& cluster;
   bus::FlexRayController controller;
-  explicit Receiver(const schedules::Cluster& c)
-      : cluster(c), controller(c, *c.find_node("feature"), *this, *this) {
+  explicit Receiver(const schedules::Cluster& c) : cluster(c), controller(c, *c.find_node("feature"), *this, *this) {
     controller.start_integrated({Microticks{0}, 0});
   }
   void transmit(const bus::Transmission&) override {}
@@ -43,10 +43,10 @@ struct Receiver final : bus::ControllerEvents, bus::FlexRayPort {
   void hear(int cycle, int slot, schedules::Channel channel, std::span<const std::byte> bytes) {
     const schedules::GlobalParameters& g = cluster.flexray;
     while (controller.clock()->cycle() < cycle) controller.advance(controller.next_event());
-    const Microticks start =
-        controller.clock()->start_of(Macroticks{static_cast<std::int64_t>(slot - 1) * g.gdStaticSlot + g.gdActionPointOffset});
-    const Microticks end = start + Microticks{wire::frame_duration_ps(g, g.gPayloadLengthStatic) /
-                                              cluster.nodes[0].microtick_ps};
+    const Microticks start = controller.clock()->start_of(
+        Macroticks{static_cast<std::int64_t>(slot - 1) * g.gdStaticSlot + g.gdActionPointOffset});
+    const Microticks end =
+        start + Microticks{wire::frame_duration_ps(g, g.gPayloadLengthStatic) / cluster.nodes[0].microtick_ps};
     controller.receive({channel, bus::Signal::kFrame, start, end, wire::decode_frame(channel, bytes)});
   }
 };
@@ -73,13 +73,15 @@ TEST(Bytes, ChangedPayloadWithValidCrcChangesTheImage) {
   std::array<std::byte, wire::kMaxFrameBytes> frame{};
   const std::size_t size = wire::encode_frame(
       header, schedules::Channel::kA,
-      std::span<const std::byte>(payload).first(2 * static_cast<std::size_t>(cluster.flexray.gPayloadLengthStatic)), frame);
+      std::span<const std::byte>(payload).first(2 * static_cast<std::size_t>(cluster.flexray.gPayloadLengthStatic)),
+      frame);
   const std::span<const std::byte> honest(frame.data(), size);
   const auto signals = nodes::bind_image(cluster, layout);
 
   Receiver true_receiver(cluster), deceived(cluster);
   true_receiver.hear(slot->base_cycle, slot->slot, schedules::Channel::kA, honest);
-  deceived.hear(slot->base_cycle, slot->slot, schedules::Channel::kA, forged(honest, schedules::Channel::kA, layout, x, 17.5));
+  deceived.hear(slot->base_cycle, slot->slot, schedules::Channel::kA,
+                forged(honest, schedules::Channel::kA, layout, x, 17.5));
   const auto heard = true_receiver.controller.incoming(image).latest();
   const auto forgery = deceived.controller.incoming(image).latest();
   ASSERT_TRUE(heard && forgery);

@@ -1,6 +1,6 @@
-// Clock synchronisation under random clocks, delays and Byzantine sync nodes: FlexRay's fault-tolerant midpoint drops one value
-// at each end of 3 to 7, and two of 8 to 15. So one arbitrary clock among 4 to 7 and two among 8 to 15 do no harm; one of 3 and
-// two of 7 do.
+// Clock synchronisation under random clocks, delays and Byzantine sync nodes: FlexRay's fault-tolerant midpoint drops
+// one value at each end of 3 to 7, and two of 8 to 15. So one arbitrary clock among 4 to 7 and two among 8 to 15 do no
+// harm; one of 3 and two of 7 do.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -14,12 +14,12 @@
 namespace ttf::sim {
 namespace {
 
-// The sync frames of nodes 0..traitors-1 reach each receiver at a time of its own: late at some, early at others, within
-// what still fits the slot; the worst a clock can do that nobody else notices.
+// The sync frames of nodes 0..traitors-1 reach each receiver at a time of its own: late at some, early at others,
+// within what still fits the slot; the worst a clock can do that nobody else notices.
 class TwoFaced final : public Disturbance {
  public:
-  // Pull apart: late at every other receiver, early at the rest. Pull rates: besides, the other way round in every other
-  // cycle, so that the double cycles seem long to some and short to others.
+  // Pull apart: late at every other receiver, early at the rest. Pull rates: besides, the other way round in every
+  // other cycle, so that the double cycles seem long to some and short to others.
   enum class Plan { kRandom, kPullApart, kPullRates };
   TwoFaced(int traitors, Plan plan, std::uint64_t seed) : traitors_(traitors), plan_(plan), seed_(seed) {}
   bool leaving(Leaving& signal) override {
@@ -43,7 +43,7 @@ class TwoFaced final : public Disturbance {
     RandomStream draw({seed_, static_cast<std::uint32_t>(receiver), Purpose::kTest, 0, calls_++});
     return draw.integer(-kMost, kMost);
   }
-  static constexpr std::int64_t kMost = 5'500;   // of 7 us before the action point
+  static constexpr std::int64_t kMost = 5'500;  // of 7 us before the action point
   int traitors_;
   Plan plan_;
   std::uint64_t seed_;
@@ -53,7 +53,7 @@ class TwoFaced final : public Disturbance {
 
 struct Outcome {
   Duration worst{};
-  bool all_active = true;     // the honest ones
+  bool all_active = true;  // the honest ones
 };
 
 Outcome run(int sync, int traitors, TwoFaced::Plan plan, std::uint64_t seed, Duration length) {

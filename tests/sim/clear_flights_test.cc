@@ -38,7 +38,7 @@ struct Reached {
   Channel channel{};
   std::int64_t start = 0;
   Signal signal{};
-  int frame_id = 0;   // 0: no frame
+  int frame_id = 0;  // 0: no frame
   bool operator==(const Reached&) const = default;
 };
 
@@ -47,7 +47,7 @@ struct Line {
   MediumQueue queue{FlexRayMedium::kMostPending};
   FramePool pool{FlexRayMedium::kMostPending};
   FlexRayMedium medium{cluster, queue, pool};
-  bool goes_along;                     // with a signal, from receiver to receiver, or arrival by arrival from the queue
+  bool goes_along;  // with a signal, from receiver to receiver, or arrival by arrival from the queue
   std::vector<Reached> reached;
   struct Sent {
     NodeId sender;
@@ -160,7 +160,7 @@ TEST_P(ClearFlights, WhatArrivesIsWhatDelaysAndOverlapsSay) {
       constexpr std::array kinds = {Signal::kFrame, Signal::kFrame, Signal::kCas, Signal::kUndecodable};
       const Signal signal = kinds[static_cast<std::size_t>(draw.integer(0, 3))];
       const TrueTime end = now + Duration{draw.integer(500, 4'000)};
-      const std::int64_t where = draw.integer(0, 3);   // on A, on B, or on both, now and then not for the same time
+      const std::int64_t where = draw.integer(0, 3);  // on A, on B, or on both, now and then not for the same time
       for (const Channel channel : {Channel::kA, Channel::kB}) {
         if (!line.attached(index_of(sender), channel) || where == 1 - static_cast<int>(index_of(channel))) continue;
         const Duration longer{channel == Channel::kB && draw.integer(0, 9) == 0 ? 100 : 0};

@@ -39,7 +39,7 @@ TEST(TimeBase, StaysWithinTheAssumedPrecisionForDrawnDrifts) {
 TEST(TimeBase, WithoutCorrectionItGrowsAsDriftTimesTime) {
   Drive drive("scenarios/paper_scenario1.yaml", fusion::StrategyKind::kAdva);
   drive.cluster.synchronisation = false;
-  std::int64_t ppb = -20'000;   // -20, -10, 0, 10, 20 ppm: the ends are 40 ppm apart
+  std::int64_t ppb = -20'000;  // -20, -10, 0, 10, 20 ppm: the ends are 40 ppm apart
   for (schedules::Node& node : drive.cluster.nodes)
     if (node.flexray) {
       node.drift_ppb = ppb;
@@ -60,7 +60,7 @@ TEST(TimeBase, WithoutCorrectionItGrowsAsDriftTimesTime) {
 // With correction the same clocks hold together.
 TEST(TimeBase, WithCorrectionTheSameClocksHoldTogether) {
   Drive drive("scenarios/paper_scenario1.yaml", fusion::StrategyKind::kAdva);
-  std::int64_t ppb = -1'500'000;   // the whole range the specification allows
+  std::int64_t ppb = -1'500'000;  // the whole range the specification allows
   for (schedules::Node& node : drive.cluster.nodes)
     if (node.flexray) {
       node.drift_ppb = ppb;

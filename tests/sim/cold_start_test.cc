@@ -31,12 +31,14 @@ struct Told final : records::Sink {
   std::vector<Symbol> symbols;
   std::vector<records::ReferenceFix> fixes;
   std::map<MeasurementId, TrueTime> measured;
-  std::vector<std::pair<MeasurementId, TrueTime>> fused;   // when its list says it was measured
-  std::map<std::uint32_t, TrueTime> images;                // the instant an image is of
-  Duration image_off{};                                    // most that the feature service takes it to be of another one
+  std::vector<std::pair<MeasurementId, TrueTime>> fused;  // when its list says it was measured
+  std::map<std::uint32_t, TrueTime> images;               // the instant an image is of
+  Duration image_off{};                                   // most that the feature service takes it to be of another one
 
   using records::Sink::on;
-  void on(const records::PowerChanged& r) override { if (r.on) powered[r.stamp.node].push_back(r.stamp.true_time); }
+  void on(const records::PowerChanged& r) override {
+    if (r.on) powered[r.stamp.node].push_back(r.stamp.true_time);
+  }
   void on(const records::SymbolSent& r) override {
     symbols.push_back({r.stamp.true_time, r.end.true_time, r.stamp.node, r.channel, r.kind});
   }
@@ -63,7 +65,7 @@ TEST(ColdStart, OneLeadsFromCycle6OthersFollowIn7AndIntegrateIn8) {
     const std::string& name = drive.cluster.node(node.node).name;
     ASSERT_TRUE(node.active.has_value()) << name;
     EXPECT_EQ(node.active->cycle, name == "fusion" ? 6 : name == "laser" || name == "camera" ? 8 : 7) << name;
-    EXPECT_EQ(node.active->from, name == "fusion"                       ? "coldstart consistency check"
+    EXPECT_EQ(node.active->from, name == "fusion"                      ? "coldstart consistency check"
                                  : name == "laser" || name == "camera" ? "integration consistency check"
                                                                        : "coldstart join")
         << name;
@@ -71,8 +73,8 @@ TEST(ColdStart, OneLeadsFromCycle6OthersFollowIn7AndIntegrateIn8) {
   }
 }
 
-// Whatever the order in which they come: every node is active within two listen timeouts, the spread, and the cycles of an
-// attempt or two.
+// Whatever the order in which they come: every node is active within two listen timeouts, the spread, and the cycles of
+// an attempt or two.
 TEST(ColdStart, EveryNodeBecomesActiveWhateverThePowerOnTimes) {
   Drive drive(kScenario, StrategyKind::kAdva);
   drive.scenario.startup.power_on.clear();
@@ -86,9 +88,9 @@ TEST(ColdStart, EveryNodeBecomesActiveWhateverThePowerOnTimes) {
   }
 }
 
-// The tracker warms up for 1.5 s, start-up takes some 60 ms: what a cold drive is worth is what an integrated one is, up to the
-// noise of one drive, which differs as measurements are made some milliseconds later. Pooled over ten drives of either kind,
-// errors agree within a quarter.
+// The tracker warms up for 1.5 s, start-up takes some 60 ms: what a cold drive is worth is what an integrated one is,
+// up to the noise of one drive, which differs as measurements are made some milliseconds later. Pooled over ten drives
+// of either kind, errors agree within a quarter.
 TEST(ColdStart, IsWorthWhatAnIntegratedDriveIs) {
   for (const StrategyKind strategy : testing_support::kStrategies) {
     Drive drive("scenarios/paper_scenario2.yaml", strategy);
@@ -107,20 +109,22 @@ TEST(ColdStart, IsWorthWhatAnIntegratedDriveIs) {
         matched[cold] += summary.matched;
         missed[cold] += summary.missed;
       }
-    const auto pooled = [&](const double (&sums)[2], bool cold) {
+    const auto pooled = [&](const double(&sums)[2], bool cold) {
       return std::sqrt(sums[cold] / static_cast<double>(matched[cold]));
     };
     SCOPED_TRACE(nodes::name_of(strategy));
     EXPECT_NEAR(pooled(squares, true) / pooled(squares, false), 1.0, 0.25);
     EXPECT_NEAR(pooled(velocities, true) / pooled(velocities, false), 1.0, 0.25);
-    EXPECT_NEAR(static_cast<double>(matched[1]), static_cast<double>(matched[0]), 0.05 * static_cast<double>(matched[0]));
+    EXPECT_NEAR(static_cast<double>(matched[1]), static_cast<double>(matched[0]),
+                0.05 * static_cast<double>(matched[0]));
     EXPECT_NEAR(ages[1] / static_cast<double>(matched[1]), ages[0] / static_cast<double>(matched[0]), 0.005) << "5 ms";
     EXPECT_LE(missed[1], missed[0] + 10);
   }
 }
 
-// The stamp of a list is its strobe's on the host's clock, to the microsecond; the precision and a macrotick come on top. True
-// times are had from global ones by the reader's clock, whose rate is off by less than 1500 ppm over less than 130 ms.
+// The stamp of a list is its strobe's on the host's clock, to the microsecond; the precision and a macrotick come on
+// top. True times are had from global ones by the reader's clock, whose rate is off by less than 1500 ppm over less
+// than 130 ms.
 constexpr Duration kStampsAgree = Duration::microseconds(200);
 
 void expect_stamps_mean_what_was_measured(const Told& told, std::size_t at_least) {
@@ -143,7 +147,8 @@ TEST(ColdStart, ListsSayWhenTheyWereMeasured) {
   expect_stamps_mean_what_was_measured(told, 80);
 }
 
-// GPS time is put on the time scale that the cluster happens to have: a fix lies there where the fusion node's clock was.
+// GPS time is put on the time scale that the cluster happens to have: a fix lies there where the fusion node's clock
+// was.
 TEST(ColdStart, FixesAreOnTheClustersTimeScale) {
   Told told;
   struct Scale final : records::Sink {
@@ -167,7 +172,8 @@ TEST(ColdStart, FixesAreOnTheClustersTimeScale) {
   }
 }
 
-// Fusion wakes the others, on channel A. They are powered on a millisecond after the end of the pattern, the camera's host two.
+// Fusion wakes the others, on channel A. They are powered on a millisecond after the end of the pattern, the camera's
+// host two.
 TEST(ColdStart, AWakeupPatternPowersTheOthersOn) {
   Drive drive(kScenario, StrategyKind::kTt);
   drive.scenario.startup.wake_up = "fusion";
@@ -241,7 +247,7 @@ TEST(ColdStart, WithARecordingItIsRefused) {
 
 struct Restarted {
   Told told;
-  std::map<NodeId, GlobalTime> global;   // at the end, by each node's clock
+  std::map<NodeId, GlobalTime> global;  // at the end, by each node's clock
 };
 
 Restarted restarted(std::string_view name) {
@@ -270,14 +276,15 @@ Restarted restarted(std::string_view name) {
   return result;
 }
 
-// Cycles of 2 ms: a round is 128 ms. After a second and more the restarted node counts less by whole rounds; all the same, what
-// was measured when is understood by everybody.
+// Cycles of 2 ms: a round is 128 ms. After a second and more the restarted node counts less by whole rounds; all the
+// same, what was measured when is understood by everybody.
 TEST(ColdStart, ARestartedNodesStampsAreUnderstoodModuloARound) {
   for (const char* name : {"laser_pre", "camera_pre", "fusion", "feature"}) {
     SCOPED_TRACE(name);
     const Restarted drive = restarted(name);
     const schedules::Cluster cluster = Drive(kScenario, StrategyKind::kAdva).cluster;
-    const NodeId node = named(cluster, name), other = named(cluster, std::string_view(name) == "fusion" ? "feature" : "fusion");
+    const NodeId node = named(cluster, name),
+                 other = named(cluster, std::string_view(name) == "fusion" ? "feature" : "fusion");
     const Duration behind = drive.global.at(other) - drive.global.at(node);
     const std::int64_t rounds = (behind.ns + cluster.round().ns / 2) / cluster.round().ns;
     EXPECT_GE(rounds, 7);

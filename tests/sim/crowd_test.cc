@@ -17,10 +17,10 @@ namespace {
 
 using testing_support::Drive;
 
-constexpr double kGate_m = 1.5;   // an image object further from a true object is not of it
+constexpr double kGate_m = 1.5;  // an image object further from a true object is not of it
 
-// By then an object that is visible from the start is confirmed in every image that is used: a window of the slowest sensor's
-// scans, after its first period, and the greatest age at use.
+// By then an object that is visible from the start is confirmed in every image that is used: a window of the slowest
+// sensor's scans, after its first period, and the greatest age at use.
 TrueTime confirmation_time(const Drive& drive) {
   Duration period{}, age{};
   for (const schedules::AgePath& path : schedules::measurement_ages(drive.cluster)) {
@@ -45,8 +45,7 @@ class Coverage final : public records::Sink {
 
   void on(const records::FeatureUsed& used) override {
     judge();
-    if (used.stamp.true_time >= from_)
-      use_ = Use{used.stamp.true_time, {used.objects.begin(), used.objects.end()}};
+    if (used.stamp.true_time >= from_) use_ = Use{used.stamp.true_time, {used.objects.begin(), used.objects.end()}};
   }
   void on(const records::TruthState& truth) override {
     if (!truth_.empty() && truth_.front().at != truth.at) {
@@ -87,7 +86,7 @@ class Coverage final : public records::Sink {
 
   TrueTime from_;
   std::optional<Use> use_;
-  std::vector<records::TruthState> truth_;   // of one instant
+  std::vector<records::TruthState> truth_;  // of one instant
 };
 
 // The measures remember the newest 256 lists: seven seconds' worth.
@@ -95,7 +94,7 @@ constexpr Duration kWarmUp = Duration::milliseconds(10'000);
 
 struct Memory final : records::Sink {
   using records::Sink::on;
-  std::int64_t after_warm_up = 0, largest = 0;   // bytes
+  std::int64_t after_warm_up = 0, largest = 0;  // bytes
   void on(const records::FeatureUsed& used) override {
     const std::int64_t now = support::live_bytes();
     if (after_warm_up == 0 && used.stamp.true_time > TrueTime{} + kWarmUp) after_warm_up = now;
@@ -103,7 +102,7 @@ struct Memory final : records::Sink {
   }
 };
 
-class Crowd : public testing::TestWithParam<std::tuple<fusion::StrategyKind, std::uint64_t>> {};   // strategy, seed
+class Crowd : public testing::TestWithParam<std::tuple<fusion::StrategyKind, std::uint64_t>> {};  // strategy, seed
 
 TEST_P(Crowd, TwentyFiveObjectsForAMinute) {
   const Drive drive("scenarios/crowd_25.yaml", std::get<fusion::StrategyKind>(GetParam()));
@@ -127,8 +126,8 @@ TEST_P(Crowd, TwentyFiveObjectsForAMinute) {
   EXPECT_EQ(outcome.counts.deadlines_missed, 0u);
   EXPECT_EQ(outcome.counts.torn_lists, 0u);
   EXPECT_EQ(outcome.counts.overwritten_lists, 0u);
-  // Flat memory, the measures' included: what the first ten seconds needed is enough for the minute. Ends of buffers may lie
-  // elsewhere; 1250 uses of 25 objects would be megabytes.
+  // Flat memory, the measures' included: what the first ten seconds needed is enough for the minute. Ends of buffers
+  // may lie elsewhere; 1250 uses of 25 objects would be megabytes.
   ASSERT_GT(memory.after_warm_up, 0);
   EXPECT_LT(memory.largest - memory.after_warm_up, 4096);
 }

@@ -34,23 +34,25 @@ class Wire {
   bool next(Filling filling) const { return filling == Filling::kDense ? last_ : !last_; }
 
  private:
-  bool last_ = true;   // the idle bus
+  bool last_ = true;  // the idle bus
   int run_ = 0;
 };
 
 // Fills a fragment: the sequence number, fragment, count and time stamp stay as they are.
 inline void fill(std::span<std::byte> fragment, const schedules::PduLayout& layout, std::uint32_t identifier,
                  Filling filling) {
-  const auto data_code = [](int bytes) {   // of a CAN FD frame that holds them
+  const auto data_code = [](int bytes) {  // of a CAN FD frame that holds them
     constexpr int kLengths[] = {12, 16, 20, 24, 32, 48, 64};
-    return bytes <= 8 ? bytes : static_cast<int>(std::lower_bound(std::begin(kLengths), std::end(kLengths), bytes) -
-                                                 std::begin(kLengths)) + 9;
+    return bytes <= 8 ? bytes
+                      : static_cast<int>(std::lower_bound(std::begin(kLengths), std::end(kLengths), bytes) -
+                                         std::begin(kLengths)) +
+                            9;
   };
   Wire wire;
-  wire.put(0, 1);                // start of frame
+  wire.put(0, 1);  // start of frame
   wire.put(identifier, 11);
-  wire.put(0b00101, 5);          // RRS, IDE, FDF, res, BRS
-  wire.put(static_cast<std::uint32_t>(data_code(layout.fragment_bytes)), 5);   // ESI, DLC
+  wire.put(0b00101, 5);                                                       // RRS, IDE, FDF, res, BRS
+  wire.put(static_cast<std::uint32_t>(data_code(layout.fragment_bytes)), 5);  // ESI, DLC
   std::vector<bool> free(8 * fragment.size(), true);
   for (const schedules::Signal& signal : layout.header)
     for (const std::string_view fixed : {"sequence", "fragment", "count", "timestamp"})

@@ -28,7 +28,8 @@ struct Ages final : records::Sink {
   std::size_t uses_without_image = 0;
 
   void on(const records::ListFused& list) override {
-    if (list.disposition != records::Disposition::kFused && list.disposition != records::Disposition::kFusedLate) return;
+    if (list.disposition != records::Disposition::kFused && list.disposition != records::Disposition::kFusedLate)
+      return;
     fused[list.id.sensor].add(list.stamp.global - list.measured);
     measured_[list.id] = list.measured;
   }
@@ -37,7 +38,8 @@ struct Ages final : records::Sink {
   }
   void on(const records::FeatureUsed& use) override {
     const auto image = newest_.find(use.image_sequence);
-    if (image == newest_.end()) ++uses_without_image;
+    if (image == newest_.end())
+      ++uses_without_image;
     else
       for (const MeasurementId& id : image->second) used[id.sensor].add(use.stamp.global - measured_.at(id));
   }

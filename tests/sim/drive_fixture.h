@@ -22,8 +22,7 @@ struct Drive {
 
   Drive(const std::string& scenario_file, fusion::StrategyKind kind)
       : scenario(nodes::load_scenario(shipped(scenario_file))),
-        cluster(schedules::load_cluster(scenario.cluster_files[static_cast<std::size_t>(kind)])),
-        strategy(kind) {}
+        cluster(schedules::load_cluster(scenario.cluster_files[static_cast<std::size_t>(kind)])), strategy(kind) {}
 
   sim::DriveOutcome run(records::Sink& sink, std::uint64_t seed = 1, bool compares_clocks = true) const {
     return sim::run_drive({&scenario, &cluster, strategy, seed, 0, nullptr, nullptr, compares_clocks}, sink);

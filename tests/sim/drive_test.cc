@@ -64,7 +64,9 @@ TEST(Drive, ShippedDrivesHaveOutOfSequenceArrivalsAndTheStrategiesDiffer) {
       EXPECT_GT(summary.held, 0u);
       EXPECT_EQ(summary.fused_late, 0u);
     }
-    if (strategy == StrategyKind::kAdva) { EXPECT_EQ(summary.fused_late, summary.out_of_sequence); }
+    if (strategy == StrategyKind::kAdva) {
+      EXPECT_EQ(summary.fused_late, summary.out_of_sequence);
+    }
     EXPECT_EQ(summary.dropped, 0u);
     EXPECT_EQ(summary.missed, 0u);
   }
@@ -89,8 +91,8 @@ TEST(Drive, EveryListIsFusedExactlyOnce) {
   }
 }
 
-// What the feature service uses is the very image that was written under its sequence number, in every field, decoded from the
-// bus and not handed over.
+// What the feature service uses is the very image that was written under its sequence number, in every field, decoded
+// from the bus and not handed over.
 TEST(Drive, TheFeatureServiceUsesWhatTheBusCarried) {
   for (const StrategyKind strategy : kStrategies) {
     const Drive drive("scenarios/paper_scenario1.yaml", strategy);

@@ -1,4 +1,5 @@
-// Measurements whose lists travel in the dynamic segment: drives of the cluster that sends them there, against the bounds.
+// Measurements whose lists travel in the dynamic segment: drives of the cluster that sends them there, against the
+// bounds.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -69,7 +70,8 @@ TEST(DynamicAges, OneChannelMessageIdsAndKeySlotOnlyGoThroughADrive) {
     ASSERT_NE(at, std::string::npos) << from;
     text.replace(at, from.size(), to);
   };
-  change("\n  camera:\n    flexray: {", "\n  camera:\n    flexray: {pChannels: B, pWakeupChannel: B, pKeySlotOnlyEnabled: true, ");
+  change("\n  camera:\n    flexray: {",
+         "\n  camera:\n    flexray: {pChannels: B, pWakeupChannel: B, pKeySlotOnlyEnabled: true, ");
   change("slot: 6, channels: AB", "slot: 6, channels: B");
   change("slot: 23, channels: AB", "slot: 23, channels: A");
   change("pdu: laser_objects, fragments: 2", "pdu: laser_objects, fragments: 2, message_id: 7");

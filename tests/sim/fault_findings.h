@@ -40,7 +40,8 @@ struct Planned {
   Drive drive;
   std::optional<FaultReport> report;
 
-  explicit Planned(const char* scenario = "scenarios/paper_scenario1.yaml") : drive(scenario, fusion::StrategyKind::kTt) {}
+  explicit Planned(const char* scenario = "scenarios/paper_scenario1.yaml")
+      : drive(scenario, fusion::StrategyKind::kTt) {}
   nodes::Fault& add(FaultKind kind, const char* node, std::int64_t from_ms, std::int64_t duration_ms) {
     nodes::Fault& fault = drive.scenario.faults.faults.emplace_back();
     fault.kind = kind;

@@ -1,5 +1,5 @@
-// What a report of faults makes of the records of whole drives, against what was done to them. What is said of the faults is made
-// up: the report has nothing but that, and the records.
+// What a report of faults makes of the records of whole drives, against what was done to them. What is said of the
+// faults is made up: the report has nothing but that, and the records.
 #include "experiments/fault_report.h"
 
 #include <gtest/gtest.h>
@@ -43,8 +43,7 @@ struct Reported {
 
   explicit Reported(FaultKind kind, const char* node = nullptr)
       : cluster(schedules::load_cluster(testing_support::shipped("schedules/paper_synchronised.yaml"))),
-        report(cluster, plan(kind, node), true),
-        drive(StrategyKind::kTt, &report) {}
+        report(cluster, plan(kind, node), true), drive(StrategyKind::kTt, &report) {}
   nodes::FaultPlan plan(FaultKind kind, const char* node) const {
     nodes::FaultPlan plan;
     nodes::Fault& fault = plan.faults.emplace_back();
@@ -105,8 +104,8 @@ TEST(FaultReport, ASilentNodeIsMissedInEveryCycleAndHarmsNobody) {
   EXPECT_TRUE(run.unattributed().nothing());
 }
 
-// The feature service hears nothing of the gateway for 20 cycles: on one channel it is told, on both it is harmed. What is said to
-// have done it is something on the channel.
+// The feature service hears nothing of the gateway for 20 cycles: on one channel it is told, on both it is harmed. What
+// is said to have done it is something on the channel.
 TEST(FaultReport, AFrameLostOnBothChannelsIsHarmOnOneItIsNot) {
   for (const bool both : {false, true}) {
     Reported run(FaultKind::kTransient);
@@ -226,8 +225,8 @@ TEST(FaultReport, EveryNodeThatLeavesNormalActiveIsNamed) {
   EXPECT_NEAR(static_cast<double>(left[1].first.ns), 0.7e9, 50.0);
 }
 
-// H5: as records are when a controller sends nothing on B in a slot of its own and somebody else does, with a valid frame that
-// the others take for its: the record of what it sent there is missing, and nobody complains.
+// H5: as records are when a controller sends nothing on B in a slot of its own and somebody else does, with a valid
+// frame that the others take for its: the record of what it sent there is missing, and nobody complains.
 struct Forged final : records::Sink {
   using records::Sink::on;
   records::Sink* to = nullptr;

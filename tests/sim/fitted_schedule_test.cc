@@ -45,7 +45,8 @@ TEST(FittedSchedule, EveryUseFindsBothSensorsNewestListsAtTheSameAge) {
       const sim::DriveOutcome outcome = drive.run(tee, seed);
       ages.next_drive();
       EXPECT_EQ(outcome.counts.overruns + outcome.counts.overwritten_lists + outcome.counts.deadlines_missed +
-                    outcome.counts.discarded_lists, 0u);
+                    outcome.counts.discarded_lists,
+                0u);
       // Two lists each 34.4 ms: none is lost, none waits for another.
       EXPECT_GE(order.fused, 2u * 69u);
       EXPECT_EQ(order.behind, 0u);

@@ -1,5 +1,5 @@
-// Sensors that measure when their host has preprocessed the last measurement, and lists that are fused when they arrive:
-// drives of the clusters that have both, over CAN and over either segment of FlexRay.
+// Sensors that measure when their host has preprocessed the last measurement, and lists that are fused when they
+// arrive: drives of the clusters that have both, over CAN and over either segment of FlexRay.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,14 +18,14 @@ namespace ttf {
 namespace {
 
 using fusion::StrategyKind;
-using testing_support::Ages;
 using testing_support::AgeRange;
+using testing_support::Ages;
 using testing_support::Drive;
 
 struct Medium {
   const char* name;
   const char* file;
-  bool in_static_slots = false;   // and not where the file has them
+  bool in_static_slots = false;  // and not where the file has them
 };
 
 class FreeRunning : public testing::TestWithParam<Medium> {
@@ -100,7 +100,7 @@ constexpr Duration kCorrections = Duration::microseconds(25);
 
 struct Fates final : records::Sink {
   using records::Sink::on;
-  std::map<MeasurementId, int> taken;      // by the fusion: how often
+  std::map<MeasurementId, int> taken;  // by the fusion: how often
   void on(const records::FusionInput& in) override { ++taken[{in.sensor, in.sequence}]; }
 };
 
@@ -109,7 +109,7 @@ struct Responses final : records::Sink {
   using records::Sink::on;
   explicit Responses(NodeId which) : node(which) {}
   NodeId node;
-  std::map<std::uint8_t, Duration> longest, closest;   // from activation to end; between activations
+  std::map<std::uint8_t, Duration> longest, closest;  // from activation to end; between activations
   void on(const records::TaskRun& run) override {
     if (run.start.node != node) return;
     longest[run.task] = std::max(longest[run.task], run.end.global - run.activated.global);

@@ -1,4 +1,5 @@
-// Clusters on a star, with guardians or without, their start-up and what the nodes and guardians say; for tests of the guardian.
+// Clusters on a star, with guardians or without, their start-up and what the nodes and guardians say; for tests of the
+// guardian.
 #pragma once
 
 #include <algorithm>
@@ -29,8 +30,8 @@ inline schedules::Cluster star_cluster(int nodes, int coldstart, int sync, bool 
 // What a node's controller says: its state changes, and in which slots what it saw was wrong or missing.
 struct NodeLog final : bus::ControllerEvents {
   StateLog states;
-  std::map<int, std::uint64_t> problems;                         // by slot, 0: outside every slot
-  std::set<std::tuple<std::int64_t, int, schedules::Channel>> refused;   // cycle, slot
+  std::map<int, std::uint64_t> problems;                                // by slot, 0: outside every slot
+  std::set<std::tuple<std::int64_t, int, schedules::Channel>> refused;  // cycle, slot
   void state_changed(bus::PocKind from, const bus::PocStep& step, Microticks at) override {
     states.state_changed(from, step, at);
   }

@@ -1,6 +1,6 @@
-// A node whose dynamic frame breaks off, or whose clock jumps in the middle of one, in a star with guardians: all others, and
-// the guardians, go on counting alike to the end of the segment (bus/guardian.h G9). Node 0 is the faulty one; its frame is
-// the segment's first, and the others' come behind it.
+// A node whose dynamic frame breaks off, or whose clock jumps in the middle of one, in a star with guardians: all
+// others, and the guardians, go on counting alike to the end of the segment (bus/guardian.h G9). Node 0 is the faulty
+// one; its frame is the segment's first, and the others' come behind it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,10 +21,11 @@ using schedules::Channel;
 constexpr NodeId kBreaksOff{0};
 constexpr int kEndsNodes = 5, kFirstSlot = 65, kFirstSequence = 3;
 constexpr TrueTime kEndsBegin{1'000'000};
-constexpr Duration kLongFrame = Duration::microseconds(75);   // of node 0, and some more than it
-constexpr Duration kSegmentIsOver = Duration::microseconds(4900);   // in its cycle
+constexpr Duration kLongFrame = Duration::microseconds(75);        // of node 0, and some more than it
+constexpr Duration kSegmentIsOver = Duration::microseconds(4900);  // in its cycle
 
-// As schedules/flexray_demo.yaml has it: 0.6 us between the farthest, minislots of 7 us with their action point 3 us in.
+// As schedules/flexray_demo.yaml has it: 0.6 us between the farthest, minislots of 7 us with their action point 3 us
+// in.
 schedules::Cluster breaking_off_cluster() {
   schedules::Cluster cluster = star_cluster(kEndsNodes, 3, 4);
   schedules::GlobalParameters& g = cluster.flexray;
@@ -48,10 +49,11 @@ schedules::Cluster breaking_off_cluster() {
 
 // What one node received in dynamic slots.
 struct DynamicHeard final : bus::ControllerEvents {
-  using Frame = std::tuple<std::int64_t, int, Channel>;   // cycle, slot
-  std::map<Frame, Microticks> frames;                     // when it was over
+  using Frame = std::tuple<std::int64_t, int, Channel>;  // cycle, slot
+  std::map<Frame, Microticks> frames;                    // when it was over
   std::uint64_t problems = 0;
-  void frame_received(std::int64_t cycle, int slot, Channel channel, const wire::DecodedFrame&, Microticks at) override {
+  void frame_received(std::int64_t cycle, int slot, Channel channel, const wire::DecodedFrame&,
+                      Microticks at) override {
     if (slot >= kFirstSlot) frames[{cycle, slot, channel}] = at;
   }
   void slot_problem(std::int64_t, int, Channel, bus::SlotStatus, Microticks) override { ++problems; }
@@ -106,8 +108,8 @@ struct BreakingOff {
     for (int receiver = 1; receiver < kEndsNodes; ++receiver)
       for (int sender = 1; sender < kEndsNodes; ++sender)
         for (const Channel channel : kBothChannels)
-          ASSERT_TRUE(sender == receiver || heard[static_cast<std::size_t>(receiver)]->frames.contains(
-                                                {cycle, kFirstSlot + sender, channel}))
+          ASSERT_TRUE(sender == receiver ||
+                      heard[static_cast<std::size_t>(receiver)]->frames.contains({cycle, kFirstSlot + sender, channel}))
               << when << ": node " << receiver << " lacks node " << sender << "'s frame on "
               << (channel == Channel::kA ? "A" : "B");
   }
@@ -151,7 +153,7 @@ TEST(GuardianEnds, WhereverATrailingSequenceEndsAllGoOnCountingAlike) {
     RandomStream draw({n, 0, Purpose::kTest, 1, 0});
     BreakingOff run(n);
     Stretched stretched;
-    stretched.by = Duration{draw.integer(-6'500, 20'000)};   // the bits are whole; beyond what it may last
+    stretched.by = Duration{draw.integer(-6'500, 20'000)};  // the bits are whole; beyond what it may last
     run.whole_cycles(2);
     run.simulation->set_disturbance(&stretched);
     run.write_all();
@@ -164,7 +166,8 @@ TEST(GuardianEnds, WhereverATrailingSequenceEndsAllGoOnCountingAlike) {
       cut += run.coupler(channel).cut();
       // Longer or shorter, it is the frame that it was, unless it was cut.
       for (std::size_t receiver = 1; receiver < kEndsNodes; ++receiver)
-        ASSERT_EQ(run.heard[receiver]->frames.contains({run.cycle, kFirstSlot, channel}), run.coupler(channel).cut() == 0)
+        ASSERT_EQ(run.heard[receiver]->frames.contains({run.cycle, kFirstSlot, channel}),
+                  run.coupler(channel).cut() == 0)
             << "draw " << n << ", by " << stretched.by.ns << " ns";
     }
   }

@@ -1,5 +1,6 @@
-// A running cluster on a star, one node of it faulty: with guardians no other node notices more than that node's own slot; without
-// them the same fault does the harm that the guardian is for. Node 0 is the faulty one, in slot 1; node 4 is no sync node.
+// A running cluster on a star, one node of it faulty: with guardians no other node notices more than that node's own
+// slot; without them the same fault does the harm that the guardian is for. Node 0 is the faulty one, in slot 1; node 4
+// is no sync node.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -59,7 +60,8 @@ TEST(GuardianFaults, ABabblingIdiotIsHeardByNobody) {
   }
 }
 
-// Everything that start-up spoilers do, in a cluster that runs: a lone coldstart node that hears nothing, wake-up patterns, ...
+// Everything that start-up spoilers do, in a cluster that runs: a lone coldstart node that hears nothing, wake-up
+// patterns, ...
 TEST(GuardianFaults, NobodyStartsAClusterThatRuns) {
   for (const auto plan : StartSpoiler::kPlans)
     for (std::uint64_t seed = 0; seed < 5; ++seed) {
@@ -89,7 +91,7 @@ struct Masquerade final : Disturbance {
     wire::DecodedFrame frame = wire::decode_frame(signal.channel, signal.bytes);
     frame.header.frame_id = 2;
     size = wire::encode_frame(frame.header, signal.channel, frame.payload, forged);
-    const Duration earlier = Duration{43'000} - Duration{2'000};   // a slot, and two microseconds less
+    const Duration earlier = Duration{43'000} - Duration{2'000};  // a slot, and two microseconds less
     due = Leaving{kFaulty, signal.channel, Signal::kFrame, signal.start + earlier, signal.end + earlier, {}};
     signal.bytes = std::span(forged).first(size);
     return true;
@@ -165,8 +167,10 @@ TEST(GuardianFaults, AMarginalValueIsTheSameForAll) {
 
 TEST(GuardianFaults, ANodeWithAWrongScheduleKeepsToTheRightOne) {
   schedules::Cluster wrong = star_cluster(5, 3, 4);
-  for (const int slot : {2, 3, 30}) wrong.frames.push_back({slot, schedules::Channels::kAB, 0, 2, kFaulty, kNoPdu, 0, 0});
-  std::stable_sort(wrong.frames.begin(), wrong.frames.end(), [](const auto& a, const auto& b) { return a.slot < b.slot; });
+  for (const int slot : {2, 3, 30})
+    wrong.frames.push_back({slot, schedules::Channels::kAB, 0, 2, kFaulty, kNoPdu, 0, 0});
+  std::stable_sort(wrong.frames.begin(), wrong.frames.end(),
+                   [](const auto& a, const auto& b) { return a.slot < b.slot; });
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     Running with(true, seed, &wrong), without(false, seed, &wrong);
     with.cluster.run_cycles(40);
@@ -200,8 +204,8 @@ TEST(GuardianFaults, AClockThatRunsAwayTakesNobodyAlong) {
     }
 }
 
-// The worst that a sync node can do to clocks through couplers: another time on either channel, as far off as passes, the other
-// way round in every other cycle.
+// The worst that a sync node can do to clocks through couplers: another time on either channel, as far off as passes,
+// the other way round in every other cycle.
 TEST(GuardianFaults, AByzantineClockMovesNobodyBeyondThePrecision) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     Running run(true, seed);
@@ -249,8 +253,8 @@ TEST(GuardianFaults, AClusterStartsWithOneGuardianSilentOrOpen) {
     }
 }
 
-// Noise out of nothing on one channel, and then on both, for longer than the nodes stay active: afterwards everything is
-// as before, or starts again with the guardians.
+// Noise out of nothing on one channel, and then on both, for longer than the nodes stay active: afterwards everything
+// is as before, or starts again with the guardians.
 TEST(GuardianFaults, AGuardianOutlivesNoise) {
   struct Noise final : Disturbance {
     Plant& plant;
@@ -277,7 +281,7 @@ TEST(GuardianFaults, AGuardianOutlivesNoise) {
     Noise everywhere(run.simulation(), {Channel::kA, Channel::kB});
     run.suffer(everywhere, 30);
     EXPECT_NE(run.cluster.kind(4), PocKind::kNormalActive);
-    for (std::size_t n = 0; n < 5; ++n)   // the hosts
+    for (std::size_t n = 0; n < 5; ++n)  // the hosts
       run.simulation().power_on(static_cast<NodeId>(n), run.simulation().now() + Duration{1});
     run.cluster.run_cycles(40);
     EXPECT_TRUE(run.cluster.all_active()) << "seed " << seed;

@@ -1,4 +1,5 @@
-// A guardian that has lost its cluster begins anew as often as it must, allocates nothing for it, and is then as good as new.
+// A guardian that has lost its cluster begins anew as often as it must, allocates nothing for it, and is then as good
+// as new.
 #include <gtest/gtest.h>
 
 #include "tests/sim/guarded.h"

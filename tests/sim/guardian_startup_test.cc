@@ -1,5 +1,5 @@
-// Clusters start through the guardians, in the cycles of the specification, from any power-on delays, and whatever one coldstart
-// node does that has gone mad.
+// Clusters start through the guardians, in the cycles of the specification, from any power-on delays, and whatever one
+// coldstart node does that has gone mad.
 #include <gtest/gtest.h>
 
 #include "tests/sim/guarded.h"
@@ -49,7 +49,9 @@ TEST(GuardianStartup, OfNodesThatBeginTogetherOneLeads) {
   }
 }
 
-struct GuardedSize { int nodes, coldstart, sync, runs; };
+struct GuardedSize {
+  int nodes, coldstart, sync, runs;
+};
 class GuardedConformance : public testing::TestWithParam<GuardedSize> {};
 
 // The same window as without guardians (startup_conformance_test.cc): six of eight attempts of six cycles.
@@ -67,7 +69,8 @@ TEST_P(GuardedConformance, StartsFromAnyPowerOnDelaysWithinTheAttempts) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, GuardedConformance,
-                         testing::Values(GuardedSize{2, 2, 2, 1000}, GuardedSize{4, 3, 4, 1000}, GuardedSize{16, 4, 8, 200}, GuardedSize{64, 5, 15, 10}),
+                         testing::Values(GuardedSize{2, 2, 2, 1000}, GuardedSize{4, 3, 4, 1000},
+                                         GuardedSize{16, 4, 8, 200}, GuardedSize{64, 5, 15, 10}),
                          [](const auto& name) { return std::to_string(name.param.nodes) + "Nodes"; });
 
 TEST(GuardianStartup, ARestartedNodeIntegratesAgain) {
@@ -83,7 +86,8 @@ TEST(GuardianStartup, ARestartedNodeIntegratesAgain) {
   }
 }
 
-// Everybody loses the supply, and with the cluster the guardians lose their schedule: they must not keep it against the next start.
+// Everybody loses the supply, and with the cluster the guardians lose their schedule: they must not keep it against the
+// next start.
 TEST(GuardianStartup, AClusterThatWentDownStartsAgain) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     Guarded started(star_cluster(5, 3, 4), seed, Duration::milliseconds(9));
@@ -118,7 +122,7 @@ TEST(GuardianStartup, AGuardianThatComesLateJoinsTheRunningCluster) {
 
 // ---- one coldstart node that does what it likes
 
-constexpr Duration kPoweredOnWithin = Duration::milliseconds(20);   // four cycles
+constexpr Duration kPoweredOnWithin = Duration::milliseconds(20);  // four cycles
 
 // Cycles until all fault-free nodes are active, `most` if they are not by then.
 struct Spoiled {
@@ -144,13 +148,13 @@ struct Spoiled {
 class SpoiledStart : public testing::TestWithParam<StartSpoiler::Plan> {};
 
 TEST_P(SpoiledStart, TwoFaultFreeColdstartNodesStartTheClusterAllTheSame) {
-  constexpr int kMost = 40;   // cycles; without anybody mad it takes 15
+  constexpr int kMost = 40;  // cycles; without anybody mad it takes 15
   for (const int good : {2, 3})
     for (std::uint64_t seed = 0; seed < 100; ++seed) {
       Spoiled spoiled(good, true, GetParam(), seed);
       ASSERT_LT(spoiled.start(kMost), kMost) << good << " coldstart nodes, seed " << seed;
       // And once started, it stays so.
-      spoiled.started.run_cycles(10);   // the second guardian
+      spoiled.started.run_cycles(10);  // the second guardian
       spoiled.started.forget();
       spoiled.started.run_cycles(30);
       EXPECT_TRUE(spoiled.started.none_left_active(1)) << good << " coldstart nodes, seed " << seed;

@@ -16,8 +16,8 @@ inline bool same(const records::Stamp& a, const records::Stamp& b) {
 
 // Every field by name: one that is added later does not compile until it is compared, too.
 inline auto bits(const records::ImageObject& object) {
-  const auto& [track, x, y, heading, speed, acceleration, length, width, sigma_x, sigma_y, correlation_xy, sigma_heading,
-               sigma_speed, sigma_acceleration, sigma_length, sigma_width, status] = object;
+  const auto& [track, x, y, heading, speed, acceleration, length, width, sigma_x, sigma_y, correlation_xy,
+               sigma_heading, sigma_speed, sigma_acceleration, sigma_length, sigma_width, status] = object;
   std::vector<std::uint64_t> all{index_of(track), status};
   for (const double value : {x, y, heading, speed, acceleration, length, width, sigma_x, sigma_y, correlation_xy,
                              sigma_heading, sigma_speed, sigma_acceleration, sigma_length, sigma_width})
@@ -65,7 +65,7 @@ struct Images final : records::Sink {
     bool fresh = false;
     std::vector<records::ImageObject> objects;
   };
-  std::map<std::uint32_t, ImageCopy> written;   // by sequence
+  std::map<std::uint32_t, ImageCopy> written;  // by sequence
   std::vector<Use> used;
 
   void on(const records::ImageWritten& image) override { written[image.sequence] = ImageCopy(image); }

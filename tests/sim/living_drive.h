@@ -25,7 +25,7 @@ struct SeenImage {
   GlobalTime valid_at{}, newest_measurement{};
   std::vector<MeasurementId> newest;
   std::vector<records::ImageObject> objects;
-  std::vector<double> traces;   // of the objects' covariances, in their order
+  std::vector<double> traces;  // of the objects' covariances, in their order
   bool shows(SensorId sensor, std::uint32_t sequence_number) const {
     return std::find(newest.begin(), newest.end(), MeasurementId{sensor, sequence_number}) != newest.end();
   }
@@ -56,8 +56,12 @@ struct LivingRecords final : records::Sink {
     for (std::size_t k = 0; k < 6; ++k) trace += track.covariance[7 * k];
   }
   void on(const records::ImageWritten& image) override {
-    images.push_back({image.stamp.true_time, image.sequence, image.valid_at, image.newest_measurement,
-                      {image.newest.begin(), image.newest.end()}, {image.objects.begin(), image.objects.end()},
+    images.push_back({image.stamp.true_time,
+                      image.sequence,
+                      image.valid_at,
+                      image.newest_measurement,
+                      {image.newest.begin(), image.newest.end()},
+                      {image.objects.begin(), image.objects.end()},
                       std::move(traces_)});
     traces_.clear();
   }
@@ -81,8 +85,8 @@ struct LivingDrive {
   std::unique_ptr<sim::ClusterSimulation> simulation;
 
   explicit LivingDrive(fusion::StrategyKind strategy, records::Sink* also = nullptr, std::uint64_t seed = 1)
-      : drive("scenarios/paper_scenario1.yaml", strategy), tee_(also ? std::vector<records::Sink*>{&seen, also}
-                                                                     : std::vector<records::Sink*>{&seen}) {
+      : drive("scenarios/paper_scenario1.yaml", strategy),
+        tee_(also ? std::vector<records::Sink*>{&seen, also} : std::vector<records::Sink*>{&seen}) {
     scene = std::make_shared<nodes::WorldScene>(drive.scenario.world, seed, 0, sim::kFirstCycle);
     nodes = {&drive.scenario, &drive.cluster, strategy, seed, 0, scene, nullptr};
     sim::SimulationConfig config;
@@ -96,9 +100,7 @@ struct LivingDrive {
     simulation->run_until(at_s(at));
     simulation->power_off(*drive.cluster.find_node(node));
   }
-  void on(const std::string& node, double at) {
-    simulation->power_on(*drive.cluster.find_node(node), at_s(at));
-  }
+  void on(const std::string& node, double at) { simulation->power_on(*drive.cluster.find_node(node), at_s(at)); }
   void run_to(double at) { simulation->run_until(at_s(at)); }
 
  private:

@@ -1,5 +1,5 @@
-// Sensors, hosts and the gateway die, for good or for a while: the fusion goes on with what there is, the ages are those of
-// the measurements, and what nobody sees any more coasts and ends by the rule.
+// Sensors, hosts and the gateway die, for good or for a while: the fusion goes on with what there is, the ages are
+// those of the measurements, and what nobody sees any more coasts and ends by the rule.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -23,27 +23,29 @@ class Living : public testing::TestWithParam<StrategyKind> {};
 INSTANTIATE_TEST_SUITE_P(All, Living, testing::ValuesIn(testing_support::kStrategies),
                          [](const auto& kind) { return std::string(nodes::name_of(kind.param)); });
 
-// No list fused twice, none but of what was measured, none older than the schedule says: BUFF and TT may wait for what never
-// comes, ADVA waits for nobody. `besides`: how long a list may have waited in a node that was starting up.
+// No list fused twice, none but of what was measured, none older than the schedule says: BUFF and TT may wait for what
+// never comes, ADVA waits for nobody. `besides`: how long a list may have waited in a node that was starting up.
 void expect_nothing_invented(const LivingDrive& drive, Duration besides = {}) {
   std::map<SensorId, Duration> most;
   for (const schedules::AgePath& path : schedules::measurement_ages(drive.drive.cluster))
-    most[path.sensor] =
-        drive.drive.strategy == StrategyKind::kAdva ? path.fused_worst : path.buffered_fused_worst;
+    most[path.sensor] = drive.drive.strategy == StrategyKind::kAdva ? path.fused_worst : path.buffered_fused_worst;
   std::map<MeasurementId, std::vector<TrueTime>> measured;
   for (const auto& [id, at] : drive.seen.measured) measured[id].push_back(at);
   std::set<std::pair<MeasurementId, GlobalTime>> once;
   for (const FusedList& list : drive.seen.fused) {
-    ASSERT_TRUE(list.disposition == records::Disposition::kFused || list.disposition == records::Disposition::kFusedLate);
+    ASSERT_TRUE(list.disposition == records::Disposition::kFused ||
+                list.disposition == records::Disposition::kFusedLate);
     ASSERT_TRUE(once.emplace(list.id, list.measured).second) << "twice";
     ASSERT_LE(list.fused - list.measured, most[list.id.sensor] + besides) << "sensor " << index_of(list.id.sensor);
     // The age is true: the device measured as long ago, on any clock, give or take clocks and stamps.
     const Duration age = list.fused - list.measured;
     const auto& instants = measured[list.id];
-    ASSERT_TRUE(std::any_of(instants.begin(), instants.end(), [&](TrueTime at) {
-      const Duration off = (list.at - at) - age;
-      return off < Duration::microseconds(300) && -off < Duration::microseconds(300);
-    })) << "sensor " << index_of(list.id.sensor) << " list " << list.id.sequence;
+    ASSERT_TRUE(std::any_of(instants.begin(), instants.end(),
+                            [&](TrueTime at) {
+                              const Duration off = (list.at - at) - age;
+                              return off < Duration::microseconds(300) && -off < Duration::microseconds(300);
+                            }))
+        << "sensor " << index_of(list.id.sensor) << " list " << list.id.sequence;
   }
   for (const SeenImage& image : drive.seen.images) {
     std::set<TrackId> names;
@@ -185,9 +187,8 @@ TEST_P(Living, AFusionNodeThatRestartsBeginsWithNothingAndIsBelievedAgain) {
   drive.on("fusion", 1.9);
   drive.run_to(4.0);
   expect_nothing_invented(drive);
-  EXPECT_FALSE(std::any_of(drive.seen.images.begin(), drive.seen.images.end(), [](const SeenImage& image) {
-    return image.at > at_s(1.51) && image.at < at_s(1.9);
-  }));
+  EXPECT_FALSE(std::any_of(drive.seen.images.begin(), drive.seen.images.end(),
+                           [](const SeenImage& image) { return image.at > at_s(1.51) && image.at < at_s(1.9); }));
   int stale = 0, again = 0;
   for (const SeenUse& use : drive.seen.uses) {
     EXPECT_TRUE(use.stale || use.at < at_s(1.7) || use.at > at_s(1.9)) << use.at.ns;
@@ -201,8 +202,8 @@ TEST_P(Living, AFusionNodeThatRestartsBeginsWithNothingAndIsBelievedAgain) {
   EXPECT_GT(again, 30);
 }
 
-// The gateway goes on sending the last list of a laser that is dead. For a fusion node that starts anew it is the first it hears,
-// of an age it cannot know: whole rounds of the cycle counter look alike.
+// The gateway goes on sending the last list of a laser that is dead. For a fusion node that starts anew it is the first
+// it hears, of an age it cannot know: whole rounds of the cycle counter look alike.
 TEST_P(Living, AFusionNodeThatRestartsTakesNoOldListForANewOne) {
   for (const char* dead : {"laser", "camera"}) {
     LivingDrive drive(GetParam());

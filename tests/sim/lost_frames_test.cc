@@ -1,5 +1,5 @@
-// Lists get lost on FlexRay, whole or in part: what is fused is what was sent, and the images are those of a fusion node that
-// was never sent the others.
+// Lists get lost on FlexRay, whole or in part: what is fused is what was sent, and the images are those of a fusion
+// node that was never sent the others.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -18,7 +18,8 @@ namespace {
 using fusion::StrategyKind;
 using testing_support::LivingDrive;
 
-// Keeps frames of observation lists from the bus: a share of the lists altogether, and of the others a share of the frames.
+// Keeps frames of observation lists from the bus: a share of the lists altogether, and of the others a share of the
+// frames.
 class Losses final : public sim::Disturbance {
  public:
   Losses(const schedules::Cluster& cluster, std::uint64_t seed) : cluster_(cluster), seed_(seed) {}
@@ -67,7 +68,8 @@ struct Everything final : records::Sink {
 class Beside final : public records::Sink {
  public:
   Beside(const schedules::Cluster& cluster, const fusion::TrackerConfig& tracker, StrategyKind kind, const Lists& sent)
-      : cluster_(cluster), strategy_(fusion::make_strategy(kind, tracker, nodes::sensor_timings(cluster))), sent_(sent) {}
+      : cluster_(cluster), strategy_(fusion::make_strategy(kind, tracker, nodes::sensor_timings(cluster))),
+        sent_(sent) {}
 
   std::set<MeasurementId> arrived;
   std::size_t compared = 0;

@@ -13,7 +13,7 @@ namespace {
 
 using records::Hop;
 
-struct Seen {   // a hop with its list
+struct Seen {  // a hop with its list
   Hop hop;
   std::uint32_t sequence;
   bool operator==(const Seen&) const = default;
@@ -45,7 +45,11 @@ struct Host {
   NoLines lines;
   NoCan port;
   Executive executive{{&cluster, NodeId{1}, timebase::Oscillator(25'000, 0, 0), {}, 0, 0, {}},
-                      {std::make_shared<Idle>()}, nullptr, {&port}, lines, hops};
+                      {std::make_shared<Idle>()},
+                      nullptr,
+                      {&port},
+                      lines,
+                      hops};
   Microticks now{0};
 
   static schedules::Cluster made() {

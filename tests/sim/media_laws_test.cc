@@ -35,7 +35,8 @@ class SimulatedFlexRayBench final : public SimulatedFlexRay {
   SimulatedFlexRayBench() : SimulatedFlexRay(on_flexray()) {}
 };
 
-// Node 1 is on no CAN. The schedule knows two of the identifiers; frames too short for their PDU are delivered all the same.
+// Node 1 is on no CAN. The schedule knows two of the identifiers; frames too short for their PDU are delivered all the
+// same.
 schedules::Cluster on_can(bool flexible_data_rate) {
   schedules::Cluster cluster;
   cluster.nodes.resize(kNodes + 1);
@@ -51,8 +52,8 @@ schedules::Cluster on_can(bool flexible_data_rate) {
   return cluster;
 }
 
-// What the medium reports agrees with what it does: frames one after the other, each as long as it takes. What a frame is
-// of, its sender says (nodes/executive.h).
+// What the medium reports agrees with what it does: frames one after the other, each as long as it takes. What a frame
+// is of, its sender says (nodes/executive.h).
 struct Reported final : records::Sink {
   using records::Sink::on;
   std::size_t frames = 0;
@@ -68,8 +69,7 @@ struct Reported final : records::Sink {
   }
 };
 
-template <bool kFlexibleDataRate>
-class SimulatedCanBench final : public CanBench {
+template <bool kFlexibleDataRate> class SimulatedCanBench final : public CanBench {
  public:
   SimulatedCanBench() {
     for (std::size_t c = 0; c < kNodes; ++c) ports_.push_back(std::make_unique<Port>(*this, c));
@@ -108,8 +108,10 @@ class SimulatedCanBench final : public CanBench {
     const auto member = std::find(std::begin(kMembers), std::end(kMembers), static_cast<NodeId>(event.node));
     ASSERT_NE(member, std::end(kMembers));
     const auto bytes = pool_.bytes(event.frame);
-    reached_.push_back({static_cast<std::size_t>(member - std::begin(kMembers)), event.identifier,
-                        event.flexible_data_rate, {bytes.begin(), bytes.end()}});
+    reached_.push_back({static_cast<std::size_t>(member - std::begin(kMembers)),
+                        event.identifier,
+                        event.flexible_data_rate,
+                        {bytes.begin(), bytes.end()}});
     pool_.release(event.frame);
   }
 

@@ -17,7 +17,7 @@ struct TwoObjects final : nodes::Scene {
 };
 
 struct Truths final : records::Sink {
-  std::vector<std::tuple<std::int64_t, NodeId, ObjectId, std::int64_t>> seen;   // true time, node, object, local time
+  std::vector<std::tuple<std::int64_t, NodeId, ObjectId, std::int64_t>> seen;  // true time, node, object, local time
   using records::Sink::on;
   void on(const records::TruthState& r) override { seen.emplace_back(r.at.ns, r.node, r.object, r.local.ns); }
 };

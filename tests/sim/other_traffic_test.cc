@@ -18,7 +18,7 @@ using fusion::StrategyKind;
 using testing_support::Ages;
 using testing_support::Drive;
 
-constexpr std::size_t kObservationCan = 2;   // the third of the file's
+constexpr std::size_t kObservationCan = 2;  // the third of the file's
 
 Drive with_other_load(const std::string& load) {
   Drive drive("scenarios/paper_scenario1.yaml", StrategyKind::kAdva);

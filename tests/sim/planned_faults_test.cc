@@ -31,14 +31,15 @@ TEST(FaultReport, ATransientOnBothChannelsHarmsOnOneItDoesNot) {
     EXPECT_GE(fault.acts, 4u);
     EXPECT_GE(others(fault, Check::kSyntax).cycles, 3u);
     EXPECT_LE(others(fault, Check::kSyntax).cycles, 5u);
-    EXPECT_EQ(harmed_nodes(fault, Harm::kFrameLost), both ? run.on_flexray() : std::set<NodeId>()) << "every one is named";
+    EXPECT_EQ(harmed_nodes(fault, Harm::kFrameLost), both ? run.on_flexray() : std::set<NodeId>())
+        << "every one is named";
     EXPECT_EQ(found.harmed(), both);
     EXPECT_TRUE(found.unattributed.nothing());
   }
 }
 
-// The clocks run free for twenty cycles, too long to come together again. What comes of it is the transient's for as long as a
-// controller puts up with missing sync frames; later nobody can say any more.
+// The clocks run free for twenty cycles, too long to come together again. What comes of it is the transient's for as
+// long as a controller puts up with missing sync frames; later nobody can say any more.
 TEST(FaultReport, WhatALongTransientLeavesBehindIsItsOwnForAWhile) {
   Planned run;
   run.add(FaultKind::kTransient, "", 1'000, 100);
@@ -60,8 +61,9 @@ TEST(FaultReport, ACrashOfOneHarmsNoOther) {
   EXPECT_EQ(*fault.ends - fault.begins, Duration::milliseconds(500));
   EXPECT_GE(others(fault, Check::kNoFrame).cycles, 100u);
   EXPECT_FALSE(found.harmed());
-  EXPECT_TRUE(std::any_of(fault.states.begin(), fault.states.end(), [](const auto& state) { return state.to == "normal active"; }))
-      << "it came back";
+  EXPECT_TRUE(std::any_of(fault.states.begin(), fault.states.end(), [](const auto& state) {
+    return state.to == "normal active";
+  })) << "it came back";
   EXPECT_TRUE(found.unattributed.nothing());
 }
 
@@ -158,7 +160,8 @@ TEST(FaultReport, OfSeveralFaultsEachIsToldItsOwn) {
   EXPECT_TRUE(found.unattributed.nothing());
 }
 
-// Two faults of one node, in slots that follow one another: a frame that does not leave is silence, one with inverted bits is not.
+// Two faults of one node, in slots that follow one another: a frame that does not leave is silence, one with inverted
+// bits is not.
 TEST(FaultReport, OfTwoFaultsOfOneNodeEachIsToldItsOwn) {
   Planned run;
   run.add(FaultKind::kOmission, "gateway", 1'000, 0).probability = 0.1;

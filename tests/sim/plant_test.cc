@@ -16,13 +16,13 @@ namespace {
 using bus::PocKind;
 
 constexpr std::int64_t kCycle_ns = 5'000'000;
-constexpr TrueTime kSlotOne{1'000'000 + 7'000};   // cycle 0's action point of slot 1, about
+constexpr TrueTime kSlotOne{1'000'000 + 7'000};  // cycle 0's action point of slot 1, about
 
 // Counts by slot what a controller saw wrong.
 struct Problems final : bus::ControllerEvents {
   std::array<int, 65> syntax{}, content{}, missing{};
   void slot_problem(std::int64_t, int slot, schedules::Channel, bus::SlotStatus status, Microticks) override {
-    if (slot > 64) return;   // dynamic
+    if (slot > 64) return;  // dynamic
     const auto s = static_cast<std::size_t>(slot);
     syntax[s] += (status & bus::kSyntaxError) != 0;
     content[s] += (status & bus::kContentError) != 0;
@@ -71,7 +71,8 @@ TEST(Plant, NodesMayBeginIntegrated) {
   }
 }
 
-// In the middle of its frame the sender loses its supply: the others hear what they cannot make out, and nothing from then on.
+// In the middle of its frame the sender loses its supply: the others hear what they cannot make out, and nothing from
+// then on.
 TEST(Plant, WhatANodeWithoutSupplyWasSendingIsCutOff) {
   Plant4 plant(1);
   const std::int64_t cycle = 10;
@@ -125,7 +126,7 @@ TEST(Plant, WhoIsPoweredOnInTheMiddleOfAFrameHearsNone) {
 
 TEST(Plant, ADriftThatTheCorrectionReachesDoesNoHarm) {
   Plant4 plant(3);
-  for (int step = 1; step <= 12; ++step) {   // to and fro, within +-1500 ppm
+  for (int step = 1; step <= 12; ++step) {  // to and fro, within +-1500 ppm
     plant.run_to(Duration{step * 20 * kCycle_ns});
     plant.simulation->change_drift(NodeId{0}, (step % 2 == 0 ? 1 : -1) * 700'000);
   }
@@ -155,7 +156,7 @@ TEST(Plant, AHostCommandsItsController) {
     plant.simulation->controller(node).command(what, plant.simulation->oscillator(node).ticks_at(now));
   };
   command(NodeId{3}, bus::PocEventKind::kHalt);
-  EXPECT_EQ(plant.kind(3), PocKind::kNormalActive);   // at the end of the cycle
+  EXPECT_EQ(plant.kind(3), PocKind::kNormalActive);  // at the end of the cycle
   command(NodeId{2}, bus::PocEventKind::kFreeze);
   EXPECT_EQ(plant.kind(2), PocKind::kHalt);
   plant.run_to(Duration{22 * kCycle_ns});
@@ -190,8 +191,12 @@ class Tormentor final : public Disturbance {
       case 2: plant_.change_drift(node, draw_.integer(-3'000'000, 3'000'000)); break;
       case 3: {
         const TrueTime start = now + Duration{draw_.integer(0, 1'000)};
-        plant_.emit({node, draw_.integer(0, 1) == 0 ? schedules::Channel::kA : schedules::Channel::kB,
-                     static_cast<bus::Signal>(draw_.integer(1, 3)), start, start + Duration{draw_.integer(1, 200'000)}, {}},
+        plant_.emit({node,
+                     draw_.integer(0, 1) == 0 ? schedules::Channel::kA : schedules::Channel::kB,
+                     static_cast<bus::Signal>(draw_.integer(1, 3)),
+                     start,
+                     start + Duration{draw_.integer(1, 200'000)},
+                     {}},
                     std::nullopt);
         break;
       }

@@ -31,7 +31,7 @@ struct FusionRecords final : records::Sink {
     std::vector<double> numbers;
   };
   std::vector<ImageCopy> images;
-  std::vector<Prediction> predictions;   // since the last image
+  std::vector<Prediction> predictions;  // since the last image
 
   void on(const records::TrackState& track) override {
     if (!track.predicted_for_image) return;
@@ -59,7 +59,7 @@ struct HandDrivenTask {
   std::shared_ptr<nodes::Step> step;
   std::vector<nodes::Input> inputs;
   std::vector<nodes::Output> outputs;
-  std::map<PduId, std::vector<std::byte>> held;   // the bytes behind the inputs
+  std::map<PduId, std::vector<std::byte>> held;  // the bytes behind the inputs
 
   void run(const records::Stamp& stamp, records::Sink& sink) {
     nodes::StepContext context;
@@ -79,7 +79,8 @@ class FusionReplay final : public records::Sink {
 
   explicit FusionReplay(const Drive& drive) : cluster_(drive.cluster) {
     const NodeId node = *cluster_.find_node("fusion");
-    const auto steps = nodes::make_steps({&drive.scenario, &drive.cluster, drive.strategy, 0, 0, nullptr, nullptr}, node);
+    const auto steps =
+        nodes::make_steps({&drive.scenario, &drive.cluster, drive.strategy, 0, 0, nullptr, nullptr}, node);
     for (std::size_t t = 0; t < steps.size(); ++t) {
       const schedules::Task& task = cluster_.node(node).tasks[t];
       HandDrivenTask& mine = task.step == "fusion" ? fusion_ : image_output_;

@@ -42,7 +42,7 @@ struct Cluster {
   std::shared_ptr<nodes::WorldScene> scene;
   nodes::NodeSetConfig nodes;
   sim::SimulationConfig config;
-  int made = 0;                          // sets of steps
+  int made = 0;  // sets of steps
 
   explicit Cluster(StrategyKind strategy) : drive("scenarios/paper_scenario1.yaml", strategy) {
     scene = std::make_shared<nodes::WorldScene>(drive.scenario.world, 1, 0, sim::kFirstCycle);
@@ -56,7 +56,8 @@ struct Cluster {
 
 TrueTime seconds(double s) { return TrueTime{static_cast<std::int64_t>(s * 1e9)}; }
 
-// Away for longer than a round of the cycle counter: it comes back with another cycle number, and the precision is measured on.
+// Away for longer than a round of the cycle counter: it comes back with another cycle number, and the precision is
+// measured on.
 TEST(Restart, TheFusionNodeComesBackWithNothing) {
   for (const StrategyKind strategy : testing_support::kStrategies) {
     Cluster cluster(strategy);
@@ -91,7 +92,8 @@ TEST(Restart, AColdStartedClusterFuses) {
     Cluster cluster(strategy);
     RandomStream draw({7, 0, Purpose::kTest, 0, 0});
     std::vector<TrueTime> at;
-    for (std::size_t n = 0; n < cluster.drive.cluster.nodes.size(); ++n) at.push_back(TrueTime{draw.integer(0, 100'000'000)});
+    for (std::size_t n = 0; n < cluster.drive.cluster.nodes.size(); ++n)
+      at.push_back(TrueTime{draw.integer(0, 100'000'000)});
     cluster.config.power_on = [&](NodeId node) { return std::optional(at[index_of(node)]); };
     Seen seen;
     sim::ClusterSimulation simulation(cluster.config, seen);
@@ -150,7 +152,8 @@ std::uint64_t story(StrategyKind strategy, std::uint64_t seed, Duration blackout
 TEST(Restart, AClusterSurvivesBlackoutsAndIsAFunctionOfItsSeed) {
   for (const StrategyKind strategy : testing_support::kStrategies)
     for (std::uint64_t seed = 0; seed < 3; ++seed)
-      EXPECT_EQ(story(strategy, seed, Duration::milliseconds(6'000)), story(strategy, seed, Duration::milliseconds(6'000)));
+      EXPECT_EQ(story(strategy, seed, Duration::milliseconds(6'000)),
+                story(strategy, seed, Duration::milliseconds(6'000)));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// The simulated FlexRay for the laws of its port (tests/laws/flexray_port_laws.h): every FlexRay node of a cluster is one of the
-// laws' controllers, in file order.
+// The simulated FlexRay for the laws of its port (tests/laws/flexray_port_laws.h): every FlexRay node of a cluster is
+// one of the laws' controllers, in file order.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -33,8 +33,12 @@ class SimulatedFlexRay : public FlexRayBench {
       ASSERT_EQ(event.kind, sim::MediumEvent::Kind::kFlexRayArrival);
       const auto arrival = medium_.arrive(event, now_);
       if (!arrival) continue;
-      Reached reached{controller_of(static_cast<NodeId>(event.node)), arrival->channel, arrival->signal,
-                      clock_.ticks_at(arrival->start), clock_.ticks_at(arrival->end), {}};
+      Reached reached{controller_of(static_cast<NodeId>(event.node)),
+                      arrival->channel,
+                      arrival->signal,
+                      clock_.ticks_at(arrival->start),
+                      clock_.ticks_at(arrival->end),
+                      {}};
       if (arrival->signal == bus::Signal::kFrame) {
         const auto bytes = pool_.bytes(arrival->frame);
         reached.bytes.assign(bytes.begin(), bytes.end());
@@ -65,7 +69,7 @@ class SimulatedFlexRay : public FlexRayBench {
   static constexpr std::size_t kRoom = 4096;
 
   schedules::Cluster cluster_;
-  std::vector<NodeId> nodes_;                    // by controller
+  std::vector<NodeId> nodes_;  // by controller
   timebase::Oscillator clock_{25'000, 0, 0};
   TrueTime now_{};
   sim::MediumQueue queue_{kRoom};

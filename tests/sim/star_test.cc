@@ -1,5 +1,5 @@
-// The simulated star: its delays, and what a coupler in its middle hears and decides. The laws of a FlexRay port hold for it
-// with a coupler that forwards everything.
+// The simulated star: its delays, and what a coupler in its middle hears and decides. The laws of a FlexRay port hold
+// for it with a coupler that forwards everything.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -43,7 +43,8 @@ struct TestCoupler final : sim::Coupler {
 class StarBench final : public SimulatedFlexRay {
  public:
   StarBench() : SimulatedFlexRay(star(2'000'000, 2'000'000)) {
-    for (const Channel channel : {Channel::kA, Channel::kB}) medium().set_coupler(channel, &couplers_[index_of(channel)]);
+    for (const Channel channel : {Channel::kA, Channel::kB})
+      medium().set_coupler(channel, &couplers_[index_of(channel)]);
   }
 
  private:
@@ -67,7 +68,11 @@ struct Bench {
   FramePool pool{64};
   FlexRayMedium medium{cluster, queue, pool};
   laws::TestCoupler coupler;
-  struct Reached { std::size_t node; Signal signal; TrueTime start, end; };
+  struct Reached {
+    std::size_t node;
+    Signal signal;
+    TrueTime start, end;
+  };
 
   Bench() { medium.set_coupler(Channel::kA, &coupler); }
   void send(std::size_t node, Signal signal, TrueTime start, TrueTime end) {
@@ -190,7 +195,7 @@ TEST(Star, ADisturbanceIsAskedOnTheWayToTheCouplerAndOnTheWayFromIt) {
   bench.medium.set_disturbance(&marginal);
   bench.send(1, Signal::kCas, TrueTime{50'000}, TrueTime{54'000});
   ASSERT_FALSE(bench.queue.empty());
-  EXPECT_GE(bench.queue.next().time, TrueTime{50'000});   // never in the past
+  EXPECT_GE(bench.queue.next().time, TrueTime{50'000});  // never in the past
   EXPECT_EQ(bench.run().size(), laws::kNodes - 1);
   EXPECT_EQ(marginal.to_coupler, 1);
   EXPECT_EQ(marginal.from_coupler, static_cast<int>(laws::kNodes - 1));

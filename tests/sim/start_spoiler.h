@@ -1,5 +1,5 @@
-// A coldstart node gone mad during start-up: it sends what might keep the others from starting, on its own branch. Node 0 has no
-// supply; what leaves in its name is made here.
+// A coldstart node gone mad during start-up: it sends what might keep the others from starting, on its own branch. Node
+// 0 has no supply; what leaves in its name is made here.
 #pragma once
 
 #include <algorithm>
@@ -29,9 +29,9 @@ class StartSpoiler final : public Disturbance {
     kOneOfTwo,       // every other attempt is led as it should be, in between one ends early
     kAnything,
   };
-  static constexpr std::array kPlans = {Plan::kBabble,     Plan::kSymbols,  Plan::kFalseLeader, Plan::kEvenCycles, Plan::kMasquerade,
-                                        Plan::kReactive,   Plan::kSplit,    Plan::kWakeup,      Plan::kNoSilentCycle,
-                                        Plan::kFromTheMiddle, Plan::kOneOfTwo, Plan::kAnything};
+  static constexpr std::array kPlans = {
+      Plan::kBabble, Plan::kSymbols, Plan::kFalseLeader,   Plan::kEvenCycles,    Plan::kMasquerade, Plan::kReactive,
+      Plan::kSplit,  Plan::kWakeup,  Plan::kNoSilentCycle, Plan::kFromTheMiddle, Plan::kOneOfTwo,   Plan::kAnything};
 
   StartSpoiler(BusSimulation& simulation, const schedules::Cluster& cluster, Plan plan, std::uint64_t seed)
       : simulation_(simulation), cluster_(cluster), plan_(plan), draw_({seed, 0, Purpose::kTest, 7, 0}) {
@@ -95,8 +95,7 @@ class StartSpoiler final : public Disturbance {
   static constexpr std::int64_t kCycle = 5'000'000;
   static constexpr int kPause = -2;
 
-  template <class Act>
-  void both_or_one(Act act) {
+  template <class Act> void both_or_one(Act act) {
     const auto which = draw_.integer(0, 3);
     if (which != 2) act(schedules::Channel::kA);
     if (which != 3) act(schedules::Channel::kB);
@@ -118,12 +117,14 @@ class StartSpoiler final : public Disturbance {
     simulation_.emit({kSelf, channel, bus::Signal::kFrame, at, at + length, std::span(bytes).first(size)}, kSelf);
   }
   void babble(TrueTime now) {
-    for (const auto channel : {schedules::Channel::kA, schedules::Channel::kB})
-      switch (draw_.integer(0, 3)) {
+    for (const auto channel : {schedules::Channel::kA, schedules::Channel::kB}) switch (draw_.integer(0, 3)) {
         case 0: symbol(bus::Signal::kUndecodable, channel, now, draw_.integer(1'000, 20'000)); break;
         case 1: symbol(bus::Signal::kCas, channel, now, draw_.integer(3'000, 20'000)); break;
-        case 2: frame(channel, now, static_cast<int>(draw_.integer(1, 5)), static_cast<int>(draw_.integer(0, 63))); break;
-        default: frame(channel, now, static_cast<int>(draw_.integer(1, 5)), static_cast<int>(draw_.integer(0, 63)), false);
+        case 2:
+          frame(channel, now, static_cast<int>(draw_.integer(1, 5)), static_cast<int>(draw_.integer(0, 63)));
+          break;
+        default:
+          frame(channel, now, static_cast<int>(draw_.integer(1, 5)), static_cast<int>(draw_.integer(0, 63)), false);
       }
     next_ = now + Duration{draw_.integer(1'000, 15'000)};
   }
@@ -151,8 +152,7 @@ class StartSpoiler final : public Disturbance {
     cycle_ = (cycle_ + 1) % static_cast<int>(cycles.size());
     next_ = now + Duration{what == -1 ? 3'900 + 1'000 + 7'000 : cycle_ == 0 ? pause : kCycle};
   }
-  template <class Act>
-  void on_channels(Act act) {
+  template <class Act> void on_channels(Act act) {
     if (which_ != 2) act(schedules::Channel::kA);
     if (which_ != 3) act(schedules::Channel::kB);
   }
@@ -164,7 +164,9 @@ class StartSpoiler final : public Disturbance {
         case 2: symbol(bus::Signal::kWakeup, channel, now); break;
         case 3: frame(channel, now, 1, static_cast<int>(draw_.integer(0, 63))); break;
         case 4: frame(channel, now, 1, cycle_++ % 64); break;
-        default: frame(channel, now, static_cast<int>(draw_.integer(1, 5)), static_cast<int>(draw_.integer(0, 63)), draw_.integer(0, 1) == 0);
+        default:
+          frame(channel, now, static_cast<int>(draw_.integer(1, 5)), static_cast<int>(draw_.integer(0, 63)),
+                draw_.integer(0, 1) == 0);
       }
     });
     next_ = now + Duration{draw_.integer(0, 3) == 0 ? kCycle : draw_.integer(4'000, 6'000'000)};

@@ -25,8 +25,8 @@ struct Started {
     std::vector<bus::ControllerEvents*> events;
     for (std::size_t n = 0; n < cluster.nodes.size(); ++n) {
       RandomStream draw({seed, 0, Purpose::kClockDrift, static_cast<std::uint16_t>(n), 0});
-      nodes.push_back({timebase::Oscillator{25'000, draw.integer(-1'500'000, 1'500'000), draw.integer(0, 24'999)},
-                       power_on[n]});
+      nodes.push_back(
+          {timebase::Oscillator{25'000, draw.integer(-1'500'000, 1'500'000), draw.integer(0, 24'999)}, power_on[n]});
       logs.push_back(std::make_unique<StateLog>());
       events.push_back(logs.back().get());
     }
@@ -42,13 +42,15 @@ std::vector<TrueTime> delays(std::size_t nodes, Duration within, std::uint64_t s
   return at;
 }
 
-struct Size { int nodes, coldstart, sync, runs; };
+struct Size {
+  int nodes, coldstart, sync, runs;
+};
 class StartupConformance : public testing::TestWithParam<Size> {};
 
 // A lone coldstart node spends five cycles and a gap on each of its attempts. Whoever comes within that time joins.
 TEST_P(StartupConformance, StartsFromAnyPowerOnDelaysWithinTheAttempts) {
   const Size size = GetParam();
-  const Duration window = Duration::milliseconds(6 * 5 * 6);   // six of eight attempts of six cycles
+  const Duration window = Duration::milliseconds(6 * 5 * 6);  // six of eight attempts of six cycles
   for (int run = 0; run < size.runs; ++run) {
     const auto seed = static_cast<std::uint64_t>(run);
     Started started(bus_cluster(size.nodes, size.coldstart, size.sync),
@@ -70,7 +72,8 @@ INSTANTIATE_TEST_SUITE_P(Sizes, StartupConformance,
                                          Size{64, 5, 15, 60}),
                          [](const auto& name) { return std::to_string(name.param.nodes) + "Nodes"; });
 
-// The larger clusters as often as the small ones: half a minute, so it has a ctest entry of its own (startup_thousands).
+// The larger clusters as often as the small ones: half a minute, so it has a ctest entry of its own
+// (startup_thousands).
 INSTANTIATE_TEST_SUITE_P(DISABLED_Thousands, StartupConformance,
                          testing::Values(Size{16, 4, 8, 3000}, Size{64, 5, 15, 1000}),
                          [](const auto& name) { return std::to_string(name.param.nodes) + "Nodes"; });
@@ -123,7 +126,8 @@ TEST(StartupConformance, ARestartedNodeIntegratesAgain) {
     started.simulation->run_until(TrueTime{200'000'000 + static_cast<std::int64_t>(seed) * 123'457});
     started.simulation->power_on(node, started.simulation->now() + Duration{1});
     started.simulation->run_until(started.simulation->now() + Duration::milliseconds(80));
-    for (std::size_t n = 0; n < 5; ++n) EXPECT_EQ(started.kind(n), PocKind::kNormalActive) << "seed " << seed << " node " << n;
+    for (std::size_t n = 0; n < 5; ++n)
+      EXPECT_EQ(started.kind(n), PocKind::kNormalActive) << "seed " << seed << " node " << n;
     EXPECT_LE(started.simulation->precision(), kAssumedPrecision);
   }
 }

@@ -10,8 +10,8 @@
 
 #include "core/random.h"
 #include "recording/log_writer.h"
-#include "sim/channel_log.h"
 #include "sim/bus_simulation.h"
+#include "sim/channel_log.h"
 #include "sim/cluster_simulation.h"
 #include "tests/sim/bus_clusters.h"
 #include "tests/sim/drive_fixture.h"
@@ -24,8 +24,7 @@ using schedules::Channel;
 // Everything a controller says, but for the bytes.
 struct Diary final : bus::ControllerEvents {
   std::vector<std::int64_t> entries;
-  template <class... Numbers>
-  void write(Numbers... numbers) {
+  template <class... Numbers> void write(Numbers... numbers) {
     (entries.push_back(static_cast<std::int64_t>(numbers)), ...);
   }
   bool wants_bytes() const override { return false; }
@@ -65,7 +64,8 @@ class Trouble final : public Disturbance {
     if (what == 1) signal.channel = signal.channel == Channel::kA ? Channel::kB : Channel::kA;
     if (what < 5 && signal.signal == bus::Signal::kFrame) {
       std::copy(signal.bytes.begin(), signal.bytes.end(), changed_.begin());
-      const auto bit = static_cast<std::size_t>(draw_.integer(0, 8 * static_cast<std::int64_t>(signal.bytes.size()) - 1));
+      const auto bit =
+          static_cast<std::size_t>(draw_.integer(0, 8 * static_cast<std::int64_t>(signal.bytes.size()) - 1));
       changed_[bit / 8] ^= static_cast<std::byte>(1 << (bit % 8));
       signal.bytes = std::span<const std::byte>(changed_).first(signal.bytes.size());
     }

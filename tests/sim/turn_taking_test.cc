@@ -15,9 +15,9 @@
 #include <thread>
 #include <vector>
 
-#include "tests/sim/drive_fixture.h"
 #include "core/random.h"
 #include "tests/recording/record_text.h"
+#include "tests/sim/drive_fixture.h"
 #include "tests/support/memory_exchange.h"
 
 namespace ttf::sim {
@@ -60,7 +60,8 @@ std::vector<Lines> in_processes(const Drive& drive, const Wrap& wrap = {}) {
       const auto id = static_cast<NodeId>(n);
       try {
         TurnTaking others(drive.cluster, id, *ports[n]);
-        run_drive({&drive.scenario, &drive.cluster, drive.strategy, drive.scenario.seed, 0, nullptr, &others}, sinks[n]);
+        run_drive({&drive.scenario, &drive.cluster, drive.strategy, drive.scenario.seed, 0, nullptr, &others},
+                  sinks[n]);
       } catch (const Killed&) {
         hub.leave(id);
       } catch (...) {
@@ -93,8 +94,8 @@ struct Case {
   const char* scenario;
   fusion::StrategyKind strategy;
   std::int64_t milliseconds;
-  bool guarded = false;   // in a star with guardians
-  const char* cluster = nullptr;   // in place of the scenario's
+  bool guarded = false;           // in a star with guardians
+  const char* cluster = nullptr;  // in place of the scenario's
   bool cold = false;
 
   Drive drive() const {
@@ -168,9 +169,10 @@ TEST(TurnTaking, StopsOfProcessesChangeNothing) {
   const Drive drive = kShort.drive();
   const Lines expected = in_one_process(drive);
   for (std::uint64_t seed = 1; seed <= 5; ++seed)
-    expect_equal(together(in_processes(drive, [&](NodeId node, std::unique_ptr<bus::Exchange> port) {
-                   return std::make_unique<Dawdling>(std::move(port), seed, node);
-                 })),
+    expect_equal(together(in_processes(drive,
+                                       [&](NodeId node, std::unique_ptr<bus::Exchange> port) {
+                                         return std::make_unique<Dawdling>(std::move(port), seed, node);
+                                       })),
                  expected);
 }
 
@@ -201,7 +203,8 @@ std::vector<Lines> with_one_killed(const Drive& drive, std::size_t victim, int t
 }
 
 std::ptrdiff_t slot_problems(const Lines& lines) {
-  return std::count_if(lines.begin(), lines.end(), [](const std::string& line) { return line.starts_with("problem "); });
+  return std::count_if(lines.begin(), lines.end(),
+                       [](const std::string& line) { return line.starts_with("problem "); });
 }
 
 // Killed at the first turn after 100 ms.

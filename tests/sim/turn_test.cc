@@ -25,7 +25,8 @@ class Turn : public testing::Test {
     device_ = cluster_.sensors.front().device;
     wire::FrameHeader header;
     header.frame_id = 7;
-    frame_.resize(wire::encode_frame(header, Channel::kB, std::array<std::byte, 4>{std::byte{1}, std::byte{2}}, frame_));
+    frame_.resize(
+        wire::encode_frame(header, Channel::kB, std::array<std::byte, 4>{std::byte{1}, std::byte{2}}, frame_));
   }
   std::vector<std::byte> message(const TurnHeader& header, const std::vector<Act>& acts) const {
     TurnWriter writer;
@@ -34,8 +35,13 @@ class Turn : public testing::Test {
     return {bytes.begin(), bytes.end()};
   }
   bus::Transmission signal(bus::Signal kind) const {
-    return {Channel::kB, kind, Microticks{4'000}, Microticks{4'100}, 7,
-            kind == bus::Signal::kFrame ? std::span<const std::byte>(frame_) : std::span<const std::byte>(), {}};
+    return {Channel::kB,
+            kind,
+            Microticks{4'000},
+            Microticks{4'100},
+            7,
+            kind == bus::Signal::kFrame ? std::span<const std::byte>(frame_) : std::span<const std::byte>(),
+            {}};
   }
   std::vector<std::byte> every_kind() const {
     return message({host_, 3, Microticks{4'000}, {Microticks{5'000}, Microticks{1}, Microticks{2}, Microticks{3}}},
@@ -74,7 +80,8 @@ TEST_F(Turn, IsReadAsItWasWritten) {
   EXPECT_EQ(can.frame.data.size(), 8u);
   EXPECT_EQ(std::get<TriggerAct>(acts[3]).sensor, SensorId{0});
 
-  const std::vector<std::byte> strobe = message({device_, 0, Microticks{-1}, kSilent}, {StrobeAct{SensorId{0}, 0xFFFF'FFFE}});
+  const std::vector<std::byte> strobe =
+      message({device_, 0, Microticks{-1}, kSilent}, {StrobeAct{SensorId{0}, 0xFFFF'FFFE}});
   EXPECT_EQ(read_turn(cluster_, strobe, acts).at, Microticks{-1});
   EXPECT_EQ(std::get<StrobeAct>(acts[0]).sequence, 0xFFFF'FFFEu);
 }
@@ -108,7 +115,7 @@ TEST_F(Turn, SaysNothingThatItsNodeCannotDo) {
   };
   const TurnHeader header{host_, 0, Microticks{4'000}, kSilent};
   refuses({static_cast<NodeId>(cluster_.nodes.size()), 0, {}, kSilent}, {});
-  refuses({host_, 0, Microticks{9}, {Microticks{9}}}, {});              // its turn would never end
+  refuses({host_, 0, Microticks{9}, {Microticks{9}}}, {});  // its turn would never end
   refuses({host_, 0, {}, {Microticks{1}, Microticks{-1}}}, {});
   refuses({host_, 0, {}, {nodes::Promise::kNever - Microticks{1}}}, {});
   refuses({device_, 0, {}, kSilent}, {TriggerAct{SensorId{0}}});

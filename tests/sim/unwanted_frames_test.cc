@@ -16,8 +16,7 @@ class Others final : public records::Every<Others> {
  public:
   explicit Others(bool wants_frames) : wants_frames_(wants_frames) {}
   bool wants_frames() const override { return wants_frames_; }
-  template <class Record>
-  void each(const Record& record) {
+  template <class Record> void each(const Record& record) {
     if constexpr (std::is_same_v<Record, records::SlotFrameSent> || std::is_same_v<Record, records::ChannelFrame>)
       ++frames;
     else
@@ -82,8 +81,7 @@ TEST(UnwantedFrames, AreStillSubjectToFaults) {
 // Every record but those of how far clocks are apart, which are counted.
 class NotTheClocks final : public records::Every<NotTheClocks> {
  public:
-  template <class Record>
-  void each(const Record& record) {
+  template <class Record> void each(const Record& record) {
     if constexpr (std::is_same_v<Record, records::PrecisionSample>)
       ++samples;
     else
@@ -95,7 +93,8 @@ class NotTheClocks final : public records::Every<NotTheClocks> {
 };
 
 TEST(UncomparedClocks, LeaveAllOtherRecordsAsTheyAre) {
-  for (const char* scenario : {"scenarios/paper_scenario1.yaml", "scenarios/cold_start.yaml", "scenarios/faulty_bus.yaml"}) {
+  for (const char* scenario :
+       {"scenarios/paper_scenario1.yaml", "scenarios/cold_start.yaml", "scenarios/faulty_bus.yaml"}) {
     SCOPED_TRACE(scenario);
     const testing_support::Drive drive(scenario, fusion::StrategyKind::kAdva);
     NotTheClocks compared, uncompared;

@@ -75,7 +75,8 @@ struct Ways final : records::Sink {
   void on(const records::ImageWritten& r) override { in_images.insert(r.newest.begin(), r.newest.end()); }
   void on(const records::TruthState& r) override {
     ++truths;
-    // The cluster's time runs as fast as its oscillators do on average; a device off the bus has its own, from power-on.
+    // The cluster's time runs as fast as its oscillators do on average; a device off the bus has its own, from
+    // power-on.
     const std::int64_t elapsed = (r.at - sim::kFirstCycle).ns;
     EXPECT_NEAR(static_cast<double>((r.global - GlobalTime{}).ns), static_cast<double>(elapsed),
                 (cluster.node(r.node).flexray ? 3e3 : 2e6) + 1e-4 * static_cast<double>(elapsed));
@@ -86,7 +87,8 @@ struct Ways final : records::Sink {
   }
 };
 
-// The arrows every list of this sensor takes: both devices' and hosts' CANs, the gateway, both channels, the fusion node.
+// The arrows every list of this sensor takes: both devices' and hosts' CANs, the gateway, both channels, the fusion
+// node.
 std::set<Arrow> expected_arrows(const schedules::Cluster& cluster, SensorId sensor) {
   std::set<Arrow> arrows;
   for (std::size_t n = 0; n < cluster.nodes.size(); ++n) {

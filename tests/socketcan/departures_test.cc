@@ -78,7 +78,7 @@ TEST(Departures, TooLateToBeToldAreNot) {
   Departures departures;
   departures.expect(last_of(3, 17, 8), 3, 17, HostTime{0});
   EXPECT_FALSE(departures.left(last_of(3, 17, 8), HostTime{0x8000'0000LL}));
-  EXPECT_TRUE(departures.none());   // nor ever after
+  EXPECT_TRUE(departures.none());  // nor ever after
 }
 
 constexpr ClockPair kPair{.host = {5'000}, .realtime_ns = 1'700'000'000'000'000'000, .now = {5'200}};

@@ -50,7 +50,7 @@ TEST(DocumentedExamples, AreWhatTheyAreSaidToBe) {
     bus::Signal signal;
     int slot, cycle, words;
     bool sync, null_frame;
-    int first_byte;          // of the payload
+    int first_byte;  // of the payload
     std::int64_t ns;
   };
   const std::vector<Said> said{

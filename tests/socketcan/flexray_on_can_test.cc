@@ -20,7 +20,7 @@ std::size_t at(RandomStream& draw, const Bytes& bytes) {
 }
 
 TEST(CanFdLength, IsTheShortestThatHasRoom) {
-  const std::vector<std::size_t> there_are{0, 1, 2, 3, 4, 5, 6, 7, 8, 12, 16, 20, 24, 32, 48, 64};   // ISO 11898-1
+  const std::vector<std::size_t> there_are{0, 1, 2, 3, 4, 5, 6, 7, 8, 12, 16, 20, 24, 32, 48, 64};  // ISO 11898-1
   for (std::size_t bytes = 0; bytes <= 64; ++bytes) {
     const std::size_t length = can_fd_length(bytes);
     EXPECT_TRUE(std::count(there_are.begin(), there_are.end(), length) == 1 && length >= bytes) << bytes;
@@ -126,7 +126,7 @@ TEST(FlexRayOnCan, ForeignFramesAreToldAndDoNoHarm) {
   Reassembly receiver(Channel::kA);
   ASSERT_EQ(receiver.arrive(can.frames[0]).outcome, Outcome::kFragment);
   for (canfd_frame foreign : {can.frames[0], can.frames[1]}) {
-    foreign.flags = 0;   // classic
+    foreign.flags = 0;  // classic
     foreign.len = 8;
     EXPECT_EQ(receiver.arrive(foreign).outcome, Outcome::kForeign);
     foreign.flags = CANFD_FDF;
@@ -156,7 +156,7 @@ TEST(FlexRayOnCan, NoCorruptedByteMakesAnotherFrame) {
         for (unsigned flip = 1; flip < 256; ++flip) {
           Reassembly receiver(Channel::kA);
           Arrival last;
-          canfd_frame one{};   // `last` refers to what arrived
+          canfd_frame one{};  // `last` refers to what arrived
           for (std::size_t k = 0; k < can.count; ++k) {
             one = can.frames[k];
             if (k == i) one.data[at] = static_cast<std::uint8_t>(one.data[at] ^ flip);

@@ -14,7 +14,7 @@ using schedules::Channel;
 
 class Fragments : public ::testing::Test {
  protected:
-  static constexpr int kSlot = 70, kCycle = 21, kWords = 90;   // 188 bytes
+  static constexpr int kSlot = 70, kCycle = 21, kWords = 90;  // 188 bytes
   const Bytes frame_ = drawn_frame(Channel::kA, kSlot, kCycle, kWords);
   const CanFrames can_ = frame_to_can(kSlot, frame_);
   Reassembly receiver_{Channel::kA};

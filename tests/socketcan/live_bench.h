@@ -38,8 +38,7 @@ class InItsSlot final : public bus::LiveMedium {
 };
 
 // Two channels, a CAN and a CAN FD; of more than two members the last is not on the first CAN.
-template <std::size_t kMembers>
-class VcanBench : public laws::LiveBench {
+template <std::size_t kMembers> class VcanBench : public laws::LiveBench {
  public:
   VcanBench() {
     for (std::size_t i = 0; i < kMembers && missing().empty(); ++i) {

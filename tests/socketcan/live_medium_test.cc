@@ -87,7 +87,7 @@ TEST_F(LiveOnVcan, AFollowUpSaysHowLateTheFrameLeft) {
     ASSERT_EQ(arrival->kind, LiveArrival::Kind::kFlexRay);
     EXPECT_FALSE(arrival->late);
     const HostTime at = arrival->at;
-    EXPECT_FALSE(sender.receive());   // at the latest it hears now that its frame has left
+    EXPECT_FALSE(sender.receive());  // at the latest it hears now that its frame has left
     const auto told = next(receiver);
     ASSERT_TRUE(told && told->late);
     EXPECT_EQ(told->kind, LiveArrival::Kind::kFollowUp);
@@ -101,7 +101,7 @@ TEST_F(LiveOnVcan, AFollowUpSaysHowLateTheFrameLeft) {
     }
   }
   EXPECT_EQ(sender.counts().sent, 5u);
-  EXPECT_EQ(receiver.counts().received, 5u);   // follow-ups are none of them
+  EXPECT_EQ(receiver.counts().received, 5u);  // follow-ups are none of them
 }
 
 // It goes with the frame, without the sender doing anything more, if nothing stands before the echo.
@@ -133,10 +133,10 @@ TEST_F(LiveOnVcan, AFollowUpWaitsForWhatIsStillToBeReceived) {
   ASSERT_TRUE(arrival);
   EXPECT_EQ(arrival->signal.slot, 2);
   EXPECT_EQ(bytes_of(arrival->signal.bytes), others);
-  EXPECT_FALSE(sender.receive());   // its own it keeps to itself
+  EXPECT_FALSE(sender.receive());  // its own it keeps to itself
   const auto told = next(receiver);
   ASSERT_TRUE(told && told->late);
-  EXPECT_LE(*told->late, left - due);   // when it left, not when that was heard of
+  EXPECT_LE(*told->late, left - due);  // when it left, not when that was heard of
 }
 
 TEST_F(LiveOnVcan, OnlyWhatIsToTellItIsFollowedUp) {
@@ -145,7 +145,7 @@ TEST_F(LiveOnVcan, OnlyWhatIsToTellItIsFollowedUp) {
   ASSERT_EQ(sender.send(signal(frame, 9, false), {}), LiveStatus::kDone);
   ASSERT_EQ(sender.send({.channel = Channel::kA, .signal = bus::Signal::kCas, .duration = {5'700}, .bytes = {}}, {}),
             LiveStatus::kDone);
-  const HostTime long_ago = bus::host_now() - Duration::milliseconds(3'000);   // too late to be told
+  const HostTime long_ago = bus::host_now() - Duration::milliseconds(3'000);  // too late to be told
   ASSERT_EQ(sender.send(signal(frame, 9, true), long_ago), LiveStatus::kDone);
   for (int i = 0; i < 3; ++i) {
     const auto arrival = next(receiver);
@@ -218,7 +218,7 @@ TEST_F(LiveOnVcan, EveryDataFrameOfAPrivateCanIsHandedOver) {
   Socket socket = stranger(2);
   ASSERT_EQ(socket.send(can_of(0x7ff, 3, 0)), Status::kDone);
   ASSERT_EQ(socket.send(can_of(0, 12, CANFD_FDF)), Status::kDone);
-  ASSERT_EQ(socket.send(can_of(1, 13, CANFD_FDF)), Status::kDone);   // a length that CAN FD has not
+  ASSERT_EQ(socket.send(can_of(1, 13, CANFD_FDF)), Status::kDone);  // a length that CAN FD has not
   const auto classic = next(medium);
   ASSERT_TRUE(classic && classic->kind == LiveArrival::Kind::kCan);
   EXPECT_EQ(classic->can_bus, 0u);
@@ -305,7 +305,7 @@ TEST_F(LiveOnVcan, AnInterfaceThatGoesDownIsAFailure) {
   EXPECT_EQ(arrival->signal.slot, 9);
   EXPECT_FALSE(receiver.receive());
   const LiveStatus status = sender.send(signal(frame, 9), {});
-  EXPECT_EQ(support::allocations(), before);   // not even for the sentence
+  EXPECT_EQ(support::allocations(), before);  // not even for the sentence
   EXPECT_EQ(status, LiveStatus::kFailed);
   const std::string said = "vcan93: the interface went down during the run: ip link set vcan93 up";
   EXPECT_EQ(receiver.failure(), said);
@@ -331,7 +331,7 @@ TEST_F(LiveOnVcan, AnInterfaceThatIsRemovedIsAFailure) {
 }
 
 TEST_F(LiveOnVcan, SmallerReceiveBuffersAreToldOneByOne) {
-  ASSERT_EQ(seteuid(65534), 0);   // without CAP_NET_ADMIN
+  ASSERT_EQ(seteuid(65534), 0);  // without CAP_NET_ADMIN
   const LiveMedium medium(options(1'000'000));
   ASSERT_EQ(seteuid(0), 0);
   ASSERT_EQ(medium.shortages().size(), 3u);

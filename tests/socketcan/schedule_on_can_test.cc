@@ -50,11 +50,10 @@ Duration longest(int data_bytes, BitRates rates) {
   const int esi = 1, dlc = 4, stuff_count = 4, crc = data_bytes > 16 ? 21 : 17;
   const int crc_delimiter = 1, ack = 2, end_of_frame = 7, intermission = 3;
   const int fixed_stuff_bits = (stuff_count + crc + 3) / 4;  // in front of each four bits
-  const int nominal = sof + identifier + rrs + ide + fdf + res + brs +
-                      most_stuff_bits(sof + identifier + rrs + ide) + crc_delimiter + ack + end_of_frame +
-                      intermission;
-  const int data = esi + dlc + 8 * data_bytes + most_stuff_bits(brs + esi + dlc + 8 * data_bytes) +
-                   stuff_count + crc + fixed_stuff_bits;
+  const int nominal = sof + identifier + rrs + ide + fdf + res + brs + most_stuff_bits(sof + identifier + rrs + ide) +
+                      crc_delimiter + ack + end_of_frame + intermission;
+  const int data = esi + dlc + 8 * data_bytes + most_stuff_bits(brs + esi + dlc + 8 * data_bytes) + stuff_count + crc +
+                   fixed_stuff_bits;
   return {nominal * (1'000'000'000 / rates.nominal) + data * (1'000'000'000 / rates.data)};
 }
 
@@ -105,9 +104,8 @@ TEST(ScheduleOnCan, ThePapersSlots) {
 
 TEST(ScheduleOnCan, LengthsAreThoseOfTheMapping) {
   const std::vector<std::pair<int, std::vector<int>>> lengths{
-      {0, {8}},       {2, {12}},      {4, {16}},         {5, {20}},
-      {20, {48}},     {21, {64}},     {28, {64}},        {29, {64, 8}},
-      {30, {64, 12}}, {57, {64, 64}}, {58, {64, 64, 5}}, {127, {64, 64, 64, 64, 24}}};
+      {0, {8}},   {2, {12}},     {4, {16}},      {5, {20}},      {20, {48}},        {21, {64}},
+      {28, {64}}, {29, {64, 8}}, {30, {64, 12}}, {57, {64, 64}}, {58, {64, 64, 5}}, {127, {64, 64, 64, 64, 24}}};
   for (const auto& [words, frames] : lengths) {
     SCOPED_TRACE(words);
     Duration sum{};
@@ -131,8 +129,7 @@ TEST(ScheduleOnCan, DrawnFramesLastNoLonger) {
       const Bytes frame = drawn_frame(schedules::Channel::kA, 1 + 32 * cycle, cycle, words);
       Duration sum{};
       const auto on_can = frame_to_can(1 + 32 * cycle, frame);
-      for (const canfd_frame& can : on_can.all())
-        sum += wire::can_frame_duration(bus, can.can_id, data_of(can));
+      for (const canfd_frame& can : on_can.all()) sum += wire::can_frame_duration(bus, can.can_id, data_of(can));
       EXPECT_LE(sum, slots[0].frame) << words;
       EXPECT_GT(sum, Duration{slots[0].frame.ns * 3 / 4}) << words;
     }
@@ -163,8 +160,7 @@ TEST(ScheduleOnCan, ASlotOfSeveralFramesIsJudgedByTheLongest) {
   Cluster cluster = with_payload(8);
   cluster.nodes[1].flexray->pKeySlotId = 1;
   cluster.nodes[1].flexray->pKeySlotUsedForSync = true;
-  cluster.frames = {{1, Channels::kA, 0, 1, NodeId{0}, kNoPdu, 0, 0},
-                    {1, Channels::kB, 0, 1, NodeId{1}, kNoPdu, 0, 0}};
+  cluster.frames = {{1, Channels::kA, 0, 1, NodeId{0}, kNoPdu, 0, 0}, {1, Channels::kB, 0, 1, NodeId{1}, kNoPdu, 0, 0}};
   for (int order = 0; order < 2; ++order) {
     const auto slots = slots_on_can(cluster, kFast);
     ASSERT_EQ(slots.size(), 1u);

@@ -73,7 +73,7 @@ TEST_F(SocketOnVcan, EveryFlexRayFrameReachesTheOthersOnceInOrderUnchanged) {
     EXPECT_EQ(receiver->lost(), 0u);
   }
   Received own;
-  EXPECT_EQ(sender.receive(own), Status::kNothing);   // nobody hears himself
+  EXPECT_EQ(sender.receive(own), Status::kNothing);  // nobody hears himself
 }
 
 TEST_F(SocketOnVcan, StampsAreWhenTheFrameWasThere) {
@@ -86,7 +86,7 @@ TEST_F(SocketOnVcan, StampsAreWhenTheFrameWasThere) {
   Received received;
   ASSERT_EQ(next(receiver, received), Status::kDone);
   EXPECT_GE(received.stamp_ns, before);
-  EXPECT_LE(received.stamp_ns, after);   // not when it was read
+  EXPECT_LE(received.stamp_ns, after);  // not when it was read
 }
 
 TEST_F(SocketOnVcan, ClassicFramesAreToldFromCanFd) {
@@ -153,7 +153,7 @@ TEST_F(SocketOnVcan, TheReceiveBufferHoldsWhatItIsSaidTo) {
 
 TEST_F(SocketOnVcan, ASmallerReceiveBufferIsToldWithTheCommand) {
   if (geteuid() != 0) GTEST_SKIP() << "only root can be somebody else";
-  ASSERT_EQ(seteuid(65534), 0);   // without CAP_NET_ADMIN
+  ASSERT_EQ(seteuid(65534), 0);  // without CAP_NET_ADMIN
   const Socket receiver({.interface = kName, .receive_buffer_frames = 1'000'000, .filters = {}});
   ASSERT_EQ(seteuid(0), 0);
   EXPECT_EQ(receiver.shortage().rfind("vcan0: the receive buffer holds ", 0), 0u) << receiver.shortage();
@@ -175,7 +175,7 @@ TEST_F(SocketOnOwnVcan, AnInterfaceThatGoesDownIsAClearError) {
   EXPECT_EQ(receiver.receive(received), Status::kDown);
   EXPECT_EQ(receiver.failure(), "vcan97: the interface went down during the run: ip link set vcan97 up");
   EXPECT_EQ(sender.send(can_fd(1, 8, 0)), Status::kDown);
-  ip("up");   // frames may have gone by unseen: it stays at that
+  ip("up");  // frames may have gone by unseen: it stays at that
   EXPECT_EQ(receiver.receive(received), Status::kDown);
   EXPECT_EQ(receiver.send(can_fd(1, 8, 0)), Status::kDown);
 }

@@ -37,11 +37,11 @@ class MemoryExchange {
   void leave(NodeId node) { hub_->leave(node); }
 
  private:
-  using Bytes = std::shared_ptr<const std::vector<std::byte>>;   // one copy for all who hear it
+  using Bytes = std::shared_ptr<const std::vector<std::byte>>;  // one copy for all who hear it
 
   struct Item {
     NodeId from{};
-    Bytes bytes;   // none: it is gone
+    Bytes bytes;  // none: it is gone
   };
   struct Member {
     std::deque<Item> waiting;
@@ -51,7 +51,7 @@ class MemoryExchange {
 
   struct Hub {
     std::mutex mutex;
-    bool begun = false;                 // guarded by mutex, as are all below
+    bool begun = false;  // guarded by mutex, as are all below
     std::map<NodeId, Member> members;
 
     void join(NodeId node) {
@@ -64,7 +64,7 @@ class MemoryExchange {
       Member& member = members.at(node);
       if (std::exchange(member.gone, true)) return;
       tell_others({node, nullptr});
-      for (auto& other : members) other.second.something.notify_one();   // who now has nobody left to hear, too
+      for (auto& other : members) other.second.something.notify_one();  // who now has nobody left to hear, too
     }
     void send(NodeId from, std::span<const std::byte> message) {
       auto bytes = std::make_shared<const std::vector<std::byte>>(message.begin(), message.end());
@@ -111,7 +111,7 @@ class MemoryExchange {
    private:
     std::shared_ptr<Hub> hub_;
     NodeId node_;
-    Item last_;   // what was heard last stays until the next call
+    Item last_;  // what was heard last stays until the next call
   };
 
   std::shared_ptr<Hub> hub_ = std::make_shared<Hub>();

@@ -29,12 +29,12 @@
 
 namespace ttf::test {
 
-enum class Told { kWithTheFrame, kInAFollowUp };   // how late a sync frame left
+enum class Told { kWithTheFrame, kInAFollowUp };  // how late a sync frame left
 
 struct MemoryLiveBusOptions {
-  std::vector<bool> can_buses;      // whether each carries CAN FD: nobody looks at it, but for the laws
+  std::vector<bool> can_buses;  // whether each carries CAN FD: nobody looks at it, but for the laws
   Told told = Told::kWithTheFrame;
-  std::size_t room = 1024;          // signals and follow-ups on each line of each member
+  std::size_t room = 1024;  // signals and follow-ups on each line of each member
 };
 
 class MemoryLiveBus {
@@ -66,7 +66,7 @@ class MemoryLiveBus {
 
  private:
   struct Kept {
-    bus::LiveArrival arrival;   // its spans are empty
+    bus::LiveArrival arrival;  // its spans are empty
     std::size_t size = 0;
     std::array<std::byte, wire::kMaxFrameBytes> bytes{};
   };
@@ -107,7 +107,7 @@ class MemoryLiveBus {
   struct Hub {
     MemoryLiveBusOptions options;
     std::mutex mutex;
-    std::vector<std::shared_ptr<Member>> members;   // guarded by mutex, what they hold too
+    std::vector<std::shared_ptr<Member>> members;  // guarded by mutex, what they hold too
   };
 
   class Endpoint final : public bus::LiveMedium {
@@ -154,7 +154,7 @@ class MemoryLiveBus {
       const std::scoped_lock lock(hub_->mutex);
       for (Queue& queue : self_->queues) {
         if (queue.count == 0) continue;
-        last_ = queue.ring[queue.first];   // it stays until the next call
+        last_ = queue.ring[queue.first];  // it stays until the next call
         queue.first = (queue.first + 1) % queue.ring.size();
         if (--queue.count == 0) queue.silence();
         const auto bytes = std::span(last_.bytes).first(last_.size);

@@ -12,8 +12,8 @@
 namespace ttf::test {
 
 enum class Sizes {
-  kSmall,   // 1 to 256 bytes
-  kAll,     // also none, and now and then up to 64 KiB
+  kSmall,  // 1 to 256 bytes
+  kAll,    // also none, and now and then up to 64 KiB
 };
 
 // SplitMix64's output function (Steele, Lea, Flood 2014): scatters what is alike.

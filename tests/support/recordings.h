@@ -1,6 +1,6 @@
-// Recordings of real sensors that other people made: the repository does not hold them, so a test that wants one is skipped
-// where it is not. They lie in the folder that the environment variable TTF_RECORDINGS names; without it, in shared/data
-// beside the repository (docs/recordings.md).
+// Recordings of real sensors that other people made: the repository does not hold them, so a test that wants one is
+// skipped where it is not. They lie in the folder that the environment variable TTF_RECORDINGS names; without it, in
+// shared/data beside the repository (docs/recordings.md).
 #pragma once
 
 #include <cstdlib>

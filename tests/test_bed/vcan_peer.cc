@@ -2,11 +2,11 @@
 //
 //   vcan_peer listen INTERFACE A|B IDLE_MS [ONTO]
 //       Prints every frame and symbol of that channel until nothing has come for IDLE_MS, then what it counted. With
-//       ONTO, a second interface, all that is complete is said again there. Exit code 1 and one sentence if an interface
-//       fails.
+//       ONTO, a second interface, all that is complete is said again there. Exit code 1 and one sentence if an
+//       interface fails.
 //   vcan_peer node INTERFACE A|B SLOT NODES CYCLES START_S
-//       Sends a frame in its slot of CYCLES cycles of 5 ms from that second (CLOCK_REALTIME) on, and prints what it hears
-//       from the other NODES - 1: the kernel's stamp, the instant of reading, slot, cycle and payload.
+//       Sends a frame in its slot of CYCLES cycles of 5 ms from that second (CLOCK_REALTIME) on, and prints what it
+//       hears from the other NODES - 1: the kernel's stamp, the instant of reading, slot, cycle and payload.
 //   vcan_peer deaf INTERFACE FRAMES MS
 //       Has room for that many frames, reads nothing for that long, then prints how many it heard and how many it lost.
 #include <fmt/format.h>
@@ -52,9 +52,10 @@ std::string described(Channel channel, const Arrival& arrival) {
   if (const auto& told = arrival.follow_up)
     return fmt::format("slot {} cycle {} left {} ns late", told->slot, told->cycle_counter, told->late.ns);
   if (arrival.signal != bus::Signal::kFrame)
-    return fmt::format("{} of {} ns", arrival.signal == bus::Signal::kCas      ? "CAS"
-                                      : arrival.signal == bus::Signal::kWakeup ? "wake-up"
-                                                                               : "noise",
+    return fmt::format("{} of {} ns",
+                       arrival.signal == bus::Signal::kCas      ? "CAS"
+                       : arrival.signal == bus::Signal::kWakeup ? "wake-up"
+                                                                : "noise",
                        arrival.duration.ns);
   const wire::DecodedFrame frame = wire::decode_frame(channel, arrival.frame);
   return fmt::format("slot {} cycle {} {}{}{}", arrival.slot, frame.header.cycle,

@@ -27,9 +27,9 @@ TEST(FaultTolerantMidpoint, DropsTheExtremesByCount) {
       {{-100, 4, 100}, 4},
       {{-100, 4, 6, 100}, 5},
       {{15, 13, -6, 5}, 9},
-      {{1000, 1, 2, 3, 5, -1000, 7}, 4},                           // seven: one at each end
-      {{1000, 999, 1, 2, 4, 8, -999, -1000}, 4},                   // eight: two at each end
-      {{9, 8, 7, 6, 5, 4, 3, 2, 1, 0, -1, -2, -3, -4, -400}, 2},   // fifteen
+      {{1000, 1, 2, 3, 5, -1000, 7}, 4},                          // seven: one at each end
+      {{1000, 999, 1, 2, 4, 8, -999, -1000}, 4},                  // eight: two at each end
+      {{9, 8, 7, 6, 5, 4, 3, 2, 1, 0, -1, -2, -3, -4, -400}, 2},  // fifteen
   };
   for (const Row& row : rows) EXPECT_EQ(midpoint(row.values), row.result) << row.values.size() << " values";
 }
@@ -99,7 +99,7 @@ SyncMeasurements pairs(std::vector<SyncDeviation> even, std::vector<SyncDeviatio
 TEST(RateCorrection, IsOddMinusEvenOfTheSameFrame) {
   // Frame 3 has no partner, frame 9 none either; the order of arrival does not matter.
   const auto measured = pairs({{1, 10, 12}, {2, -5, -5}, {3, 900, 900}}, {{9, -900, -900}, {2, 5, 5}, {1, 30, 32}});
-  EXPECT_EQ(rate_correction(measured, 0, 0, 1000).value, 15);   // (20 + 10) / 2
+  EXPECT_EQ(rate_correction(measured, 0, 0, 1000).value, 15);  // (20 + 10) / 2
 }
 
 TEST(RateCorrection, AveragesChannelsValidInBoth) {

@@ -15,8 +15,7 @@ constexpr CycleGeometry kEven{5000, 1'000'000, 200'000, 4900};
 constexpr CycleGeometry kOdd{3636, 1'375'000, 199'980, 3632};
 
 // Clocks of drawn rates, advanced some cycles with drawn corrections; the law sees each cycle.
-template <class Law>
-void for_drawn_cycles(std::uint16_t entity, Law law) {
+template <class Law> void for_drawn_cycles(std::uint16_t entity, Law law) {
   RandomStream stream({2, 0, Purpose::kTest, entity, 0});
   for (int run = 0; run < 40; ++run) {
     const CycleGeometry& geometry = run % 2 == 0 ? kEven : kOdd;
@@ -39,7 +38,7 @@ TEST(CycleClock, ACycleIsItsMicroticksPlusCorrections) {
   clock.next_cycle(-2);
   EXPECT_EQ(clock.cycle(), 1);
   EXPECT_EQ(clock.cycle_start().value, 1000 + 200'007 - 30);
-  EXPECT_EQ(clock.offset_correction(), 0);   // used up
+  EXPECT_EQ(clock.offset_correction(), 0);  // used up
   EXPECT_EQ(clock.rate_correction(), -2);
   EXPECT_EQ(clock.cycle_end().value, 1000 + 200'007 - 30 + 199'998);
 }
@@ -90,7 +89,7 @@ TEST(CycleClock, ACorrectionMustLeaveSomethingOfItsPhase) {
   clock.set_offset_correction(-3986);
   EXPECT_EQ(clock.start_of({5000}).value - clock.start_of({4900}).value, 1);
   clock.set_offset_correction(-3987);
-  EXPECT_EQ(clock.start_of({4900}).value, 195'412);   // before the phase nothing changes
+  EXPECT_EQ(clock.start_of({4900}).value, 195'412);  // before the phase nothing changes
   EXPECT_DEATH(clock.start_of({4901}), "a correction by -3987 leaves 0 of 199399 microticks behind the first 195412");
   EXPECT_DEATH(clock.global_time({195'413}), "leaves 0 of 199399");
 }
@@ -120,8 +119,7 @@ TEST(CycleClock, GlobalTimeIsMonotoneAcrossTheCyclesCorners) {
     const GlobalTime last = clock.global_time(clock.cycle_end() - Microticks{1});
     next.next_cycle(0);
     ASSERT_GT(next.global_time(next.cycle_start()), last);
-    ASSERT_EQ(next.global_time(next.cycle_start()).ns,
-              next.cycle() * g.macro_per_cycle * (g.macrotick_ps / 1000));
+    ASSERT_EQ(next.global_time(next.cycle_start()).ns, next.cycle() * g.macro_per_cycle * (g.macrotick_ps / 1000));
   });
 }
 
@@ -210,8 +208,9 @@ TEST(CycleClock, GlobalTimeIsRoundedDownBeforeTheFirstCycleToo) {
   // 200'001 microticks make 5 ms: one is a little less than 25 ns.
   const CycleClock clock(kEven, {1000}, 1);
   for (std::int64_t ticks = 1; ticks <= 1000; ++ticks) {
-    const Int128 exact_ps = static_cast<Int128>(ticks) * 5'000'000'000;   // times 1 / 200'001
-    const std::int64_t down = -static_cast<std::int64_t>((exact_ps + Int128{200'001} * 1000 - 1) / (Int128{200'001} * 1000));
+    const Int128 exact_ps = static_cast<Int128>(ticks) * 5'000'000'000;  // times 1 / 200'001
+    const std::int64_t down =
+        -static_cast<std::int64_t>((exact_ps + Int128{200'001} * 1000 - 1) / (Int128{200'001} * 1000));
     ASSERT_EQ(clock.global_time({1000 - ticks}).ns, down) << ticks;
   }
   EXPECT_EQ(clock.global_time({1000}).ns, 0);

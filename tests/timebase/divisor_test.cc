@@ -17,7 +17,9 @@ constexpr std::int64_t kLargest = std::numeric_limits<std::int64_t>::max();
 TEST(Divisor, IsTheDivisionAtEveryEdge) {
   RandomStream draw({1, 0, Purpose::kTest, 11, 0});
   for (int i = 0; i < 20'000; ++i) {
-    const std::int64_t d = i < 64 ? i + 1 : i == 64 ? kLargest : draw.integer(1, std::int64_t{1} << draw.integer(0, 61));
+    const std::int64_t d = i < 64    ? i + 1
+                           : i == 64 ? kLargest
+                                     : draw.integer(1, std::int64_t{1} << draw.integer(0, 61));
     const Divisor divisor(d);
     for (int j = 0; j < 20; ++j) {
       const std::int64_t q = draw.integer(0, kLargest / d);

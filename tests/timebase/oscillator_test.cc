@@ -32,8 +32,7 @@ Drawn draw(RandomStream& stream) {
   return {nominal, stream.integer(-most, most), stream.integer(0, nominal - 1)};
 }
 
-template <class Law>
-void for_drawn_ticks(std::uint16_t entity, Law law) {
+template <class Law> void for_drawn_ticks(std::uint16_t entity, Law law) {
   RandomStream stream({1, 0, Purpose::kTest, entity, 0});
   for (int clock = 0; clock < 300; ++clock) {
     const Drawn drawn = draw(stream);
@@ -73,8 +72,8 @@ TEST(OscillatorLaws, L3_TimeOfIsTheFirstNanosecondAtOrAfterTheTick) {
   });
 }
 
-// Periods and phases of whole nanoseconds have ticks that are neither late nor early, where rounded estimates are off by
-// one; and ticks so late that what is rounded off has added up.
+// Periods and phases of whole nanoseconds have ticks that are neither late nor early, where rounded estimates are off
+// by one; and ticks so late that what is rounded off has added up.
 TEST(OscillatorLaws, L1AndL3_HoldAtTicksOnTheNanosecondAndLongAfterTheStart) {
   RandomStream stream({1, 0, Purpose::kTest, 6, 0});
   for (int clock = 0; clock < 300; ++clock) {
@@ -93,14 +92,13 @@ TEST(OscillatorLaws, L1AndL3_HoldAtTicksOnTheNanosecondAndLongAfterTheStart) {
 }
 
 // After changes of drift at drawn instants, some at one instant and some within one tick.
-template <class Law>
-void for_drawn_changes(std::uint16_t entity, Law law) {
+template <class Law> void for_drawn_changes(std::uint16_t entity, Law law) {
   RandomStream stream({1, 0, Purpose::kTest, entity, 0});
   for (int clock = 0; clock < 300; ++clock) {
     const Drawn drawn = draw(stream);
     Oscillator oscillator = drawn.oscillator();
     TrueTime at{stream.integer(-1'000'000, 1'000'000'000'000)};
-    TrueTime since = at - Duration{1'000'000'000};   // nothing has changed from here to `at`
+    TrueTime since = at - Duration{1'000'000'000};  // nothing has changed from here to `at`
     for (int change = 0; change < 8; ++change) {
       const Oscillator before = oscillator;
       oscillator.change_drift(at, stream.integer(-Oscillator::kMaxDrift_ppb, Oscillator::kMaxDrift_ppb));
@@ -113,44 +111,45 @@ void for_drawn_changes(std::uint16_t entity, Law law) {
 }
 
 TEST(OscillatorLaws, L1ToL3_HoldAcrossChangesOfDrift) {
-  for_drawn_changes(4, [](const Oscillator&, const Oscillator& oscillator, TrueTime, TrueTime at, RandomStream& stream) {
+  for_drawn_changes(4, [](const Oscillator&, const Oscillator& oscillator, TrueTime, TrueTime at,
+                          RandomStream& stream) {
     const Microticks counted = oscillator.ticks_at(at);
     for (int i = 0; i < 50; ++i) {
       const std::int64_t reach = i < 10 ? 3 : std::int64_t{1} << stream.integer(0, 30);
       const Microticks k = counted + Microticks{stream.integer(-reach, reach)};
       const TrueTime happens = oscillator.time_of(k);
       ASSERT_EQ(oscillator.ticks_at(happens), k);
-      ASSERT_EQ(oscillator.ticks_at(happens - Duration{1}), k - Microticks{1});   // so it is the first nanosecond (L3)
+      ASSERT_EQ(oscillator.ticks_at(happens - Duration{1}), k - Microticks{1});  // so it is the first nanosecond (L3)
       ASSERT_LT(happens, oscillator.time_of(k + Microticks{1}));
     }
   });
 }
 
 TEST(OscillatorLaws, L4_TicksAlreadyCountedStay) {
-  for_drawn_changes(5, [](const Oscillator& before, const Oscillator& after, TrueTime since, TrueTime at,
-                          RandomStream& stream) {
-    const Microticks counted = before.ticks_at(at);
-    ASSERT_EQ(after.ticks_at(at), counted);
-    // As far back as the change before, which is remembered.
-    for (int i = 0; i < 20; ++i) {
-      const TrueTime past = at - Duration{stream.integer(0, std::min((at - since).ns, std::int64_t{1} << i))};
-      const Microticks k = before.ticks_at(past);
-      ASSERT_EQ(after.ticks_at(past), k);
-      if (before.time_of(k) < since) continue;
-      ASSERT_EQ(after.time_of(k), before.time_of(k));
-    }
-  });
+  for_drawn_changes(
+      5, [](const Oscillator& before, const Oscillator& after, TrueTime since, TrueTime at, RandomStream& stream) {
+        const Microticks counted = before.ticks_at(at);
+        ASSERT_EQ(after.ticks_at(at), counted);
+        // As far back as the change before, which is remembered.
+        for (int i = 0; i < 20; ++i) {
+          const TrueTime past = at - Duration{stream.integer(0, std::min((at - since).ns, std::int64_t{1} << i))};
+          const Microticks k = before.ticks_at(past);
+          ASSERT_EQ(after.ticks_at(past), k);
+          if (before.time_of(k) < since) continue;
+          ASSERT_EQ(after.time_of(k), before.time_of(k));
+        }
+      });
 }
 
 // A tick half over when the clock becomes a tenth slower takes the other half of a longer period.
 TEST(Oscillator, TheTickUnderWayIsStretched) {
   Oscillator oscillator(25'000, 0, 0);
-  oscillator.change_drift(TrueTime{1'012}, -100'000'000);   // 13 ns of tick 41 are left: 13 / 0.9 = 14.4 ns
+  oscillator.change_drift(TrueTime{1'012}, -100'000'000);  // 13 ns of tick 41 are left: 13 / 0.9 = 14.4 ns
   EXPECT_EQ(oscillator.ticks_at(TrueTime{1'012}).value, 40);
   EXPECT_EQ(oscillator.time_of({40}).ns, 1'000);
-  EXPECT_EQ(oscillator.time_of({41}).ns, 1'027);            // 1012 + 14.4
-  EXPECT_EQ(oscillator.time_of({42}).ns, 1'055);            // + 27.8
-  EXPECT_EQ(oscillator.time_of({1'041}).ns, 28'805);         // 41 is at 1026.44, a thousand later at 28804.22
+  EXPECT_EQ(oscillator.time_of({41}).ns, 1'027);      // 1012 + 14.4
+  EXPECT_EQ(oscillator.time_of({42}).ns, 1'055);      // + 27.8
+  EXPECT_EQ(oscillator.time_of({1'041}).ns, 28'805);  // 41 is at 1026.44, a thousand later at 28804.22
   EXPECT_EQ(oscillator.local_time({41}).ns, 1'025);
 }
 

@@ -156,8 +156,7 @@ TEST(Camera, DrawsBelongToTheSequence) {
   const std::vector<ObjectState> cars = {car_at(0, 20.0, -5.0), car_at(1, 40.0, 5.0)};
   bool differs = false;
   for (std::uint32_t k = 0; k < 10; ++k) {
-    const Frame first = frame(config, cars, k), again = frame(config, cars, k),
-                next = frame(config, cars, k + 1);
+    const Frame first = frame(config, cars, k), again = frame(config, cars, k), next = frame(config, cars, k + 1);
     ASSERT_EQ(first.truth, again.truth);
     for (std::size_t i = 0; i < first.truth.size(); ++i) {
       EXPECT_EQ(first.detections[i].disparity, again.detections[i].disparity);

@@ -15,8 +15,7 @@ namespace {
 
 TEST(PaperScenario1, TheCarGoesFrom30To40Metres) {
   const World world(without_noise(drive("paper_scenario1")), 1, 0);
-  const ObjectState from = world.state_of(ObjectId{0}, at_ms(1500)),
-                    to = world.state_of(ObjectId{0}, at_ms(3000));
+  const ObjectState from = world.state_of(ObjectId{0}, at_ms(1500)), to = world.state_of(ObjectId{0}, at_ms(3000));
   EXPECT_NEAR(from.x, 30.0, 0.01);
   EXPECT_NEAR(to.x, 40.0, 0.01);
   EXPECT_EQ(from.y, 0.0);
@@ -37,8 +36,7 @@ TEST(PaperScenario1, ProcessNoiseLeavesItTheSameDrive) {
 TEST(PaperScenario2, TheCarApproachesAtConstantSpeedAndTurnsAt20Metres) {
   const World world(without_noise(drive("paper_scenario2")), 1, 0);
   double last_x = 1e9, turned_at = 0.0;
-  const double y = world.state_of(ObjectId{0}, at_ms(0)).y,
-               speed = world.state_of(ObjectId{0}, at_ms(0)).speed;
+  const double y = world.state_of(ObjectId{0}, at_ms(0)).y, speed = world.state_of(ObjectId{0}, at_ms(0)).speed;
   for (std::int64_t ms = 0; ms <= 3000; ms += 10) {
     const ObjectState car = world.state_of(ObjectId{0}, at_ms(ms));
     EXPECT_LT(car.x, last_x);
@@ -58,8 +56,7 @@ TEST(PaperScenario2, TheCarApproachesAtConstantSpeedAndTurnsAt20Metres) {
 TEST(PaperDrives, OneCarCarriesTheReference) {
   for (const char* name : {"paper_scenario1", "paper_scenario2"}) {
     const WorldConfig config = drive(name);
-    EXPECT_EQ(std::count_if(config.objects.begin(), config.objects.end(),
-                            [](const auto& o) { return o.reference; }),
+    EXPECT_EQ(std::count_if(config.objects.begin(), config.objects.end(), [](const auto& o) { return o.reference; }),
               1);
   }
 }

@@ -50,8 +50,8 @@ TEST(Field, AThousandFitTheShippedSquareWithoutTouching) {
   double nearest = 1e9;
   for (std::size_t a = 0; a < square.objects.size(); ++a)
     for (std::size_t b = 0; b < a; ++b)
-      nearest = std::min(nearest, std::hypot(square.objects[a].x - square.objects[b].x,
-                                             square.objects[a].y - square.objects[b].y));
+      nearest = std::min(
+          nearest, std::hypot(square.objects[a].x - square.objects[b].x, square.objects[a].y - square.objects[b].y));
   EXPECT_DOUBLE_EQ(nearest, 4.0);
 }
 

@@ -69,8 +69,7 @@ TEST(Laser, ACarStraightAheadIsSeenAsItsRear) {
     EXPECT_LE(std::abs(hit.range * std::sin(hit.azimuth)), 1.0 + 1e-9);
   }
   // Every beam within +-atan(1 / 18) and no other.
-  EXPECT_EQ(hits.size(),
-            2U * static_cast<std::size_t>(std::atan(1.0 / 18.0) / exact_laser().azimuth_step_rad) + 1U);
+  EXPECT_EQ(hits.size(), 2U * static_cast<std::size_t>(std::atan(1.0 / 18.0) / exact_laser().azimuth_step_rad) + 1U);
 }
 
 TEST(Laser, RaysMeetOutlinesWhereTheirEdgesAre) {
@@ -123,9 +122,8 @@ TEST(Laser, EveryBeamEndsAtTheNearestOutline) {
 
 TEST(Laser, NearObjectsHideFarOnes) {
   // Behind: fully hidden. Beside: its left half shows.
-  const auto [hits, truth] = scan(
-      exact_laser(),
-      {box(0, 40.0, 0.0, 0.0, 4.0, 1.8), box(1, 12.0, 0.0, 0.0, 4.0, 2.0), box(2, 40.0, 4.0, 0.0, 4.0, 1.8)});
+  const auto [hits, truth] = scan(exact_laser(), {box(0, 40.0, 0.0, 0.0, 4.0, 1.8), box(1, 12.0, 0.0, 0.0, 4.0, 2.0),
+                                                  box(2, 40.0, 4.0, 0.0, 4.0, 1.8)});
   EXPECT_EQ(std::count(truth.begin(), truth.end(), ObjectId{0}), 0);
   EXPECT_GT(std::count(truth.begin(), truth.end(), ObjectId{1}), 10);
   EXPECT_GT(std::count(truth.begin(), truth.end(), ObjectId{2}), 0);
@@ -142,8 +140,7 @@ TEST(Laser, NearObjectsHideFarOnes) {
 TEST(Laser, HalfHiddenObjectsShowTheOtherHalf) {
   // The near one's left edge is seen under atan(1/10) = 0.0997 rad; the far one spans y = 2.1..3.9 at 28 m:
   // 0.075..0.138.
-  const auto [hits, truth] =
-      scan(exact_laser(), {box(0, 12.0, 0.0, 0.0, 4.0, 2.0), box(1, 30.0, 3.0, 0.0, 4.0, 1.8)});
+  const auto [hits, truth] = scan(exact_laser(), {box(0, 12.0, 0.0, 0.0, 4.0, 2.0), box(1, 30.0, 3.0, 0.0, 4.0, 1.8)});
   double low = 1.0, high = -1.0;
   for (std::size_t i = 0; i < hits.size(); ++i)
     if (truth[i] == ObjectId{1}) {
@@ -186,13 +183,11 @@ TEST(Laser, LossesGrowWithTheRangeSquared) {
     const std::vector<ObjectState> wall = {box(0, range + 0.5, 0.0, 0.0, 1.0, 0.2 * range)};
     const std::size_t all = scan(exact_laser(), wall).hits.size() * 4;
     std::size_t seen = 0;
-    for (std::uint32_t sequence = 0; sequence < 60; ++sequence)
-      seen += scan(config, wall, sequence).hits.size();
+    for (std::uint32_t sequence = 0; sequence < 60; ++sequence) seen += scan(config, wall, sequence).hits.size();
     const double expected = config.miss_at_100m * range * range / 1e4;
     const double n = 60.0 * static_cast<double>(all);
     // The wall's ends are 0.5 % further than its middle: 1 % more loss.
-    EXPECT_NEAR(1.0 - static_cast<double>(seen) / n, expected,
-                4.0 * std::sqrt(expected / n) + 0.01 * expected)
+    EXPECT_NEAR(1.0 - static_cast<double>(seen) / n, expected, 4.0 * std::sqrt(expected / n) + 0.01 * expected)
         << range;
   }
 }

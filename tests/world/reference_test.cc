@@ -13,8 +13,7 @@ namespace {
 
 // A parked car, the second of two, far enough off for the alignment to show.
 WorldConfig parked() {
-  WorldConfig config =
-      world_from("objects: [{name: other, x: 10, y: 0}, {name: car, x: 80, y: 60, reference: true}]");
+  WorldConfig config = world_from("objects: [{name: other, x: 10, y: 0}, {name: car, x: 80, y: 60, reference: true}]");
   config.duration = Duration::milliseconds(1000);
   return config;
 }
@@ -73,8 +72,7 @@ TEST(Reference, PositionNoiseHasItsSigmaPerAxis) {
   const WorldConfig config = parked();
   const World world(config, 1, 0);
   const Reference reference(c, config, 1, 0);
-  const double cosine = std::cos(reference.alignment_error_rad()),
-               sine = std::sin(reference.alignment_error_rad());
+  const double cosine = std::cos(reference.alignment_error_rad()), sine = std::sin(reference.alignment_error_rad());
   constexpr int kFixes = 2000;
   double xx = 0, yy = 0, xy = 0;
   for (std::uint32_t k = 0; k < kFixes; ++k) {
@@ -90,20 +88,22 @@ TEST(Reference, PositionNoiseHasItsSigmaPerAxis) {
   EXPECT_NEAR(xy / n, 0.0, 4.0 / std::sqrt(kFixes));
 }
 
-// A moving car: the velocity's noise has its sigma per axis, whatever the position's errors are, and is not the position's.
+// A moving car: the velocity's noise has its sigma per axis, whatever the position's errors are, and is not the
+// position's.
 TEST(Reference, VelocityNoiseHasItsOwnSigmaAndDoesNotJump) {
   ReferenceConfig c;
   c.sigma_m = 5.0;
   c.excursion_probability = 0.5;
   c.alignment_baseline_m = 10.0;
-  WorldConfig config =
-      world_from("objects: [{name: car, x: 80, y: 60, heading: 0.5, speed: 12, reference: true, segments: "
-                 "[{duration: 200 s}]}]");
+  WorldConfig config = world_from(
+      "objects: [{name: car, x: 80, y: 60, heading: 0.5, speed: 12, reference: true, segments: "
+      "[{duration: 200 s}]}]");
   config.duration = Duration::milliseconds(200'000);
   const World world(config, 1, 0);
   const Reference reference(c, config, 1, 0);
   const double cosine = std::cos(reference.alignment_error_rad()), sine = std::sin(reference.alignment_error_rad());
-  ASSERT_GT(std::abs(reference.alignment_error_rad()), 0.1) << "too well aligned to show whether the velocity is turned";
+  ASSERT_GT(std::abs(reference.alignment_error_rad()), 0.1)
+      << "too well aligned to show whether the velocity is turned";
   constexpr int kFixes = 2000;
   double xx = 0, yy = 0, xy = 0, with_position = 0;
   for (std::uint32_t k = 0; k < kFixes; ++k) {
@@ -136,8 +136,7 @@ TEST(Reference, ExcursionsLastSeveralFixesAndAreAsOftenAsStated) {
     const Fix fix = reference.fix(k, world);
     const double x = fix.x - 80.0, y = fix.y - 60.0, size = std::hypot(x, y);
     if (size < 1e-9) {
-      EXPECT_TRUE(run == 0 || run >= c.excursion_fixes)
-          << "an excursion ended after " << run << " fixes at " << k;
+      EXPECT_TRUE(run == 0 || run >= c.excursion_fixes) << "an excursion ended after " << run << " fixes at " << k;
       run = 0;
     } else {
       EXPECT_NEAR(size, c.excursion_m, 1e-9);

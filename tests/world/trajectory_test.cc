@@ -201,10 +201,8 @@ TEST(WorldFile, EveryMistakeIsFoundAtOnce) {
 
 TEST(WorldFile, OneCarAtMostCarriesTheReference) {
   EXPECT_NO_THROW(world_from("objects: [{name: a, x: 9, y: 0, reference: true}, {name: b, x: 20, y: 0}]"));
-  EXPECT_THROW(
-      world_from(
-          "objects: [{name: a, x: 9, y: 0, reference: true}, {name: b, x: 20, y: 0, reference: true}]"),
-      InputError);
+  EXPECT_THROW(world_from("objects: [{name: a, x: 9, y: 0, reference: true}, {name: b, x: 20, y: 0, reference: true}]"),
+               InputError);
 }
 
 }  // namespace

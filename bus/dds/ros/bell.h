@@ -13,9 +13,9 @@ class Bell {
   ~Bell() { sem_destroy(&semaphore_); }
   Bell(const Bell&) = delete;
   Bell& operator=(const Bell&) = delete;
-  void ring() { sem_post(&semaphore_); }   // fails beyond INT_MAX calls only: then nobody sleeps anyway
+  void ring() { sem_post(&semaphore_); }  // fails beyond INT_MAX calls only: then nobody sleeps anyway
   void wait() {
-    while (sem_wait(&semaphore_) != 0) continue;   // a signal came
+    while (sem_wait(&semaphore_) != 0) continue;  // a signal came
   }
 
  private:

@@ -13,15 +13,15 @@ namespace ttf::ros {
 enum class HealthLevel : std::uint8_t { kOk = 0, kWarn = 1, kError = 2, kStale = 3 };
 
 struct HealthValue {
-  std::string_view key;     // "late wake-ups"
-  std::string_view value;   // "3"
+  std::string_view key;    // "late wake-ups"
+  std::string_view value;  // "3"
 };
 
 struct Health {
   TrueTime at{};
   HealthLevel level = HealthLevel::kOk;
-  std::string_view name;      // of what it is the health: "fusion: schedule"
-  std::string_view message;   // in words: "normal active"
+  std::string_view name;     // of what it is the health: "fusion: schedule"
+  std::string_view message;  // in words: "normal active"
   std::span<const HealthValue> values;
 };
 

@@ -66,8 +66,7 @@ void print_number(const char* key, double value) {
   print_value(value);
 }
 
-template <class Numbers>
-void print_numbers(const char* key, const Numbers& values) {
+template <class Numbers> void print_numbers(const char* key, const Numbers& values) {
   std::printf(", \"%s\": [", key);
   const char* between = "";
   for (const double value : values) {
@@ -181,8 +180,8 @@ void print_health(const void* sample) {
   for (std::uint32_t i = 0; i < diagnostics.status._length; ++i) {
     const auto& status = diagnostics.status._buffer[i];
     std::printf("%s{\"level\": %u, \"name\": %s, \"message\": %s, \"hardware_id\": %s, \"values\": {",
-                i == 0 ? "" : ", ", unsigned{status.level}, quoted(status.name).c_str(),
-                quoted(status.message).c_str(), quoted(status.hardware_id).c_str());
+                i == 0 ? "" : ", ", unsigned{status.level}, quoted(status.name).c_str(), quoted(status.message).c_str(),
+                quoted(status.hardware_id).c_str());
     for (std::uint32_t j = 0; j < status.values._length; ++j)
       std::printf("%s%s: %s", j == 0 ? "" : ", ", quoted(status.values._buffer[j].key).c_str(),
                   quoted(status.values._buffer[j].value).c_str());
@@ -314,7 +313,7 @@ class Listener {
   dds_entity_t participant_ = 0;
   dds_entity_t set_ = 0;
   dds_entity_t publications_ = 0;
-  std::map<std::string, Heard> heard_;   // by topic
+  std::map<std::string, Heard> heard_;  // by topic
 };
 
 }  // namespace

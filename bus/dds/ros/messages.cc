@@ -17,8 +17,7 @@ constexpr std::int64_t kPpm = 1'000'000;
 char* text_of(const std::string& text) { return const_cast<char*>(text.c_str()); }
 char* text_of(const char* text) { return const_cast<char*>(text); }
 
-template <class Sequence, class Element>
-void refer(Sequence& sequence, std::vector<Element>& elements) {
+template <class Sequence, class Element> void refer(Sequence& sequence, std::vector<Element>& elements) {
   sequence._buffer = elements.data();
   sequence._length = sequence._maximum = static_cast<std::uint32_t>(elements.size());
   sequence._release = false;
@@ -54,7 +53,7 @@ vision_msgs_msg_dds__ObjectHypothesisWithPose_ hypothesis_of(const records::Imag
   const bool confirmed = (object.status & records::kImageConfirmed) != 0;
   hypothesis.hypothesis = {.class_id = text_of(confirmed ? "confirmed" : "tentative"), .score = 1};
   hypothesis.pose.pose = pose_of(object.x, object.y, object.heading);
-  double(&covariance)[36] = hypothesis.pose.covariance;   // row-major, of x, y, z and the rotations about X, Y, Z
+  double(&covariance)[36] = hypothesis.pose.covariance;  // row-major, of x, y, z and the rotations about X, Y, Z
   covariance[0 * 6 + 0] = object.sigma_x * object.sigma_x;
   covariance[0 * 6 + 1] = covariance[1 * 6 + 0] = object.correlation_xy * object.sigma_x * object.sigma_y;
   covariance[1 * 6 + 1] = object.sigma_y * object.sigma_y;
@@ -84,18 +83,14 @@ std::int64_t realtime_at(std::int64_t origin_ns, TrueTime drive, std::int64_t sc
 std::string object_name(ObjectId object) { return fmt::format("object_{}", index_of(object)); }
 
 Messages::Messages(const RosOptions& options)
-    : origin_(options.origin_realtime_ns),
-      scale_ppm_(options.time_scale_ppm),
-      frame_(options.frame_id),
+    : origin_(options.origin_realtime_ns), scale_ppm_(options.time_scale_ppm), frame_(options.frame_id),
       hardware_(options.node_name) {}
 
 builtin_interfaces_msg_dds__Time_ Messages::time_of(TrueTime at) const {
   return ros_time(realtime_at(origin_, at, scale_ppm_));
 }
 
-std_msgs_msg_dds__Header_ Messages::header(TrueTime at) {
-  return {.stamp = time_of(at), .frame_id = text_of(frame_)};
-}
+std_msgs_msg_dds__Header_ Messages::header(TrueTime at) { return {.stamp = time_of(at), .frame_id = text_of(frame_)}; }
 
 const ttfusion_msgs_msg_dds__RealTimeImage_& Messages::image(const WaitingImage& waiting) {
   objects_.clear();
@@ -117,7 +112,7 @@ const vision_msgs_msg_dds__Detection3DArray_& Messages::boxes(const WaitingImage
     hypotheses_.push_back(hypothesis_of(object));
     *fmt::format_to_n(ids_.emplace_back().data(), 7, "{}", index_of(object.track)).out = '\0';
   }
-  for (std::size_t i = 0; i < waiting.objects.size(); ++i) {   // now that what they refer to stays where it is
+  for (std::size_t i = 0; i < waiting.objects.size(); ++i) {  // now that what they refer to stays where it is
     vision_msgs_msg_dds__Detection3D_& detection = detections_.emplace_back();
     detection.header = header(waiting.valid_at);
     detection.results = {._maximum = 1, ._length = 1, ._buffer = &hypotheses_[i], ._release = false};

@@ -19,7 +19,7 @@ builtin_interfaces_msg_dds__Time_ ros_time(std::int64_t realtime_ns);
 // hold is its end.
 std::int64_t realtime_at(std::int64_t origin_ns, TrueTime drive, std::int64_t scale_ppm);
 
-std::string object_name(ObjectId object);   // its frame, and part of its topic: "object_3"
+std::string object_name(ObjectId object);  // its frame, and part of its topic: "object_3"
 
 // Each function makes the message of what waits; it is valid until the next call of any, and as long as what waits is.
 // Only read by who writes it: C has no way to say so. Nothing is allocated once lists have been as long as they get.

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kMost = 1024;
 constexpr std::size_t kMaxNameLength = 64;
-constexpr std::int64_t kSmallestScale_ppm = 100'000, kLargestScale_ppm = 1'000'000'000;   // as --time-scale
+constexpr std::int64_t kSmallestScale_ppm = 100'000, kLargestScale_ppm = 1'000'000'000;  // as --time-scale
 
 // As ROS 2 has the tokens of a name (design.ros2.org/articles/topic_and_service_names.html).
 bool is_token(const std::string& name) {
@@ -52,9 +52,9 @@ void validate(const RosOptions& options) {
   demand_period("health_period", options.health_period);
   demand(options.deadline_slack >= 1 && options.deadline_slack <= 1000, "deadline_slack",
          std::to_string(options.deadline_slack), "must be 1..1000");
-  demand(options.liveliness_lease >= std::chrono::milliseconds{100} &&
-             options.liveliness_lease <= std::chrono::hours{1},
-         "liveliness_lease", std::to_string(options.liveliness_lease.count()), "must be 100..3600000 ms");
+  demand(
+      options.liveliness_lease >= std::chrono::milliseconds{100} && options.liveliness_lease <= std::chrono::hours{1},
+      "liveliness_lease", std::to_string(options.liveliness_lease.count()), "must be 100..3600000 ms");
   demand(options.truth_objects <= kMost, "truth_objects", std::to_string(options.truth_objects),
          fmt::format("must be 0..{}", kMost));
   demand_count("most_objects", options.most_objects);

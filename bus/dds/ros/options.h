@@ -11,24 +11,24 @@
 namespace ttf::ros {
 
 struct RosOptions {
-  std::uint32_t domain = 0;                   // DDS' domain, ROS_DOMAIN_ID: 0..231
-  std::string node_name = "ttfusion";         // topics are /<node_name>/...; up to 64 letters, digits and single '_'
-  std::int64_t origin_realtime_ns = 0;        // CLOCK_REALTIME at true time 0 of the drive: stamps are on ROS' clock
-  std::int64_t time_scale_ppm = 1'000'000;    // real time lasts so much longer than the drive's, 100'000..1'000'000'000
-  std::string frame_id = "sensor_car";        // of everything: x forward, y left (ISO 8855, as REP 103)
+  std::uint32_t domain = 0;                 // DDS' domain, ROS_DOMAIN_ID: 0..231
+  std::string node_name = "ttfusion";       // topics are /<node_name>/...; up to 64 letters, digits and single '_'
+  std::int64_t origin_realtime_ns = 0;      // CLOCK_REALTIME at true time 0 of the drive: stamps are on ROS' clock
+  std::int64_t time_scale_ppm = 1'000'000;  // real time lasts so much longer than the drive's, 100'000..1'000'000'000
+  std::string frame_id = "sensor_car";      // of everything: x forward, y left (ISO 8855, as REP 103)
 
   // Who listens is promised a new sample within `deadline_slack` times these, in wall time. Zero: nothing is promised.
-  Duration image_period{};                    // of images, and of the boxes made of them
-  Duration step_period{};                     // of tracks: one sample for each step of the fusion
-  Duration truth_period{};                    // of each object
+  Duration image_period{};  // of images, and of the boxes made of them
+  Duration step_period{};   // of tracks: one sample for each step of the fusion
+  Duration truth_period{};  // of each object
   Duration health_period{};
-  double deadline_slack = 1.5;                // at least 1
-  std::chrono::milliseconds liveliness_lease{1000};   // a publisher not heard for so long is dead; 100 ms to 1 h
+  double deadline_slack = 1.5;                       // at least 1
+  std::chrono::milliseconds liveliness_lease{1000};  // a publisher not heard for so long is dead; 100 ms to 1 h
 
-  std::uint16_t truth_objects = 0;            // of so many, the first, the truth is published
-  std::size_t most_objects = 64;              // in an image, 1..1024; more are cut off and counted
-  std::size_t most_tracks = 64;               // in a step, likewise
-  std::size_t queue = 16;                     // images, steps, instants of truth and healths that wait; 1..1024 each
+  std::uint16_t truth_objects = 0;  // of so many, the first, the truth is published
+  std::size_t most_objects = 64;    // in an image, 1..1024; more are cut off and counted
+  std::size_t most_tracks = 64;     // in a step, likewise
+  std::size_t queue = 16;           // images, steps, instants of truth and healths that wait; 1..1024 each
 };
 
 // Of the publisher's place in the domain. A process that was stopped is found again after some leases at the latest:

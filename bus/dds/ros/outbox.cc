@@ -31,13 +31,9 @@ class Texts {
 }  // namespace
 
 Outbox::Outbox(const RosOptions& options)
-    : images(options.queue, options.most_objects),
-      steps(options.queue, options.most_tracks),
-      truths(options.queue * std::max<std::size_t>(options.truth_objects, 1)),
-      healths(options.queue),
-      most_objects_(options.most_objects),
-      most_tracks_(options.most_tracks),
-      last_truth_(options.truth_objects) {}
+    : images(options.queue, options.most_objects), steps(options.queue, options.most_tracks),
+      truths(options.queue * std::max<std::size_t>(options.truth_objects, 1)), healths(options.queue),
+      most_objects_(options.most_objects), most_tracks_(options.most_tracks), last_truth_(options.truth_objects) {}
 
 bool Outbox::put(const records::ImageWritten& image) {
   WaitingImage* slot = images.room();

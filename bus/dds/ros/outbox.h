@@ -22,7 +22,7 @@ namespace ttf::ros {
 struct WaitingImage {
   explicit WaitingImage(std::size_t most_objects) { objects.reserve(most_objects); }
   TrueTime valid_at{}, written{};
-  std::optional<TrueTime> newest_measurement;   // none before the first
+  std::optional<TrueTime> newest_measurement;  // none before the first
   std::uint32_t sequence = 0;
   std::vector<records::ImageObject> objects;
 };
@@ -61,17 +61,17 @@ class Outbox {
 
   // Each says whether there is something new to take.
   bool put(const records::ImageWritten& image);
-  bool put(const records::TrackState& track);   // waits for the FusionStep it belongs to
+  bool put(const records::TrackState& track);  // waits for the FusionStep it belongs to
   bool put(const records::FusionStep& step);
-  bool put(const records::TruthState& truth);   // several nodes may tell of one instant: it is taken once
+  bool put(const records::TruthState& truth);  // several nodes may tell of one instant: it is taken once
   bool put(const Health& health);
 
   // What had no room, and what was too long.
   struct Dropped {
     std::uint64_t images = 0, steps = 0, truths = 0, healths = 0;
-    std::uint64_t cut = 0;   // images and steps that had more objects or tracks than there is room for
+    std::uint64_t cut = 0;  // images and steps that had more objects or tracks than there is room for
   };
-  Dropped dropped() const;   // from any thread
+  Dropped dropped() const;  // from any thread
 
   Ring<WaitingImage> images;
   Ring<WaitingStep> steps;
@@ -82,10 +82,10 @@ class Outbox {
   void begin(std::uint32_t step);
 
   std::size_t most_objects_, most_tracks_;
-  std::optional<std::uint32_t> step_;          // whose tracks come
-  WaitingStep* waiting_ = nullptr;             // where they go: nullptr, there is no room
+  std::optional<std::uint32_t> step_;  // whose tracks come
+  WaitingStep* waiting_ = nullptr;     // where they go: nullptr, there is no room
   bool step_cut_ = false;
-  std::vector<std::optional<TrueTime>> last_truth_;   // by object
+  std::vector<std::optional<TrueTime>> last_truth_;  // by object
   std::atomic<std::uint64_t> dropped_images_{0}, dropped_steps_{0}, dropped_truths_{0}, dropped_healths_{0}, cut_{0};
 };
 

@@ -24,8 +24,7 @@ const RosOptions& valid(const RosOptions& options) {
 
 class RosPublisher::Impl {
  public:
-  explicit Impl(const RosOptions& options)
-      : outbox_(valid(options)), writers_(options), thread_([this] { run(); }) {}
+  explicit Impl(const RosOptions& options) : outbox_(valid(options)), writers_(options), thread_([this] { run(); }) {}
   ~Impl() {
     ending_.store(true, std::memory_order_release);
     bell_.ring();
@@ -34,16 +33,15 @@ class RosPublisher::Impl {
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
-  template <class What>
-  void put(const What& what) {
+  template <class What> void put(const What& what) {
     if (outbox_.put(what)) bell_.ring();
   }
 
   RosCounts counts() const {
     const Outbox::Dropped dropped = outbox_.dropped();
     const std::scoped_lock lock(mutex_);
-    return {counts_of(written_.images, dropped.images), counts_of(written_.boxes, 0),
-            counts_of(written_.tracks, dropped.steps),  counts_of(written_.truths, dropped.truths),
+    return {counts_of(written_.images, dropped.images),   counts_of(written_.boxes, 0),
+            counts_of(written_.tracks, dropped.steps),    counts_of(written_.truths, dropped.truths),
             counts_of(written_.healths, dropped.healths), dropped.cut};
   }
 
@@ -61,8 +59,7 @@ class RosPublisher::Impl {
   }
 
   // Whether there was anything.
-  template <class Slot>
-  bool write_all(Ring<Slot>& ring) {
+  template <class Slot> bool write_all(Ring<Slot>& ring) {
     if (ring.first() == nullptr) return false;
     for (const Slot* slot; (slot = ring.first()) != nullptr; ring.pop()) writers_.write(*slot);
     return true;
@@ -73,12 +70,12 @@ class RosPublisher::Impl {
   };
 
   Outbox outbox_;
-  Writers writers_;   // the thread's own
+  Writers writers_;  // the thread's own
   Bell bell_;
   std::atomic<bool> ending_{false};
-  mutable std::mutex mutex_;   // between the thread and who asks for counts
-  Written written_;            // guarded by mutex_
-  std::thread thread_;         // last: it uses all of the above
+  mutable std::mutex mutex_;  // between the thread and who asks for counts
+  Written written_;           // guarded by mutex_
+  std::thread thread_;        // last: it uses all of the above
 };
 
 RosPublisher::RosPublisher(const RosOptions& options) : impl_(std::make_unique<Impl>(options)) {}

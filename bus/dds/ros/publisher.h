@@ -16,15 +16,15 @@
 namespace ttf::ros {
 
 struct TopicCounts {
-  std::uint64_t written = 0;            // to DDS
-  std::uint64_t dropped = 0;            // there was no room for it here
-  std::uint64_t refused = 0;            // DDS did not take it
-  std::uint64_t deadlines_missed = 0;   // promised and not kept, as of the last sample written
+  std::uint64_t written = 0;           // to DDS
+  std::uint64_t dropped = 0;           // there was no room for it here
+  std::uint64_t refused = 0;           // DDS did not take it
+  std::uint64_t deadlines_missed = 0;  // promised and not kept, as of the last sample written
 };
 
 struct RosCounts {
-  TopicCounts images, boxes, tracks, truth, health;   // an image that is dropped is counted as such in `images` only
-  std::uint64_t cut = 0;                              // images and steps with more in them than RosOptions has room for
+  TopicCounts images, boxes, tracks, truth, health;  // an image that is dropped is counted as such in `images` only
+  std::uint64_t cut = 0;                             // images and steps with more in them than RosOptions has room for
 };
 
 class RosPublisher final : public records::Sink {
@@ -45,7 +45,7 @@ class RosPublisher final : public records::Sink {
   // From one thread, that or another. Longer than 4096 characters in all, it is dropped.
   void health(const Health& health);
 
-  RosCounts counts() const;   // from any thread; what is written is told a moment later
+  RosCounts counts() const;  // from any thread; what is written is told a moment later
 
  private:
   class Impl;

@@ -7,12 +7,10 @@
 
 namespace ttf::ros {
 
-template <class Slot>
-class Ring {
+template <class Slot> class Ring {
  public:
   // Slots are made of `of`, each its own.
-  template <class... Of>
-  explicit Ring(std::size_t slots, const Of&... of) {
+  template <class... Of> explicit Ring(std::size_t slots, const Of&... of) {
     slots_.reserve(slots);
     for (std::size_t i = 0; i < slots; ++i) slots_.emplace_back(of...);
   }
@@ -35,8 +33,8 @@ class Ring {
 
  private:
   std::vector<Slot> slots_;
-  std::atomic<std::size_t> filled_{0};    // ever; written by who fills
-  std::atomic<std::size_t> emptied_{0};   // ever; written by who empties
+  std::atomic<std::size_t> filled_{0};   // ever; written by who fills
+  std::atomic<std::size_t> emptied_{0};  // ever; written by who empties
 };
 
 }  // namespace ttf::ros

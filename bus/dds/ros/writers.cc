@@ -7,7 +7,7 @@
 namespace ttf::ros {
 namespace {
 
-constexpr std::int32_t kDepth = 10;   // as many as ROS' readers keep where nobody says otherwise
+constexpr std::int32_t kDepth = 10;  // as many as ROS' readers keep where nobody says otherwise
 
 using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
 
@@ -28,7 +28,7 @@ Qos qualities(Duration period, bool kept_for_late_listeners, const RosOptions& o
   if (period > Duration{})
     dds_qset_deadline(qos.get(), std::llround(static_cast<double>(period.ns) * options.deadline_slack));
   dds_qset_liveliness(qos.get(), DDS_LIVELINESS_AUTOMATIC, std::chrono::nanoseconds(options.liveliness_lease).count());
-  dds_data_representation_id_t plain = DDS_DATA_REPRESENTATION_XCDR1;   // all that ROS 2 speaks
+  dds_data_representation_id_t plain = DDS_DATA_REPRESENTATION_XCDR1;  // all that ROS 2 speaks
   dds_qset_data_representation(qos.get(), 1, &plain);
   return qos;
 }
@@ -67,14 +67,13 @@ Writer::Counts Writer::counts() const {
 }
 
 Writers::Writers(const RosOptions& options)
-    : participant_(options.domain, lease_of(options)),
-      messages_(options),
+    : participant_(options.domain, lease_of(options)), messages_(options),
       images_(participant_, &ttfusion_msgs_msg_dds__RealTimeImage__desc, topic_of(options, "image"),
               options.image_period, false, options),
       boxes_(participant_, &vision_msgs_msg_dds__Detection3DArray__desc, topic_of(options, "image/boxes"),
              options.image_period, false, options),
-      tracks_(participant_, &ttfusion_msgs_msg_dds__TrackArray__desc, topic_of(options, "tracks"),
-              options.step_period, false, options),
+      tracks_(participant_, &ttfusion_msgs_msg_dds__TrackArray__desc, topic_of(options, "tracks"), options.step_period,
+              false, options),
       // Where all of ROS looks for diagnostics, whoever publishes them.
       healths_(participant_, &diagnostic_msgs_msg_dds__DiagnosticArray__desc, "rt/diagnostics", options.health_period,
                true, options) {
@@ -92,9 +91,7 @@ void Writers::write(const WaitingImage& image) {
 
 void Writers::write(const WaitingStep& step) { tracks_.write(&messages_.tracks(step)); }
 
-void Writers::write(const WaitingTruth& truth) {
-  truths_[index_of(truth.state.object)].write(&messages_.truth(truth));
-}
+void Writers::write(const WaitingTruth& truth) { truths_[index_of(truth.state.object)].write(&messages_.truth(truth)); }
 
 void Writers::write(const WaitingHealth& health) { healths_.write(&messages_.health(health)); }
 

@@ -18,12 +18,12 @@ class Writer {
  public:
   struct Counts {
     std::uint64_t written = 0;
-    std::uint64_t refused = 0;              // DDS took it not: its memory is full, or whatever it said
-    std::uint64_t deadlines_missed = 0;     // promised, and not kept
+    std::uint64_t refused = 0;           // DDS took it not: its memory is full, or whatever it said
+    std::uint64_t deadlines_missed = 0;  // promised, and not kept
   };
   Writer(const dds::Participant& participant, const void* type, const std::string& topic, Duration period,
          bool kept_for_late_listeners, const RosOptions& options);
-  void write(const void* sample);   // never waits
+  void write(const void* sample);  // never waits
   Counts counts() const;
 
  private:
@@ -44,14 +44,14 @@ class Writers {
   Writer::Counts images() const { return images_.counts(); }
   Writer::Counts boxes() const { return boxes_.counts(); }
   Writer::Counts tracks() const { return tracks_.counts(); }
-  Writer::Counts truths() const;   // of all objects
+  Writer::Counts truths() const;  // of all objects
   Writer::Counts healths() const { return healths_.counts(); }
 
  private:
   dds::Participant participant_;
   Messages messages_;
   Writer images_, boxes_, tracks_, healths_;
-  std::vector<Writer> truths_;   // by object
+  std::vector<Writer> truths_;  // by object
 };
 
 }  // namespace ttf::ros

@@ -16,13 +16,12 @@ namespace {
 
 using sensors::Measurement;
 
-constexpr std::size_t kFilters = 101;   // the last block is not full
+constexpr std::size_t kFilters = 101;  // the last block is not full
 constexpr int kSteps = 60;
 const motion::ConstantVelocity kModel(3.0);
 
 // Whatever a filter of the form may hold, and may be told.
-template <template <class> class Form>
-Gaussian<4> prior(RandomStream& stream) {
+template <template <class> class Form> Gaussian<4> prior(RandomStream& stream) {
   Gaussian<4> state;
   state.x = drawn<4>(Vector<4>::Zero(), 100.0 * Matrix<4>::Identity(), stream);
   state.p = drawn_covariance<4>(stream, 5.0);
@@ -31,8 +30,7 @@ Gaussian<4> prior(RandomStream& stream) {
       if (std::is_same_v<Form<double>, batch::Axes<double>> && (r + c) % 2 == 1) state.p(r, c) = 0.0;
   return state;
 }
-template <template <class> class Form>
-Measurement<2> seen(RandomStream& stream) {
+template <template <class> class Form> Measurement<2> seen(RandomStream& stream) {
   Measurement<2> z;
   z.z = drawn<2>(Vector<2>::Zero(), 100.0 * Matrix<2>::Identity(), stream);
   z.r = drawn_covariance<2>(stream, 0.3);
@@ -46,8 +44,7 @@ bool same_bits(const Gaussian<4>& a, const Gaussian<4>& b) {
 }
 
 // One step of 1..99 ms after the other; one in four is not measured.
-template <template <class> class Form, class Step>
-void equals_one_at_a_time(const Step& step) {
+template <template <class> class Form, class Step> void equals_one_at_a_time(const Step& step) {
   RandomStream stream({.seed = 5});
   batch::Batch<Form> batch(kFilters);
   std::vector<Gaussian<4>> alone;

@@ -31,9 +31,9 @@ TEST(LateRefusal, NamesWhatCannotBe) {
     EXPECT_EQ(refusal(StrategyKind::kAdva, false, true),
               clone ? "must not be clone where a sensor measures freely: the schedule must know the instants beforehand"
                     : "");
-    EXPECT_EQ(refusal(StrategyKind::kAdva, true, false),
-              rewind ? ""
-                     : "must be rewind where a sensor measures range and bearing: the other methods take positions");
+    EXPECT_EQ(
+        refusal(StrategyKind::kAdva, true, false),
+        rewind ? "" : "must be rewind where a sensor measures range and bearing: the other methods take positions");
     EXPECT_EQ(refusal(StrategyKind::kTt, true, true),
               rewind || clone ? "" : "must be rewind or clone with strategy tt");
   }
@@ -75,8 +75,8 @@ TEST_P(LateUnderAdva, ImagesAreNearlyThoseOfRewinding) {
   ASSERT_EQ(rewinding.image.size(), 25u);
   const double sigmas = GetParam() == Kind::kC ? 1.0 : 0.5;
   for (const TrackView& one : rewinding.image) {
-    const auto same = std::min_element(
-        other.image.begin(), other.image.end(), [&](const TrackView& a, const TrackView& b) {
+    const auto same =
+        std::min_element(other.image.begin(), other.image.end(), [&](const TrackView& a, const TrackView& b) {
           return (a.state - one.state).head<2>().squaredNorm() < (b.state - one.state).head<2>().squaredNorm();
         });
     for (int c = 0; c < 4; ++c)
@@ -108,7 +108,7 @@ TEST_P(LateUnderAdva, AllocatesNothing) {
 // A list that comes after its promise is taken in by going back: the bits of BUFF as it always was.
 TEST(LateUnderBuff, IsAlwaysRewinding) {
   std::vector<Arrival> arrivals = drawn_drive(5, 40);
-  for (std::size_t i = 10; i < arrivals.size(); i += 7) arrivals[i].ms += 100;   // broken promises
+  for (std::size_t i = 10; i < arrivals.size(); i += 7) arrivals[i].ms += 100;  // broken promises
   const Ending rewinding = end_of(StrategyKind::kBuff, Kind::kRewind, arrivals);
   EXPECT_GT(rewinding.late, 5u);
   for (const Kind kind : {Kind::kAugmented, Kind::kClone, Kind::kC}) {

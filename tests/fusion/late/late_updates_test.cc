@@ -46,7 +46,7 @@ TEST_P(EveryMethod, GivesTheBitsOfTheTrackerInOrder) {
 // What is not late goes on as before, whatever came late.
 struct Compared {
   int late = 0, too_old = 0;
-  double worst = 0.0;       // relative difference of estimates
+  double worst = 0.0;  // relative difference of estimates
   bool counted_alike = true;
 };
 Compared compare(const TrackerConfig& config, const std::vector<OwnedScan>& lists,
@@ -145,8 +145,8 @@ metrics::Consistency drives(Kind kind, int runs) {
     std::vector<OwnedScan> lists;
     for (std::uint32_t k = 0; k < 30; ++k) {
       if (k > 0)
-        truth = draw(transition(config.motion, 0.02) * truth,
-                     driving_noise(config.motion, config.process_noise, 0.02), stream);
+        truth = draw(transition(config.motion, 0.02) * truth, driving_noise(config.motion, config.process_noise, 0.02),
+                     stream);
       lists.push_back(scan(static_cast<std::uint8_t>(k % 2), k / 2, at_ms(20 * k),
                            {position(truth(0) + 0.3 * stream.normal(), truth(1) + 0.3 * stream.normal(), 0.3)}));
     }

@@ -152,7 +152,7 @@ TEST(ClearMot, RemembersAcrossMisses) {
     ClearMot mot = judge();
     mot.step(Names{1}, Names{5}, Distances{0.1});
     for (int i = 0; i < 3; ++i) mot.step(Names{1}, Names{}, Distances{});
-    for (int i = 0; i < 2; ++i) mot.step(Names{}, Names{}, Distances{});   // out of sight: not a miss
+    for (int i = 0; i < 2; ++i) mot.step(Names{}, Names{}, Distances{});  // out of sight: not a miss
     mot.step(Names{1}, Names{later}, Distances{0.1});
     expect_counts(mot.counts(), {2, 3, 0, later == 6 ? 1u : 0u});
   }

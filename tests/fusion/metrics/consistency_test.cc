@@ -60,7 +60,7 @@ TEST(Consistency, MeanOfDifferentDegrees) {
 TEST(Consistency, OutsideOnEitherSide) {
   Consistency low, high;
   for (int i = 0; i < 50; ++i) {
-    low.add(1.4, 2);    // band 1.48 to 2.59
+    low.add(1.4, 2);  // band 1.48 to 2.59
     high.add(2.7, 2);
   }
   EXPECT_FALSE(low.consistent());

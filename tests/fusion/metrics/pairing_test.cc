@@ -15,7 +15,7 @@ namespace ttf::fusion::metrics {
 namespace {
 
 constexpr double kApart = std::numeric_limits<double>::infinity();
-using Costs = std::vector<std::vector<double>>;   // kApart where a pair is not offered
+using Costs = std::vector<std::vector<double>>;  // kApart where a pair is not offered
 
 // Largest sum of gains over every way to leave a row alone or give it a free column.
 double best_of_all(const Costs& costs, double bonus, std::size_t row = 0, unsigned taken = 0) {
@@ -63,7 +63,7 @@ double gain_of(const Costs& costs, const std::vector<int>& column_of, double bon
 
 // P1, and P3, of drawn problems: dense squares, sparse and oblong ones, with and without ties.
 TEST(Pairing, IsAsGoodAsTryingAllWays) {
-  Pairing pairing(6, 6);   // one for all: nothing may be left over from the problem before
+  Pairing pairing(6, 6);  // one for all: nothing may be left over from the problem before
   for (std::uint32_t index = 0; index < 1500; ++index) {
     RandomStream stream({.seed = 21, .purpose = Purpose::kTest, .index = index});
     const auto rows = static_cast<std::size_t>(stream.integer(0, 6));
@@ -86,7 +86,7 @@ TEST(Pairing, TiesGoToTheSmallerAndTheEarlier) {
     RandomStream stream({.seed = 22, .purpose = Purpose::kTest, .index = index});
     const auto rows = static_cast<std::size_t>(stream.integer(1, 6)),
                columns = static_cast<std::size_t>(stream.integer(1, 6));
-    const Costs costs = drawn(stream, rows, columns, 0.8, 2);   // 0, 1/2, 1: sums are exact
+    const Costs costs = drawn(stream, rows, columns, 0.8, 2);  // 0, 1/2, 1: sums are exact
     const std::vector<int> of = solved(pairing, costs, columns, Pairing::most_pairs(rows, columns));
     std::vector<bool> free(columns, true);
     for (const int column : of)
@@ -140,8 +140,7 @@ TEST(Pairing, LargeDenseSquareWithoutAllocation) {
   RandomStream stream({.seed = 23, .purpose = Purpose::kTest});
   pairing.begin(kN, kN);
   for (std::size_t r = 0; r < kN; ++r)
-    for (std::size_t c = 0; c < kN; ++c)
-      pairing.offer(r, c, c == (7 * r + 5) % kN ? 0.0 : stream.uniform(0.001, 1.0));
+    for (std::size_t c = 0; c < kN; ++c) pairing.offer(r, c, c == (7 * r + 5) % kN ? 0.0 : stream.uniform(0.001, 1.0));
   pairing.solve(Pairing::kLeastCost);
   EXPECT_EQ(support::allocations(), before);
   for (std::size_t r = 0; r < kN; ++r) ASSERT_EQ(pairing.column_of()[r], static_cast<int>((7 * r + 5) % kN));

@@ -79,7 +79,7 @@ TEST(SetMetric, IdentityAndSymmetry) {
     RandomStream stream({.seed = 32, .purpose = Purpose::kTest, .index = index});
     const CutOff cut_off = drawn_cut_off(stream);
     const Points x = drawn_points(stream, 6), y = drawn_points(stream, 6);
-    Points again(x.rbegin(), x.rend());   // a set has no order
+    Points again(x.rbegin(), x.rend());  // a set has no order
     const SetDistance self = compare(x, again, cut_off);
     ASSERT_EQ(self.gospa.distance_m, 0.0);
     ASSERT_EQ(self.ospa.distance_m, 0.0);
@@ -131,7 +131,7 @@ TEST(SetMetric, PartsByHand) {
   const SetDistance d = compare(on_axis({0, 10, 20}), on_axis({0.3, 14, 40}), {3.0, 2.0});
   EXPECT_EQ(d.pairs, 1u);
   EXPECT_NEAR(d.gospa.localisation, 0.09, 1e-15);
-  EXPECT_DOUBLE_EQ(d.gospa.missed, 9.0);            // 2 * 9 / 2
+  EXPECT_DOUBLE_EQ(d.gospa.missed, 9.0);  // 2 * 9 / 2
   EXPECT_DOUBLE_EQ(d.gospa.false_estimates, 9.0);
   EXPECT_NEAR(d.gospa.distance_m, std::sqrt(18.09), 1e-14);
   EXPECT_NEAR(d.ospa.localisation, 18.09 / 3.0, 1e-14);
@@ -144,7 +144,7 @@ TEST(SetMetric, EmptySets) {
   EXPECT_EQ(compare({}, {}, cut_off).ospa.distance_m, 0.0);
   const SetDistance missed = compare(on_axis({1, 2, 3}), {}, cut_off),
                     false_ones = compare({}, on_axis({1, 2}), cut_off);
-  EXPECT_DOUBLE_EQ(missed.gospa.missed, 24.0);      // 3 * 16 / 2
+  EXPECT_DOUBLE_EQ(missed.gospa.missed, 24.0);  // 3 * 16 / 2
   EXPECT_EQ(missed.gospa.false_estimates, 0.0);
   EXPECT_DOUBLE_EQ(missed.ospa.distance_m, 4.0);
   EXPECT_DOUBLE_EQ(false_ones.gospa.false_estimates, 16.0);
@@ -193,10 +193,10 @@ TEST(PublishedValues, StoneSoupOspa) {
   const struct {
     Points estimates;
     double order, value;
-  } rows[] = {{on_axis({0.5, 1.5, 2.5, 3.5, 4.5}), 1.0, 0.5},     {on_axis({0.2, 1.2, 2.2, 3.2, 4.2}), 1.0, 0.2},
-              {on_axis({0.5, 1.5, 2.5, 3.5, 4.5}), 2.0, 0.5},     {on_axis({0.2, 1.2, 2.2, 3.2, 4.2}), 2.0, 0.2},
-              {on_axis({0.5, 1.5, 2.5, 3.5}), 1.0, 2.4},          {on_axis({0.2, 1.2, 2.2, 3.2}), 1.0, 2.16},
-              {on_axis({0.5, 1.5, 2.5, 3.5}), 2.0, 4.49444},      {on_axis({0.2, 1.2, 2.2, 3.2}), 2.0, 4.47571}};
+  } rows[] = {{on_axis({0.5, 1.5, 2.5, 3.5, 4.5}), 1.0, 0.5}, {on_axis({0.2, 1.2, 2.2, 3.2, 4.2}), 1.0, 0.2},
+              {on_axis({0.5, 1.5, 2.5, 3.5, 4.5}), 2.0, 0.5}, {on_axis({0.2, 1.2, 2.2, 3.2, 4.2}), 2.0, 0.2},
+              {on_axis({0.5, 1.5, 2.5, 3.5}), 1.0, 2.4},      {on_axis({0.2, 1.2, 2.2, 3.2}), 1.0, 2.16},
+              {on_axis({0.5, 1.5, 2.5, 3.5}), 2.0, 4.49444},  {on_axis({0.2, 1.2, 2.2, 3.2}), 2.0, 4.47571}};
   for (const auto& row : rows)
     EXPECT_NEAR(compare(truths, row.estimates, {10.0, row.order}).ospa.distance_m, row.value, 5e-6) << row.order;
 }
@@ -219,8 +219,8 @@ TEST(PublishedValues, StoneSoupGospa) {
 // the paper's noise, so the values are by hand.
 TEST(PublishedValues, ExampleOfTheGospaPaperWithoutNoise) {
   const Points truths{{-6, -6}, {0, 3}}, good{{-6.7, -5.1}, {-1.8, 2.9}};
-  const Points false_ones{{22, 18}, {-10, 18}, {35, 42}, {38, 0}, {50, 35}, {7, 28}, {-15, -19}, {17, 17}, {42, 30},
-                          {20, 15}};
+  const Points false_ones{{22, 18}, {-10, 18},  {35, 42}, {38, 0},  {50, 35},
+                          {7, 28},  {-15, -19}, {17, 17}, {42, 30}, {20, 15}};
   EXPECT_NEAR(compare(truths, good, {8.0, 1.0}).gospa.distance_m, std::sqrt(1.3) + std::sqrt(3.25), 1e-14);
   EXPECT_NEAR(compare(truths, good, {8.0, 2.0}).gospa.distance_m, std::sqrt(4.55), 1e-14);
   for (const std::size_t missed : {0u, 1u, 2u})

@@ -79,9 +79,9 @@ TEST(TrackLives, FragmentationsAndSwitches) {
   const struct {
     const char* letters;
     std::uint64_t fragmentations, switches;
-  } rows[] = {{"aaaa", 0, 0},   {"aabb", 0, 1},     {"a.a", 1, 0},    {"a...a", 1, 0}, {"a.b", 1, 1},
-              {"a.a.b.a", 3, 2}, {"abab", 0, 3},    {"a..", 0, 0},    {"..a", 0, 0},   {"a  a", 0, 0},
-              {"a  b", 0, 1},    {"a . a", 1, 0},   {".a. .b.", 1, 1}};
+  } rows[] = {{"aaaa", 0, 0},    {"aabb", 0, 1},  {"a.a", 1, 0},    {"a...a", 1, 0}, {"a.b", 1, 1},
+              {"a.a.b.a", 3, 2}, {"abab", 0, 3},  {"a..", 0, 0},    {"..a", 0, 0},   {"a  a", 0, 0},
+              {"a  b", 0, 1},    {"a . a", 1, 0}, {".a. .b.", 1, 1}};
   for (const auto& row : rows) {
     const ObjectLife life = life_of(row.letters);
     EXPECT_EQ(life.fragmentations, row.fragmentations) << '"' << row.letters << '"';
@@ -90,9 +90,9 @@ TEST(TrackLives, FragmentationsAndSwitches) {
 }
 
 TEST(TrackLives, CoverageAtItsBounds) {
-  EXPECT_EQ(life_of("aaaa.").coverage(), Coverage::kMostlyTracked);    // 80 %
+  EXPECT_EQ(life_of("aaaa.").coverage(), Coverage::kMostlyTracked);  // 80 %
   EXPECT_EQ(life_of("aaa.").coverage(), Coverage::kPartlyTracked);
-  EXPECT_EQ(life_of("a....").coverage(), Coverage::kPartlyTracked);    // 20 %
+  EXPECT_EQ(life_of("a....").coverage(), Coverage::kPartlyTracked);  // 20 %
   EXPECT_EQ(life_of("a.....").coverage(), Coverage::kMostlyLost);
 }
 

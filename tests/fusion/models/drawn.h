@@ -21,8 +21,7 @@ using AllMotions = testing::Types<motion::ConstantVelocity, motion::ConstantAcce
 
 // A vehicle somewhere within 100 m: up to 20 m/s, 1 rad/s, 3 m/s^2; every third draw turns at a rate where formulas
 // change hands or cancel.
-template <class M>
-Vector<M::kStates> drawn_state(RandomStream& stream, int draw) {
+template <class M> Vector<M::kStates> drawn_state(RandomStream& stream, int draw) {
   Vector<M::kStates> x;
   x(0) = stream.uniform(-100.0, 100.0);
   x(1) = stream.uniform(-100.0, 100.0);
@@ -39,8 +38,7 @@ Vector<M::kStates> drawn_state(RandomStream& stream, int draw) {
 }
 
 // Positive definite, of the size of `sigma`.
-template <int N>
-Matrix<N> drawn_covariance(RandomStream& stream, double sigma) {
+template <int N> Matrix<N> drawn_covariance(RandomStream& stream, double sigma) {
   Matrix<N> a;
   for (int i = 0; i < N; ++i)
     for (int j = 0; j < N; ++j) a(i, j) = sigma * stream.normal();
@@ -50,8 +48,7 @@ Matrix<N> drawn_covariance(RandomStream& stream, double sigma) {
 }
 
 // From N(mean, covariance).
-template <int N>
-Vector<N> drawn(const Vector<N>& mean, const Matrix<N>& covariance, RandomStream& stream) {
+template <int N> Vector<N> drawn(const Vector<N>& mean, const Matrix<N>& covariance, RandomStream& stream) {
   Vector<N> white;
   for (int i = 0; i < N; ++i) white(i) = stream.normal();
   return mean + times<N, N, 1>(square_root<N>(covariance), white);
@@ -73,8 +70,7 @@ Matrix<Rows, N> numerical_jacobian(const Function& f, const Vector<N>& x, const 
 }
 
 // Largest difference, relative to the larger of 1 and the largest of b.
-template <int R, int C>
-double apart(const Matrix<R, C>& a, const Matrix<R, C>& b) {
+template <int R, int C> double apart(const Matrix<R, C>& a, const Matrix<R, C>& b) {
   double difference = 0.0, size = 1.0;
   for (int i = 0; i < R; ++i)
     for (int j = 0; j < C; ++j) {
@@ -86,15 +82,13 @@ double apart(const Matrix<R, C>& a, const Matrix<R, C>& b) {
 }
 
 // To the last bit.
-template <int R, int C>
-bool same(const Matrix<R, C>& a, const Matrix<R, C>& b) {
+template <int R, int C> bool same(const Matrix<R, C>& a, const Matrix<R, C>& b) {
   for (int i = 0; i < R; ++i)
     for (int j = 0; j < C; ++j)
       if (a(i, j) != b(i, j)) return false;
   return true;
 }
-template <int N>
-bool symmetric(const Matrix<N>& a) {
+template <int N> bool symmetric(const Matrix<N>& a) {
   for (int i = 0; i < N; ++i)
     for (int j = 0; j < i; ++j)
       if (a(i, j) != a(j, i)) return false;

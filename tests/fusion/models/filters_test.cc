@@ -61,7 +61,7 @@ TEST(PositiveDefinite, IsWhatCanBeFactored) {
 }
 TEST(SquareRoot, OfWhatIsCertainInPart) {
   Matrix<3> p;
-  p << 4.0, 2.0, 0.0, 2.0, 1.0, 0.0, 0.0, 0.0, 0.0;   // two components that move as one, a third that is known
+  p << 4.0, 2.0, 0.0, 2.0, 1.0, 0.0, 0.0, 0.0, 0.0;  // two components that move as one, a third that is known
   const Matrix<3> a = square_root<3>(p);
   EXPECT_LT((apart<3, 3>(times_transposed<3, 3, 3>(a, a), p)), 1e-15);
   EXPECT_EQ(a.col(2).norm(), 0.0);
@@ -123,8 +123,7 @@ LinearMeasurement<M::kStates, S::kDimension> linearised(const S& sensor, const M
 }
 
 // To the bit: what a gate is told is what an update finds.
-template <int M>
-void expect_same(const Innovation<M>& a, const Innovation<M>& b) {
+template <int M> void expect_same(const Innovation<M>& a, const Innovation<M>& b) {
   EXPECT_TRUE((same<M, 1>(a.nu, b.nu) && same<M, M>(a.s, b.s)));
   EXPECT_EQ(a.nis, b.nis);
   EXPECT_EQ(a.determinant, b.determinant);
@@ -132,8 +131,7 @@ void expect_same(const Innovation<M>& a, const Innovation<M>& b) {
 }
 
 // The filter against the dense one, step by step, on measurements of a vehicle somewhere ahead.
-template <class F, class M, class S>
-void is_the_dense_filter(const M& model, const S& sensor, double tolerance) {
+template <class F, class M, class S> void is_the_dense_filter(const M& model, const S& sensor, double tolerance) {
   constexpr int kN = M::kStates, kM = S::kDimension;
   RandomStream stream({.seed = 11});
   Gaussian<kN> state;
@@ -203,7 +201,7 @@ TEST(UnscentedFilter, HeadingsAverageAsAngles) {
   state.x << 10.0, 0.0, 3.13, 5.0, 0.1;
   state.p = Vector<5>(0.01, 0.01, 0.04, 0.01, 0.01).asDiagonal();
   Gaussian<5> turned = state;
-  turned.x(2) = 0.13;   // the same, but for a turn of three radians
+  turned.x(2) = 0.13;  // the same, but for a turn of three radians
   Unscented{}.predict(model, state, 0.5);
   Unscented{}.predict(model, turned, 0.5);
   EXPECT_NEAR(to_half_turn(state.x(2) - turned.x(2)), 3.0, 1e-13);
@@ -245,8 +243,8 @@ void refuses(const F& filter, const S& sensor, Gaussian<4> state = {Vector<4>::Z
   EXPECT_TRUE((same<4, 4>(state.p, before.p)));
 }
 TEST(Filters, DoNotUseWhatTheyCannotSee) {
-  refuses(Extended{}, RangeBearingRate{});   // at the sensor
-  refuses(Unscented{}, PositionHeading{});   // standing: no course
+  refuses(Extended{}, RangeBearingRate{});  // at the sensor
+  refuses(Unscented{}, PositionHeading{});  // standing: no course
 }
 // At 0.5 m/s it has a course; a sigma point, two sigmas off, of the speed 0.09 m/s has not.
 TEST(UnscentedFilter, DoesNotUseWhatOneOfItsPointsCannotSee) {
@@ -255,7 +253,7 @@ TEST(UnscentedFilter, DoesNotUseWhatOneOfItsPointsCannotSee) {
   const Measurement<3> z{{10.0, 2.0, 0.1}, 0.01 * Matrix<3>::Identity()};
   Gaussian<4> linearised = slow;
   EXPECT_TRUE(Extended{}.update(motion::ConstantVelocity{}, PositionHeading{}, z, linearised).used);
-  slow.p(2, 2) = 0.195 * 0.195;   // 0.11 m/s
+  slow.p(2, 2) = 0.195 * 0.195;  // 0.11 m/s
   EXPECT_TRUE(Unscented{}.update(motion::ConstantVelocity{}, PositionHeading{}, z, slow).used);
 }
 

@@ -1,7 +1,7 @@
 // Interacting multiple models: against one filter, against probabilities by hand, and on a drive that goes straight on
 // and turns.
-#include "fusion/filters/extended.h"
 #include "fusion/filters/imm.h"
+#include "fusion/filters/extended.h"
 #include "fusion/sensors/position.h"
 #include "fusion/sensors/range_bearing.h"
 #include "tests/fusion/models/drawn.h"

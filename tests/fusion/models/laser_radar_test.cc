@@ -25,7 +25,7 @@ struct Seen {
   bool radar = false;
   double seconds = 0.0;
   Vector<3> z = Vector<3>::Zero();
-  Vector<4> truth = Vector<4>::Zero();   // x, y, vx, vy
+  Vector<4> truth = Vector<4>::Zero();  // x, y, vx, vy
 };
 
 std::vector<Seen> read_drive(const std::string& path) {
@@ -52,12 +52,11 @@ std::vector<Seen> read_drive(const std::string& path) {
 // Figures of one filter over a drive. The truth goes into rmse only.
 struct Result {
   Vector<4> rmse = Vector<4>::Zero();
-  double laser_nis = 0.0, radar_nis = 0.0;   // means
-  double log_likelihood = 0.0;               // of all innovations
+  double laser_nis = 0.0, radar_nis = 0.0;  // means
+  double log_likelihood = 0.0;              // of all innovations
 };
 
-template <class F>
-Result follow(const F& filter, const motion::Ctrv& model, const std::vector<Seen>& drive) {
+template <class F> Result follow(const F& filter, const motion::Ctrv& model, const std::vector<Seen>& drive) {
   using M = motion::Ctrv;
   const Matrix<2> laser_r = 0.0225 * Matrix<2>::Identity();
   const Matrix<3> radar_r = Vector<3>(0.09, 0.0009, 0.09).asDiagonal();
@@ -66,7 +65,7 @@ Result follow(const F& filter, const motion::Ctrv& model, const std::vector<Seen
   int laser = 0, radar = 0;
   for (std::size_t i = 0; i < drive.size(); ++i) {
     const Seen& seen = drive[i];
-    if (i == 0) {   // laser first: position known, heading and speed as of any road vehicle in town
+    if (i == 0) {  // laser first: position known, heading and speed as of any road vehicle in town
       state.x << seen.z(0), seen.z(1), 0.0, 0.0, 0.0;
       state.p.diagonal() << 0.0225, 0.0225, 0.25, 25.0, 0.25;
     } else {
@@ -96,7 +95,7 @@ Result follow(const F& filter, const motion::Ctrv& model, const std::vector<Seen
   return result;
 }
 
-constexpr double kTurnDensity = 0.01, kAlongDensity = 0.01;   // [rad^2/s^3], [m^2/s^3]: expect_consistent()
+constexpr double kTurnDensity = 0.01, kAlongDensity = 0.01;  // [rad^2/s^3], [m^2/s^3]: expect_consistent()
 
 class LaserRadar : public testing::Test {
  protected:
@@ -106,8 +105,7 @@ class LaserRadar : public testing::Test {
     drive = read_drive(support::recording_path(name));
     ASSERT_EQ(drive.size(), 500u);
   }
-  template <class F>
-  Result judged(const F& filter) const {
+  template <class F> Result judged(const F& filter) const {
     const Result r = follow(filter, motion::Ctrv(kTurnDensity, kAlongDensity), drive);
     std::cout << F::kName << ": RMSE of px py vx vy " << r.rmse.transpose() << ", mean NIS of laser (2) " << r.laser_nis
               << ", of radar (3) " << r.radar_nis << ", log likelihood " << r.log_likelihood << "\n";
@@ -118,12 +116,12 @@ class LaserRadar : public testing::Test {
 
 // The process noise is that of the decades of its two densities under which the innovations are likeliest: a choice
 // that knows no truth. Then the innovations are as large as they are said to be (means of 249 and 250, 95 % bands).
-template <class F>
-void expect_consistent(const F& filter, const Result& chosen, const std::vector<Seen>& drive) {
+template <class F> void expect_consistent(const F& filter, const Result& chosen, const std::vector<Seen>& drive) {
   for (const double turn : {0.1, 1.0, 10.0})
     for (const double along : {0.1, 1.0, 10.0})
       EXPECT_LE(follow(filter, motion::Ctrv(kTurnDensity * turn, kAlongDensity * along), drive).log_likelihood,
-                chosen.log_likelihood) << turn << " " << along;
+                chosen.log_likelihood)
+          << turn << " " << along;
   EXPECT_GT(chosen.laser_nis, chi_square_quantile(0.025, 249.0 * 2.0) / 249.0);
   EXPECT_LT(chosen.laser_nis, chi_square_quantile(0.975, 249.0 * 2.0) / 249.0);
   EXPECT_GT(chosen.radar_nis, chi_square_quantile(0.025, 250.0 * 3.0) / 250.0);

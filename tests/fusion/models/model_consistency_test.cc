@@ -115,8 +115,7 @@ Gaussian<5> turning_start() {
   return start;
 }
 const Mounted<RangeBearingRate> kFromTheBumper({.position = {3.5, 0.5}, .yaw = 0.2});
-template <class F>
-Consistency turning(std::uint64_t seed, const F& filter, double assumed) {
+template <class F> Consistency turning(std::uint64_t seed, const F& filter, double assumed) {
   const motion::Ctrv truth(0.02, 0.5), model(0.02 * assumed, 0.5 * assumed);
   return simulate(seed, filter, truth, model, kFromTheBumper, kRadar, turning_start());
 }

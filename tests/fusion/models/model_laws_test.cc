@@ -9,8 +9,7 @@ namespace {
 
 constexpr int kDraws = 300;
 
-template <class M>
-class MotionLaws : public testing::Test {
+template <class M> class MotionLaws : public testing::Test {
  protected:
   RandomStream stream{{.seed = 1}};
   M model;
@@ -35,18 +34,19 @@ TYPED_TEST(MotionLaws, JacobianIsTheDerivative) {
   for (int i = 0; i < kDraws; ++i) {
     const auto x = drawn_state<M>(this->stream, i);
     const double dt = i % 5 == 0 ? 1.0 : this->stream.uniform(0.0, 1.5);
-    const Matrix<kN> numerical = numerical_jacobian<kN, kN>(
-        [&](const Vector<kN>& at) { return this->model.move(at, dt); }, x, M::difference);
+    const Matrix<kN> numerical =
+        numerical_jacobian<kN, kN>([&](const Vector<kN>& at) { return this->model.move(at, dt); }, x, M::difference);
     EXPECT_LT((apart<kN, kN>(this->model.jacobian(x, dt), numerical)), 2e-9)
         << "x = " << x.transpose() << ", dt = " << dt;
   }
 }
 
 // Which components white noise drives: the last of each axis, or turn rate and the last but it.
-template <class M>
-std::array<int, 2> driven() {
-  if constexpr (M::kCartesian) return {M::kStates - 2, M::kStates - 1};
-  else return {4, M::kStates == 6 ? 5 : 3};
+template <class M> std::array<int, 2> driven() {
+  if constexpr (M::kCartesian)
+    return {M::kStates - 2, M::kStates - 1};
+  else
+    return {4, M::kStates == 6 ? 5 : 3};
 }
 
 // The noise of 400 steps, each let in as a whole at the middle of its step: errors of (dt / 400)^2.
@@ -55,14 +55,14 @@ TYPED_TEST(MotionLaws, NoiseIsTheSumOfManySmallSteps) {
   constexpr int kN = M::kStates, kSteps = 400;
   for (int i = 0; i < 30; ++i) {
     auto x = drawn_state<M>(this->stream, i);
-    if constexpr (!M::kCartesian) x(4) = std::clamp(x(4), -1.0, 1.0);   // |w dt| <= 0.5
+    if constexpr (!M::kCartesian) x(4) = std::clamp(x(4), -1.0, 1.0);  // |w dt| <= 0.5
     const double dt = this->stream.uniform(0.02, 0.5), h = dt / kSteps;
     Matrix<kN> sum = Matrix<kN>::Zero();
     Vector<kN> at = x;
     for (int k = 0; k < kSteps; ++k) {
       sum = sandwich<kN, kN>(this->model.jacobian(at, h), sum);
       const Matrix<kN> rest = this->model.jacobian(this->model.move(at, 0.5 * h), 0.5 * h);
-      for (const int which : driven<M>()) add_outer<kN>(sum, h, rest.col(which));   // spectral densities of 1
+      for (const int which : driven<M>()) add_outer<kN>(sum, h, rest.col(which));  // spectral densities of 1
       at = this->model.move(at, h);
     }
     const Matrix<kN> q = this->model.noise(x, dt);
@@ -84,8 +84,7 @@ TEST(IntegratorChain, NoiseOfTwoSteps) {
 }
 
 // The way in place is the product of matrices.
-template <class M>
-void advance_is_the_product(M model) {
+template <class M> void advance_is_the_product(M model) {
   constexpr int kN = M::kStates;
   RandomStream stream({.seed = 2});
   for (int i = 0; i < 50; ++i) {
@@ -154,19 +153,22 @@ TEST(CoordinatedTurn, DrivesAroundACircle) {
 }
 
 // What a conversion makes of the uncertainty of one component is the derivative of what it makes of the mean.
-template <class From, class To>
-void conversion_is_first_order() {
+template <class From, class To> void conversion_is_first_order() {
   constexpr int kFrom = From::kStates, kTo = To::kStates;
   RandomStream stream({.seed = 3});
   Gaussian<kTo> own{Vector<kTo>::Constant(0.25), 2.0 * Matrix<kTo>::Identity()};
   constexpr int kKnown = From::kCartesian && kFrom == 4 ? 4 : kTo;
   for (int draw = 0; draw < 60; ++draw) {
     Gaussian<kFrom> from{.x = drawn_state<From>(stream, draw)};
-    if constexpr (!From::kCartesian) from.x(3) = stream.uniform(3.0, 20.0);
-    else if (from.x.template segment<2>(2).norm() < 2.0) continue;
+    if constexpr (!From::kCartesian)
+      from.x(3) = stream.uniform(3.0, 20.0);
+    else if (from.x.template segment<2>(2).norm() < 2.0)
+      continue;
     const Matrix<kTo, kFrom> j = numerical_jacobian<kTo, kFrom>(
-        [&](const Vector<kFrom>& at) { return motion::converted<From, To>({at, from.p}, own).x; }, from.x,
-        To::difference);
+        [&](const Vector<kFrom>& at) {
+          return motion::converted<From, To>({at, from.p}, own).x;
+        },
+        from.x, To::difference);
     for (int i = 0; i < kFrom; ++i) {
       from.p.setZero();
       from.p(i, i) = 1.0;
@@ -191,7 +193,7 @@ TEST(Conversion, ThereAndBackIsTheSame) {
   RandomStream stream({.seed = 4});
   for (int draw = 0; draw < 60; ++draw) {
     Gaussian<6> from{drawn_state<Ctra>(stream, draw), drawn_covariance<6>(stream, 0.3)};
-    from.x(3) = (draw % 2 == 0 ? 1.0 : -1.0) * stream.uniform(2.0, 20.0);   // reversing, too
+    from.x(3) = (draw % 2 == 0 ? 1.0 : -1.0) * stream.uniform(2.0, 20.0);  // reversing, too
     const Gaussian<6> there = motion::converted<Ctra, ConstantAcceleration>(from, {});
     const Gaussian<6> back = motion::converted<ConstantAcceleration, Ctra>(there, from);
     EXPECT_LT(Ctra::difference(back.x, from.x).cwiseAbs().maxCoeff(), 1e-12);
@@ -212,8 +214,7 @@ TEST(Conversion, WhatStandsKeepsItsHeading) {
   EXPECT_EQ(to.p(0, 0), 1.0);
 }
 
-template <class M>
-class EgoMotion : public MotionLaws<M> {};
+template <class M> class EgoMotion : public MotionLaws<M> {};
 TYPED_TEST_SUITE(EgoMotion, AllMotions);
 
 // Vehicle to the new place and back: nothing has changed.

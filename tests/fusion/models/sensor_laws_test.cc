@@ -25,29 +25,24 @@ Vector<5> drawn_kinematics(RandomStream& stream) {
 const Mounting kOnAVehicle = carried({.position = {3.5, -0.4}, .yaw = 0.3}, {8.0, 0.5}, 0.2);
 
 // Three ways of having each sensor.
-template <class S>
-struct Plain {
+template <class S> struct Plain {
   using Sensor = S;
   static Sensor make() { return {}; }
 };
-template <class S>
-struct OnAVehicle {
+template <class S> struct OnAVehicle {
   using Sensor = Mounted<S>;
   static Sensor make() { return Sensor(kOnAVehicle); }
 };
-template <class S>
-struct Wrong {
+template <class S> struct Wrong {
   using Sensor = Mounted<Systematic<S>>;
   static Sensor make() { return with({{}, Vector<S::kDimension>::Constant(0.1), -0.03}); }
   static Sensor with(const Systematic<S>& sensor) { return Sensor(kOnAVehicle, sensor); }
 };
 
-template <class How>
-class SensorLaws : public testing::Test {};
-using AllSensors =
-    testing::Types<Plain<Position>, Plain<PositionHeading>, Plain<RangeBearing>, Plain<RangeBearingRate>,
-                   OnAVehicle<Position>, OnAVehicle<PositionHeading>, OnAVehicle<RangeBearingRate>,
-                   Wrong<PositionHeading>, Wrong<RangeBearingRate>>;
+template <class How> class SensorLaws : public testing::Test {};
+using AllSensors = testing::Types<Plain<Position>, Plain<PositionHeading>, Plain<RangeBearing>, Plain<RangeBearingRate>,
+                                  OnAVehicle<Position>, OnAVehicle<PositionHeading>, OnAVehicle<RangeBearingRate>,
+                                  Wrong<PositionHeading>, Wrong<RangeBearingRate>>;
 TYPED_TEST_SUITE(SensorLaws, AllSensors);
 
 TYPED_TEST(SensorLaws, JacobianIsTheDerivative) {
@@ -57,10 +52,10 @@ TYPED_TEST(SensorLaws, JacobianIsTheDerivative) {
   RandomStream stream({.seed = 5});
   for (int i = 0; i < 200; ++i) {
     const Vector<5> at = drawn_kinematics(stream);
-    if (!sensor.sees(from_numbers(at)) || at.head<2>().norm() < 8.0) continue;   // near, the difference is not small
-    const Matrix<kM, 5> numerical = numerical_jacobian<kM, 5>(
-        [&](const Vector<5>& n) { return sensor.expected(from_numbers(n)); }, at,
-        [&](const auto& a, const auto& b) { return sensor.residual(a, b); });
+    if (!sensor.sees(from_numbers(at)) || at.head<2>().norm() < 8.0) continue;  // near, the difference is not small
+    const Matrix<kM, 5> numerical =
+        numerical_jacobian<kM, 5>([&](const Vector<5>& n) { return sensor.expected(from_numbers(n)); }, at,
+                                  [&](const auto& a, const auto& b) { return sensor.residual(a, b); });
     Matrix<kM, 5> h = Matrix<kM, 5>::Zero();
     h.template leftCols<S::kParts>() = sensor.jacobian(from_numbers(at));
     EXPECT_LT((apart<kM, 5>(h, numerical)), 1e-7) << at.transpose();
@@ -110,8 +105,7 @@ TEST(SystematicErrors, ShiftByVelocityTimesTimeBias) {
   EXPECT_NEAR(z(0), 10.0 + 1.0 + 0.2, 1e-14);
   EXPECT_NEAR(z(1), 5.0 - 0.2 - 0.1, 1e-14);
 }
-template <class S>
-void bias_jacobian_is_the_derivative() {
+template <class S> void bias_jacobian_is_the_derivative() {
   constexpr int kB = Mounted<Systematic<S>>::kBiases, kM = S::kDimension;
   RandomStream stream({.seed = 7});
   for (int i = 0; i < 50; ++i) {
@@ -119,12 +113,10 @@ void bias_jacobian_is_the_derivative() {
     if (at.head<2>().norm() < 8.0) continue;
     Vector<kB> biases;
     for (int k = 0; k < kB; ++k) biases(k) = stream.uniform(-0.05, 0.05);
-    const auto with = [&](const Vector<kB>& b) {
-      return Wrong<S>::with({{}, b.template head<kM>(), b(kM)});
-    };
-    const Matrix<kM, kB> numerical = numerical_jacobian<kM, kB>(
-        [&](const Vector<kB>& b) { return with(b).expected(from_numbers(at)); }, biases,
-        [&](const auto& a, const auto& b) { return with(biases).residual(a, b); });
+    const auto with = [&](const Vector<kB>& b) { return Wrong<S>::with({{}, b.template head<kM>(), b(kM)}); };
+    const Matrix<kM, kB> numerical =
+        numerical_jacobian<kM, kB>([&](const Vector<kB>& b) { return with(b).expected(from_numbers(at)); }, biases,
+                                   [&](const auto& a, const auto& b) { return with(biases).residual(a, b); });
     EXPECT_LT((apart<kM, kB>(with(biases).bias_jacobian(from_numbers(at)), numerical)), 1e-7);
   }
 }
@@ -134,8 +126,7 @@ TEST(SystematicErrors, BiasJacobianIsTheDerivative) {
 }
 
 // The vehicle and what it follows drive alike: whenever it was seen, it was at the same place ahead.
-template <class S>
-void late_stamps_do_not_matter() {
+template <class S> void late_stamps_do_not_matter() {
   const Vector<2> velocity(22.0, 0.5);
   const Mounting place = carried({.position = {3.5, -0.4}, .yaw = 0.3}, velocity, 0.0);
   const Systematic<S> late{{}, Vector<S::kDimension>::Zero(), 0.05};
@@ -154,16 +145,16 @@ TEST(SystematicErrors, TimeBiasIsOfTheMotionRelativeToTheSensor) {
 }
 
 template <class S>
-concept MayBeWrong = requires { typename Systematic<S>; };
+concept MayBeWrong = requires {
+  typename Systematic<S>;
+};
 static_assert(MayBeWrong<RangeBearing> && !MayBeWrong<Mounted<RangeBearing>>);
 static_assert(Biased<Mounted<Systematic<RangeBearing>>> && !Biased<Mounted<RangeBearing>>);
 
-template <class M>
-class ChainRule : public testing::Test {
+template <class M> class ChainRule : public testing::Test {
  protected:
   // What the measurement matrix says of the leading components is the derivative; of the others it does not depend.
-  template <class S>
-  void check(const S& sensor) {
+  template <class S> void check(const S& sensor) {
     constexpr int kN = M::kStates, kM = S::kDimension, kC = leading_columns(S::kParts);
     RandomStream stream({.seed = 8});
     for (int i = 0; i < 100; ++i) {

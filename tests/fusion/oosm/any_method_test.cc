@@ -24,8 +24,7 @@ TEST(AnyMethod, SaysHowExactTheChosenOneIs) {
     EXPECT_EQ(OnLine(kind, Line{}).exactness(), Exactness::kApproximate);
 }
 
-template <class X>
-void expect_the_same(Kind kind) {
+template <class X> void expect_the_same(Kind kind) {
   RandomStream stream({.seed = 9});
   const Gaussian<2> prior = drawn_prior<2>(stream);
   const auto events = delayed(stream, drawn_timeline<2, 1>(stream, 30), 3);

@@ -24,16 +24,13 @@ template <int N, int M, Motion<N> Model, int Capacity>
 const Gaussian<N>& Compiled<N, M, Model, Capacity>::state() const {
   return method_.state();
 }
-template <int N, int M, Motion<N> Model, int Capacity>
-GlobalTime Compiled<N, M, Model, Capacity>::time() const {
+template <int N, int M, Motion<N> Model, int Capacity> GlobalTime Compiled<N, M, Model, Capacity>::time() const {
   return method_.time();
 }
-template <int N, int M, Motion<N> Model, int Capacity>
-Exactness Compiled<N, M, Model, Capacity>::exactness() const {
+template <int N, int M, Motion<N> Model, int Capacity> Exactness Compiled<N, M, Model, Capacity>::exactness() const {
   return method_.exactness();
 }
-template <int N, int M, Motion<N> Model, int Capacity>
-Kind Compiled<N, M, Model, Capacity>::kind() const {
+template <int N, int M, Motion<N> Model, int Capacity> Kind Compiled<N, M, Model, Capacity>::kind() const {
   return method_.kind();
 }
 

@@ -12,8 +12,7 @@
 
 namespace ttf::fusion::oosm {
 
-template <int N, int M, Motion<N> Model, int Capacity>
-class Compiled {
+template <int N, int M, Motion<N> Model, int Capacity> class Compiled {
  public:
   static constexpr int kStates = N, kDimension = M;
   static constexpr Exactness kExactness = Exactness::kApproximate;

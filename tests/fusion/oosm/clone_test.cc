@@ -23,7 +23,7 @@ TEST_F(Announced, LateWithoutAWordIsNotTaken) {
   method_.take(scan(1), position(1));
   method_.take(scan(2), position(2));
   const Gaussian<2> before = method_.state();
-  EXPECT_FALSE(method_.announce(between(1)));   // too late
+  EXPECT_FALSE(method_.announce(between(1)));  // too late
   EXPECT_EQ(method_.take(between(1), position(1)), Taken::kUnannounced);
   EXPECT_TRUE(same_bits<2>(method_.state(), before));
   EXPECT_EQ(method_.take(scan(3), position(3)), Taken::kInOrder);
@@ -39,7 +39,7 @@ TEST_F(Announced, ATimeThatIsKeptNeedsNoClone) {
 
 TEST_F(Announced, ACloneServesOnce) {
   EXPECT_TRUE(method_.announce(between(0)));
-  EXPECT_TRUE(method_.announce(between(0)));   // once more is once
+  EXPECT_TRUE(method_.announce(between(0)));  // once more is once
   method_.take(scan(1), position(1));
   EXPECT_EQ(method_.take(between(0), position(1)), Taken::kLate);
   EXPECT_EQ(method_.take(between(0), position(1)), Taken::kUnannounced);
@@ -48,7 +48,7 @@ TEST_F(Announced, ACloneServesOnce) {
 TEST_F(Announced, TheOldestGoesWhenAllAreInUse) {
   EXPECT_TRUE(method_.announce(between(1)));
   EXPECT_TRUE(method_.announce(between(0)));
-  EXPECT_FALSE(method_.announce(between(2)));   // two are as many as there is room for
+  EXPECT_FALSE(method_.announce(between(2)));  // two are as many as there is room for
   method_.take(scan(2), position(1));
   EXPECT_TRUE(method_.announce(between(2)));
   method_.take(scan(3), position(1));

@@ -20,12 +20,11 @@ namespace {
 constexpr int kRuns = 1000, kScans = 12;
 constexpr std::uint64_t kSeeds[] = {1, 2};
 
-template <int M>
-struct Setting {
+template <int M> struct Setting {
   Line motion;
   int lag = 1;
   Matrix<M, 2> h;
-  Vector<M> r;   // variances
+  Vector<M> r;  // variances
 };
 const Setting<1> kPosition{Line{}, 1, Matrix<1, 2>(1.0, 0.0), Vector<1>(0.5)};
 
@@ -80,7 +79,7 @@ void expect_inside(double nees) {
   EXPECT_GT(nees, chi_square_quantile(1e-4, 2.0 * kRuns) / kRuns);
   EXPECT_LT(nees, chi_square_quantile(1.0 - 1e-4, 2.0 * kRuns) / kRuns);
 }
-constexpr double kFarOutside = 2.5;   // eight sigmas
+constexpr double kFarOutside = 2.5;  // eight sigmas
 
 Setting<1> positions_with(double q, int lag) {
   Setting<1> setting = kPosition;

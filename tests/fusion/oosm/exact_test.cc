@@ -25,8 +25,7 @@ void expect_exact(Kind kind, RandomStream& stream, const Timeline<X::kStates, X:
   EXPECT_LT((relative_difference<kN>(method.state(), in_order<kN, kM>(motion, prior, arrivals))), kExact);
 }
 
-template <int N, int M>
-int late_ones(const Timeline<N, M>& arrivals) {
+template <int N, int M> int late_ones(const Timeline<N, M>& arrivals) {
   Stamp newest = Stamp::start(GlobalTime{});
   int late = 0;
   for (const auto& event : arrivals) {
@@ -37,8 +36,7 @@ int late_ones(const Timeline<N, M>& arrivals) {
 }
 
 // 60 measurements, each as many as 20 late: several are late at a time, and not in order among themselves.
-template <class X, class Model>
-void expect_exact_in_any_order(Kind kind) {
+template <class X, class Model> void expect_exact_in_any_order(Kind kind) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     RandomStream stream({.seed = seed});
     const auto events = drawn_timeline<X::kStates, X::kDimension>(stream, 60);
@@ -49,8 +47,7 @@ void expect_exact_in_any_order(Kind kind) {
 }
 
 // All of 30, the last but `lag` last.
-template <class X, class Model>
-void expect_exact_with_one_late(Kind kind) {
+template <class X, class Model> void expect_exact_with_one_late(Kind kind) {
   for (int lag = 1; lag <= 20; ++lag) {
     RandomStream stream({.seed = 7, .index = static_cast<std::uint32_t>(lag)});
     const auto events = drawn_timeline<X::kStates, X::kDimension>(stream, 30);
@@ -59,8 +56,7 @@ void expect_exact_with_one_late(Kind kind) {
 }
 
 // 1 0 3 2 5 4 ...
-template <class X, class Model>
-void expect_exact_with_every_other_late(Kind kind) {
+template <class X, class Model> void expect_exact_with_every_other_late(Kind kind) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     RandomStream stream({.seed = seed});
     auto events = drawn_timeline<X::kStates, X::kDimension>(stream, 40);
@@ -70,8 +66,8 @@ void expect_exact_with_every_other_late(Kind kind) {
 }
 
 class ExactInAnyOrder : public testing::TestWithParam<Kind> {};
-INSTANTIATE_TEST_SUITE_P(Method, ExactInAnyOrder,
-                         testing::Values(Kind::kRewind, Kind::kAugmented, Kind::kClone), kind_of);
+INSTANTIATE_TEST_SUITE_P(Method, ExactInAnyOrder, testing::Values(Kind::kRewind, Kind::kAugmented, Kind::kClone),
+                         kind_of);
 TEST_P(ExactInAnyOrder, OnALine) { expect_exact_in_any_order<OnLine, Line>(GetParam()); }
 TEST_P(ExactInAnyOrder, OnAPlane) { expect_exact_in_any_order<OnPlane, Plane>(GetParam()); }
 
@@ -135,7 +131,7 @@ TEST_P(SeesWhatASmootherSees, OfALateInstant) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     RandomStream stream({.seed = seed, .index = 5});
     Timeline<4, 2> events = drawn_timeline<4, 2>(stream, 20);
-    for (std::size_t i = 0; i < events.size(); ++i)   // at instants of their own
+    for (std::size_t i = 0; i < events.size(); ++i)  // at instants of their own
       events[i].stamp = stamp_at(events[i].stamp.time() + Duration::milliseconds(static_cast<std::int64_t>(i) + 1));
     const auto last = events.end() - lag;
     const Stamp late = stamp_at(GlobalTime{((last - 1)->stamp.time().ns + last->stamp.time().ns) / 2}, 1);
@@ -153,8 +149,8 @@ TEST_P(SeesWhatASmootherSees, OfALateInstant) {
 
 // Without process noise there is nothing to ignore.
 class ExactWithoutNoise : public testing::TestWithParam<Kind> {};
-INSTANTIATE_TEST_SUITE_P(Method, ExactWithoutNoise,
-                         testing::Values(Kind::kB, Kind::kC, Kind::kBl1, Kind::kAugmented), kind_of);
+INSTANTIATE_TEST_SUITE_P(Method, ExactWithoutNoise, testing::Values(Kind::kB, Kind::kC, Kind::kBl1, Kind::kAugmented),
+                         kind_of);
 TEST_P(ExactWithoutNoise, EveryOtherLate) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     RandomStream stream({.seed = seed});

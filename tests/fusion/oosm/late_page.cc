@@ -160,8 +160,12 @@ std::string cost_picture(const Costs& costs) {
 std::string error_picture() {
   std::vector<Panel> panels;
   for (const int lag : {1, 3}) {
-    Panel panel{lag == 1 ? "1 lag" : "3 lags", "process noise q [m^2/s^3], power of ten", "worse by [%], power of ten",
-                {-3, 2}, {-3, 2}, {}};
+    Panel panel{lag == 1 ? "1 lag" : "3 lags",
+                "process noise q [m^2/s^3], power of ten",
+                "worse by [%], power of ten",
+                {-3, 2},
+                {-3, 2},
+                {}};
     const auto curve = [&](std::string_view name, std::optional<Kind> kind, const std::string& colour) {
       // B and Bl1 are one line at one lag.
       Curve made{std::string(name), colour, !kind ? "5 3" : kind == Kind::kBl1 ? "2 4" : "", {}};

@@ -20,10 +20,9 @@
 namespace ttf::fusion::oosm {
 namespace {
 
-constexpr double kThree = 0.5e-3, kFour = 0.5e-4;   // half a unit of the last digit printed
+constexpr double kThree = 0.5e-3, kFour = 0.5e-4;  // half a unit of the last digit printed
 
-template <int N>
-Timeline<N, N> interval(const Matrix<N>& r) {
+template <int N> Timeline<N, N> interval(const Matrix<N>& r) {
   const LinearMeasurement<N, N> all{Vector<N>::Ones(), Matrix<N>::Identity(), r};
   return {{stamp_at(after_ms(1000)), all}, {stamp_at(after_ms(500)), all}};
 }
@@ -37,20 +36,17 @@ Matrix<N> calculated(const Model& motion, const Matrix<N>& prior, const Matrix<N
 }
 
 // Of the scalar random walk.
-template <class Memory>
-Retrodicted<1> retrodicted(double q) {
+template <class Memory> Retrodicted<1> retrodicted(double q) {
   Gaussian<1> state{Vector<1>(0.0), Matrix<1>(1.0 + q)};
   const Matrix<1> predicted = state.p;
   Memory memory;
   memory.corrected(predicted, correct<1, 1>(state, {Vector<1>(0.0), Matrix<1>(1.0), Matrix<1>(1.0)}));
   return memory.retrodict(state, RandomWalk{q}.step(0.5));
 }
-template <class X>
-double scalar_p(double q) {
+template <class X> double scalar_p(double q) {
   return calculated<X, 1>(RandomWalk{q}, Matrix<1>(1.0), Matrix<1>(1.0))(0, 0);
 }
-template <class X>
-double scalar_error(double q) {
+template <class X> double scalar_error(double q) {
   return true_error(X(RandomWalk{q}), RandomWalk{q}, Matrix<1>(1.0), interval<1>(Matrix<1>(1.0)))(0, 0);
 }
 
@@ -58,8 +54,7 @@ using ScalarA = AlgorithmA<1, 1, RandomWalk>;
 using ScalarB = AlgorithmB<1, 1, RandomWalk>;
 using ScalarC = AlgorithmC<1, 1, RandomWalk>;
 
-template <class X, class Memory>
-void expect_column(double then, double gain, double p, double error) {
+template <class X, class Memory> void expect_column(double then, double gain, double p, double error) {
   const Retrodicted<1> r = retrodicted<Memory>(1.0);
   EXPECT_NEAR(r.then.p(0, 0), then, kThree);
   EXPECT_NEAR(r.cross(0, 0) / (r.then.p(0, 0) + 1.0), gain, kThree);

@@ -75,7 +75,7 @@ TEST(Rewind, WhatIsForgottenStaysFusedAndNothingComesBeforeIt) {
   method.start(GlobalTime{}, prior);
   Timeline<2, 1> without = events;
   without.erase(without.begin() + 33);
-  take_all(method, without);               // remembers 34, 35 ... 39 and two before
+  take_all(method, without);  // remembers 34, 35 ... 39 and two before
   const Gaussian<2> before = method.state();
   EXPECT_EQ(method.take(stamp_at(after_ms(310)), events[30].measurement), Taken::kTooOld);
   EXPECT_EQ(method.take(stamp_at(after_ms(315)), events[30].measurement), Taken::kTooOld);
@@ -83,7 +83,7 @@ TEST(Rewind, WhatIsForgottenStaysFusedAndNothingComesBeforeIt) {
   EXPECT_TRUE(same_bits<2>(method.state(), before));
   EXPECT_EQ(method.take(events[33].stamp, events[33].measurement), Taken::kLate);
   EXPECT_TRUE(same_bits<2>(method.state(), rewound(prior, events)));
-  EXPECT_EQ(method.take(events[31].stamp, events[31].measurement), Taken::kTooOld);   // made room
+  EXPECT_EQ(method.take(events[31].stamp, events[31].measurement), Taken::kTooOld);  // made room
 }
 
 }  // namespace

@@ -19,10 +19,9 @@ struct RandomWalk {
   LinearStep<1> step(double dt) const { return {Matrix<1>(1.0), Matrix<1>(q * dt)}; }
 };
 
-template <int Axes>
-struct ConstantVelocity {
+template <int Axes> struct ConstantVelocity {
   double q = 1.0;
-  LinearStep<2 * Axes> step(double dt) const {   // position, velocity, position, ...
+  LinearStep<2 * Axes> step(double dt) const {  // position, velocity, position, ...
     LinearStep<2 * Axes> step;
     for (int i = 0; i < 2 * Axes; i += 2) {
       step.f(i, i + 1) = dt;
@@ -37,31 +36,26 @@ constexpr Stamp stamp_at(GlobalTime time, std::uint8_t sensor = 0, std::uint32_t
   return {time, {SensorId{sensor}, sequence}};
 }
 
-template <int N, int M>
-struct Event {
+template <int N, int M> struct Event {
   Stamp stamp;
   LinearMeasurement<N, M> measurement;
 };
-template <int N, int M>
-using Timeline = std::vector<Event<N, M>>;
+template <int N, int M> using Timeline = std::vector<Event<N, M>>;
 
-template <int Rows, int Columns>
-Matrix<Rows, Columns> drawn(RandomStream& stream) {
+template <int Rows, int Columns> Matrix<Rows, Columns> drawn(RandomStream& stream) {
   Matrix<Rows, Columns> result;
   for (int i = 0; i < Rows * Columns; ++i) result.data()[i] = stream.normal();
   return result;
 }
 
-template <int N>
-Gaussian<N> drawn_prior(RandomStream& stream) {
+template <int N> Gaussian<N> drawn_prior(RandomStream& stream) {
   const Matrix<N> root = drawn<N, N>(stream);
   return {drawn<N, 1>(stream), Matrix<N>(root * root.transpose() + Matrix<N>::Identity())};
 }
 
 // `count` measurements in order, of two sensors, 1 ns to 200 ms apart or (one in eight) at the same instant, all of
 // H and R drawn.
-template <int N, int M>
-Timeline<N, M> drawn_timeline(RandomStream& stream, int count) {
+template <int N, int M> Timeline<N, M> drawn_timeline(RandomStream& stream, int count) {
   Timeline<N, M> events(static_cast<std::size_t>(count));
   GlobalTime time{};
   std::uint32_t sequence = 0;
@@ -79,8 +73,7 @@ Timeline<N, M> drawn_timeline(RandomStream& stream, int count) {
 }
 
 // Each comes behind as many as `most` later ones.
-template <int N, int M>
-Timeline<N, M> delayed(RandomStream& stream, const Timeline<N, M>& events, int most) {
+template <int N, int M> Timeline<N, M> delayed(RandomStream& stream, const Timeline<N, M>& events, int most) {
   std::vector<std::pair<std::int64_t, std::size_t>> arrivals;
   for (std::size_t i = 0; i < events.size(); ++i)
     arrivals.emplace_back(static_cast<std::int64_t>(i) + stream.integer(0, most), i);
@@ -91,15 +84,13 @@ Timeline<N, M> delayed(RandomStream& stream, const Timeline<N, M>& events, int m
 }
 
 // The last but `lag` comes last.
-template <int N, int M>
-Timeline<N, M> one_late(Timeline<N, M> events, int lag) {
+template <int N, int M> Timeline<N, M> one_late(Timeline<N, M> events, int lag) {
   std::rotate(events.end() - 1 - lag, events.end() - lag, events.end());
   return events;
 }
 
 // Takes all in the order given; what comes late is announced before anything later is taken.
-template <Method X, int N, int M>
-std::vector<Taken> take_all(X& method, const Timeline<N, M>& arrivals) {
+template <Method X, int N, int M> std::vector<Taken> take_all(X& method, const Timeline<N, M>& arrivals) {
   std::vector<Taken> taken;
   for (auto event = arrivals.begin(); event != arrivals.end(); ++event) {
     for (auto later = event + 1; later != arrivals.end(); ++later)
@@ -122,14 +113,12 @@ Gaussian<N> in_order(const Model& motion, Gaussian<N> state, Timeline<N, M> even
   return state;
 }
 
-template <int N>
-double relative_difference(const Gaussian<N>& a, const Gaussian<N>& b) {
+template <int N> double relative_difference(const Gaussian<N>& a, const Gaussian<N>& b) {
   return std::max((a.x - b.x).norm() / b.x.norm(), (a.p - b.p).norm() / b.p.norm());
 }
 
-template <int N>
-bool same_bits(const Gaussian<N>& a, const Gaussian<N>& b) {
-  return a.x == b.x && a.p == b.p;   // no zeros of either sign and no NaN are at stake
+template <int N> bool same_bits(const Gaussian<N>& a, const Gaussian<N>& b) {
+  return a.x == b.x && a.p == b.p;  // no zeros of either sign and no NaN are at stake
 }
 
 // Positions once a second, the last late measurement from the middle of an interval.

@@ -38,15 +38,15 @@ struct Told final : ArrivalEvents {
   void lost(std::int64_t, int, Channel, std::uint32_t count) override { lost_counts.push_back(count); }
 };
 
-// The feature node of the paper's cluster: others' key slots are 1 to 4, slot 6 carries the gateway's list; 40 microticks
-// to a macrotick, 200,000 to a cycle, which begins at 1,000,000.
+// The feature node of the paper's cluster: others' key slots are 1 to 4, slot 6 carries the gateway's list; 40
+// microticks to a macrotick, 200,000 to a cycle, which begins at 1,000,000.
 class ArrivalsTest : public testing::Test {
  protected:
   static constexpr std::int64_t kStart = 1'000'000;
   ArrivalsTest() : clock_({5000, 1'000'000, 200'000, 4900}, Microticks{kStart}, 0, kCycle) {}
 
   std::int64_t action_point(int slot) const { return clock_.start_of(Macroticks{(slot - 1) * 84 + 7}).value; }
-  static Microticks frame_length() { return Microticks{652 * 4}; }   // bits of 100 ns, microticks of 25 ns
+  static Microticks frame_length() { return Microticks{652 * 4}; }  // bits of 100 ns, microticks of 25 ns
 
   void arrive(int slot, std::int64_t at, bool sync, std::int64_t cycle = kCycle, std::optional<std::int64_t> late = {},
               bool clock = true) {
@@ -76,7 +76,7 @@ class ArrivalsTest : public testing::Test {
   }
   std::optional<Arrivals::Due> take(std::int64_t now) { return arrivals_.take(Microticks{now}, &clock_); }
 
-  static constexpr std::int64_t kCycle = 130;   // its counter is 2
+  static constexpr std::int64_t kCycle = 130;  // its counter is 2
   static constexpr std::int64_t kCompensation = 50;
   const schedules::Cluster cluster_ = schedules::load_cluster(TTF_SOURCE_DIR "/schedules/paper_synchronised.yaml");
   timebase::CycleClock clock_;
@@ -149,20 +149,23 @@ TEST_F(ArrivalsTest, WhatTheDeviationsOfADoubleCycleDifferByIsKept) {
     const auto due = take(kStart + 100'000);
     return due ? due->reception.start.value - action_point(1) - kCompensation : INT64_MAX;
   };
-  for (const Case& c : {Case{5000, 20, kMost, kMost + 20}, {-3900, -20, -kMost, -kMost - 20},
-                        {5000, -70, kMost, kMost - 70}, {100, 20, 100, 120}, {5000, 50, kMost, 240},
+  for (const Case& c : {Case{5000, 20, kMost, kMost + 20},
+                        {-3900, -20, -kMost, -kMost - 20},
+                        {5000, -70, kMost, kMost - 70},
+                        {100, 20, 100, 120},
+                        {5000, 50, kMost, 240},
                         {kMost, 20, kMost, kMost + 20}}) {
     EXPECT_EQ(put(c.even), c.put_even) << c.even;
     EXPECT_EQ(put(c.even + c.more), c.put_odd) << c.even << ' ' << c.more;
   }
-  ++cycle;   // an even one that never came
+  ++cycle;  // an even one that never came
   EXPECT_EQ(put(5000), kMost);
 }
 
 TEST_F(ArrivalsTest, ASyncFrameWaitsForItsFollowUp) {
   arrive(1, action_point(1) + 2000, true);
   EXPECT_FALSE(take(action_point(1) + 2000 + 15'000));
-  follow_up(2, 1999);   // of another slot
+  follow_up(2, 1999);  // of another slot
   EXPECT_FALSE(take(action_point(1) + 2000 + 15'000));
   follow_up(1, 1990);
   const auto due = take(action_point(1) + 2000 + 15'000);
@@ -260,7 +263,7 @@ TEST_F(ArrivalsTest, AFrameOfTheNextCycleDoesNotWaitForAClockThatStandsStill) {
 }
 
 TEST_F(ArrivalsTest, WhatIsHandedOverTooLateForItsCycleIsTold) {
-  arrive(6, action_point(6) + 100, false, kCycle + 20);   // kept as it came
+  arrive(6, action_point(6) + 100, false, kCycle + 20);  // kept as it came
   for (int i = 0; i < 2; ++i) clock_.next_cycle(0);
   EXPECT_FALSE(take(clock_.cycle_start().value + 10));
   EXPECT_EQ(told_.missed.size(), 1u);

@@ -30,7 +30,7 @@ TEST(HealthTeller, TellsOnAThreadOfItsOwnWhatItWasGiven) {
     who.set_value(std::this_thread::get_id());
   });
   EXPECT_TRUE(teller.hand_over(health_of(7)));
-  const auto [health, at] = told.get_future().get();   // without anything more that is handed over
+  const auto [health, at] = told.get_future().get();  // without anything more that is handed over
   EXPECT_EQ(health.timing.late_wakeups, 7u);
   EXPECT_EQ(health.dropped, 14u);
   EXPECT_EQ(health.wakeup_longest, Duration::microseconds(7));
@@ -57,7 +57,7 @@ TEST(HealthTeller, WhoHandsOverNeverWaits) {
   getrusage(RUSAGE_THREAD, &at_first);
   for (std::uint64_t i = 1; i <= 10'000; ++i) EXPECT_FALSE(teller.hand_over(health_of(i)));
   getrusage(RUSAGE_THREAD, &at_last);
-  EXPECT_EQ(at_last.ru_nvcsw, at_first.ru_nvcsw);   // never gave up the processor of its own accord
+  EXPECT_EQ(at_last.ru_nvcsw, at_first.ru_nvcsw);  // never gave up the processor of its own accord
   EXPECT_EQ(teller.left_out(), 10'000u);
   go_on.set_value();
   while (!teller.hand_over(health_of(20'000))) std::this_thread::yield();

@@ -21,7 +21,7 @@
 namespace ttf::runner {
 namespace {
 
-constexpr std::size_t kPlace = 1'000'000;   // nobody's: no processor is taken
+constexpr std::size_t kPlace = 1'000'000;  // nobody's: no processor is taken
 constexpr std::size_t kLater = 64 << 20;
 
 // g++ says it by macros, clang by features.
@@ -33,7 +33,7 @@ constexpr std::size_t kLater = 64 << 20;
 #define TTF_SANITIZED
 #endif
 #if defined(TTF_SANITIZED)
-constexpr bool kLocks = false;   // sanitizers let nobody lock memory
+constexpr bool kLocks = false;  // sanitizers let nobody lock memory
 #else
 constexpr bool kLocks = true;
 #endif
@@ -58,7 +58,7 @@ std::string asked() {
   for (const std::string& sentence : ask_for_real_time(kPlace, kPlace))
     if (sentence.starts_with("memory")) found += sentence;
   const sched_param none{};
-  sched_setscheduler(0, SCHED_OTHER, &none);   // the rest of the test is in no hurry
+  sched_setscheduler(0, SCHED_OTHER, &none);  // the rest of the test is in no hurry
   return found;
 }
 
@@ -93,9 +93,9 @@ int failed(const std::string& why) {
 }
 
 // Runs as a test what alone() says.
-#define TRY_ALONE(what)                                                        \
-  if (!kLocks) GTEST_SKIP() << "sanitizers let nobody lock memory";            \
-  const int code = alone(what);                                                \
+#define TRY_ALONE(what)                                                         \
+  if (!kLocks) GTEST_SKIP() << "sanitizers let nobody lock memory";             \
+  const int code = alone(what);                                                 \
   if (code == 77) GTEST_SKIP() << "limits or privileges cannot be set so here"; \
   EXPECT_EQ(code, 0)
 
@@ -103,8 +103,9 @@ TEST(RealTimeMemory, UnderALimitThatIsTooSmallNothingIsLocked) {
   TRY_ALONE([] {
     if (!give_up_locking() || !set_limit(64 << 10)) return 77;
     const std::string said = asked();
-    if (said != "memory is not locked: it is more than 64 KiB, the limit (allow it: ulimit -l unlimited, or "
-                "CAP_IPC_LOCK)")
+    if (said !=
+        "memory is not locked: it is more than 64 KiB, the limit (allow it: ulimit -l unlimited, or "
+        "CAP_IPC_LOCK)")
       return failed(said);
     if (locked_kib() != 0) return failed("something is locked");
     return more_is_there() ? 0 : failed("later memory is refused");

@@ -1,6 +1,6 @@
-// Whole node sets in real time, a thread each, on a medium in memory. What an ordinary kernel is late by is not judged: what
-// is asserted holds whatever that is, up to the arrival window. Beyond it a cluster may fall apart as FlexRay has it, so a
-// drive during which threads that do nothing were woken up so late is driven again.
+// Whole node sets in real time, a thread each, on a medium in memory. What an ordinary kernel is late by is not judged:
+// what is asserted holds whatever that is, up to the arrival window. Beyond it a cluster may fall apart as FlexRay has
+// it, so a drive during which threads that do nothing were woken up so late is driven again.
 #include "nodes/runner/runner.h"
 
 #include <gmock/gmock.h>
@@ -51,16 +51,16 @@ struct Counted final : records::Sink {
     lateness[histogram.of] = sum;
   }
   void on(const records::MediumCounts& counts) override { medium = counts; }
-  records::MediumCounts medium;   // the last
+  records::MediumCounts medium;  // the last
   int fresh = 0, discarded = 0, measured = 0, frames = 0, largest = 0;
   std::map<int, std::uint64_t> problems, lateness;
   std::vector<std::string> states;
   TrueTime first_state{std::numeric_limits<std::int64_t>::max()};
-  std::map<std::int64_t, records::Stamp> shown;   // by cycle
+  std::map<std::int64_t, records::Stamp> shown;  // by cycle
 };
 
-// Sleeps before it sends a sync frame: as late as a kernel may be, and more regularly. And stops its node for a while, and
-// hears nothing at first.
+// Sleeps before it sends a sync frame: as late as a kernel may be, and more regularly. And stops its node for a while,
+// and hears nothing at first.
 class Sluggish final : public bus::LiveMedium {
  public:
   struct Stop {
@@ -98,7 +98,7 @@ class Sluggish final : public bus::LiveMedium {
   bus::HostTime hears_from_;
 };
 
-constexpr Duration kYardstick = Duration::microseconds(500);   // its period
+constexpr Duration kYardstick = Duration::microseconds(500);  // its period
 
 class RunnerTest : public testing::Test {
  protected:
@@ -118,13 +118,13 @@ class RunnerTest : public testing::Test {
     Duration lasts = Duration::milliseconds(600);
     std::int64_t scale_ppm = 4'000'000;
     test::Told told = test::Told::kWithTheFrame;
-    Duration sluggish{};                                         // every second node
+    Duration sluggish{};  // every second node
     std::function<std::optional<TrueTime>(NodeId)> power_on = {};
     // A node that is stopped, when and for how long in the drive's time.
     std::optional<NodeId> stopped = {};
     Duration stopped_at{}, stopped_for{};
     std::size_t room = 1024;
-    Duration deaf_for{};   // all nodes, in the drive's time
+    Duration deaf_for{};  // all nodes, in the drive's time
   };
   // Whether there was one that the machine did not hold up; else the test is skipped.
   [[nodiscard]] bool drive(const Drive& how) {
@@ -152,10 +152,10 @@ class RunnerTest : public testing::Test {
     std::vector<std::unique_ptr<bus::LiveMedium>> media;
     const Sluggish::Stop stop{clock.host_time(sim::kFirstCycle + how.stopped_at), clock.in_real(how.stopped_for)};
     for (std::size_t n = 0; n < nodes; ++n)
-      media.push_back(std::make_unique<Sluggish>(
-          bus.join(), n % 2 == 1 ? how.sluggish : Duration{},
-          how.stopped == static_cast<NodeId>(n) ? std::optional(stop) : std::nullopt,
-          clock.host_time(sim::kFirstCycle + how.deaf_for)));
+      media.push_back(
+          std::make_unique<Sluggish>(bus.join(), n % 2 == 1 ? how.sluggish : Duration{},
+                                     how.stopped == static_cast<NodeId>(n) ? std::optional(stop) : std::nullopt,
+                                     clock.host_time(sim::kFirstCycle + how.deaf_for)));
     std::vector<std::thread> threads;
     for (std::size_t n = 0; n < nodes; ++n)
       threads.emplace_back([&, n] {
@@ -222,13 +222,13 @@ TEST_F(RunnerTest, ClocksThatDriftStayTogether) {
   for (const char* node : {"laser_pre", "camera_pre", "gateway", "fusion", "feature"}) EXPECT_LE(of(node).largest, 40);
 }
 
-// True time is when the clock showed that, not when the process came to do it, a kernel's whim later: then clocks that agree
-// within microseconds are seen to.
+// True time is when the clock showed that, not when the process came to do it, a kernel's whim later: then clocks that
+// agree within microseconds are seen to.
 TEST_F(RunnerTest, WhatClocksShowIsOfOneInstant) {
   if (!drive({.lasts = Duration::milliseconds(400), .sluggish = Duration::microseconds(200)})) return;
   int compared = 0;
   for (const auto& [cycle, first] : of("laser_pre").shown) {
-    if (cycle <= 8) continue;   // what the initial clocks are apart by
+    if (cycle <= 8) continue;  // what the initial clocks are apart by
     for (const char* node : {"camera_pre", "gateway", "fusion", "feature"}) {
       const auto other = of(node).shown.find(cycle);
       if (other == of(node).shown.end()) continue;
@@ -250,12 +250,13 @@ TEST_F(RunnerTest, AClusterStartsUpInRealTime) {
     EXPECT_EQ(health_of(node).state, "normal active") << node;
 }
 
-// Nobody hears anybody until all coldstart attempts are in vain. Nobody but the hosts can help: a cluster in which all only
-// listen stays silent for good.
+// Nobody hears anybody until all coldstart attempts are in vain. Nobody but the hosts can help: a cluster in which all
+// only listen stays silent for good.
 TEST_F(RunnerTest, AClusterWhoseColdstartAttemptsAreExhaustedStartsUpAllTheSame) {
   cluster_.flexray.gColdStartAttempts = 2;
   const auto together = [](NodeId) { return std::optional(sim::kFirstCycle); };
-  if (!drive({.lasts = Duration::milliseconds(1000), .power_on = together, .deaf_for = Duration::milliseconds(200)})) return;
+  if (!drive({.lasts = Duration::milliseconds(1000), .power_on = together, .deaf_for = Duration::milliseconds(200)}))
+    return;
   int exhausted = 0;
   for (const char* node : {"laser_pre", "camera_pre", "gateway", "fusion", "feature"}) {
     EXPECT_EQ(health_of(node).state, "normal active") << node;
@@ -274,12 +275,13 @@ TEST_F(RunnerTest, ANodeThatComesLaterIntegrates) {
   if (!drive({.lasts = Duration::milliseconds(900), .power_on = power_on})) return;
   EXPECT_EQ(health_of("feature").state, "normal active");
   EXPECT_GE(of("feature").fresh, 3);
-  EXPECT_GE(of("feature").first_state + Duration::microseconds(1), comes) << "it has heard what came before its power did";
+  EXPECT_GE(of("feature").first_state + Duration::microseconds(1), comes)
+      << "it has heard what came before its power did";
   EXPECT_TRUE(of("fusion").states.empty()) << "the others have not noticed";
 }
 
-// Twenty cycles, of which there is room for the frames of five: of the others it hears nothing when it catches up, and its
-// clock goes astray. It halts, as FlexRay has it, and integrates anew; until then it hardly disturbs the others.
+// Twenty cycles, of which there is room for the frames of five: of the others it hears nothing when it catches up, and
+// its clock goes astray. It halts, as FlexRay has it, and integrates anew; until then it hardly disturbs the others.
 TEST_F(RunnerTest, ANodeThatWasStoppedForLongIntegratesAnew) {
   const NodeId stopped = *cluster_.find_node("camera_pre");
   if (!drive({.lasts = Duration::milliseconds(900),
@@ -300,7 +302,7 @@ TEST_F(RunnerTest, ANodeThatWasStoppedForLongIntegratesAnew) {
 
 // What a sender says it is late by beyond the window is not sent at all.
 TEST_F(RunnerTest, WhatIsTooLateIsNotSentAndToldSo) {
-  cluster_.arrival_window->late = Duration::microseconds(1);   // no kernel is that good
+  cluster_.arrival_window->late = Duration::microseconds(1);  // no kernel is that good
   if (!drive({.lasts = Duration::milliseconds(100)})) return;
   EXPECT_GT(of("gateway").problems[records::kSlotMissed], 0u);
   EXPECT_EQ(of("gateway").problems[records::kSlotMissed], health_of("gateway").timing.slots_missed);

@@ -67,7 +67,7 @@ TEST_F(PacedCanTest, FramesLeaveWhenABusWouldHaveBroughtThem) {
   can_.send({257, true, data_});
   const Duration first = length(256, data_), second = length(257, data_);
   EXPECT_EQ(can_.next(), now_ + first);
-  now_ = TrueTime{9'000'000};   // late: those behind it are no later for it
+  now_ = TrueTime{9'000'000};  // late: those behind it are no later for it
   const auto one = can_.leave();
   EXPECT_EQ(one.frame.identifier, 256u);
   EXPECT_EQ(one.sent.start.true_time, TrueTime{1'000});
@@ -76,7 +76,7 @@ TEST_F(PacedCanTest, FramesLeaveWhenABusWouldHaveBroughtThem) {
   const auto two = can_.leave();
   EXPECT_EQ(two.sent.start.true_time, TrueTime{1'000} + first);
   EXPECT_EQ(two.frame.data.size(), 64u);
-  can_.send({258, true, data_});   // the bus had been idle
+  can_.send({258, true, data_});  // the bus had been idle
   EXPECT_EQ(can_.next(), now_ + length(258, data_));
 }
 
@@ -102,7 +102,7 @@ TEST(WakeUp, SleepsUntilAnInstantAndNotLess) {
     wake_up.sleep_until(until);
     EXPECT_GE(bus::host_now(), until);
   }
-  wake_up.sleep_until(bus::HostTime{-5});   // over long ago
+  wake_up.sleep_until(bus::HostTime{-5});  // over long ago
 }
 
 TEST(WakeUp, WakesForADescriptor) {

@@ -27,9 +27,8 @@ struct Heard final : records::Sink {
     frames.push_back({record, {record.bytes.begin(), record.bytes.end()}});
   }
   std::size_t count(std::uint8_t state) const {
-    return static_cast<std::size_t>(std::count_if(frames.begin(), frames.end(), [&](const Frame& frame) {
-      return frame.record.state == state;
-    }));
+    return static_cast<std::size_t>(
+        std::count_if(frames.begin(), frames.end(), [&](const Frame& frame) { return frame.record.state == state; }));
   }
 };
 
@@ -56,7 +55,9 @@ FaultBusConfig star_of(std::vector<nodes::Fault> faults) {
 
 Channel channel_of(const Heard::Frame& frame) { return static_cast<Channel>(frame.record.channel); }
 
-wire::FrameError error_of(const Heard::Frame& frame) { return wire::decode_frame(channel_of(frame), frame.bytes).error; }
+wire::FrameError error_of(const Heard::Frame& frame) {
+  return wire::decode_frame(channel_of(frame), frame.bytes).error;
+}
 
 void expect_sent_by(const Heard::Frame& frame, int node) {
   EXPECT_EQ(index_of(frame.record.sender), static_cast<std::size_t>(node));
@@ -69,9 +70,9 @@ TEST(ChannelLog, WhereNothingGoesWrongThereIsNothingToTell) {
 
 TEST(ChannelLog, ItChangesNothing) {
   for (const bool star : {false, true}) {
-    std::vector<nodes::Fault> faults = {fault_of(FaultKind::kBitFlipHeader, 0, 10, 10),
-                                        fault_of(FaultKind::kSosValue, 1, 10, 40), fault_of(FaultKind::kCrash, 2, 20, 5),
-                                        fault_of(FaultKind::kBabblingIdiot, 3, 30, 5)};
+    std::vector<nodes::Fault> faults = {
+        fault_of(FaultKind::kBitFlipHeader, 0, 10, 10), fault_of(FaultKind::kSosValue, 1, 10, 40),
+        fault_of(FaultKind::kCrash, 2, 20, 5), fault_of(FaultKind::kBabblingIdiot, 3, 30, 5)};
     const FaultBusConfig config = star ? star_of(faults) : with(faults);
     FaultBus alone(config);
     alone.run(5 * 60);
@@ -138,7 +139,7 @@ TEST(ChannelLog, OfAFrameThatBreaksOffThereAreTheBytesThatHadLeft) {
       expect_sent_by(frame, 1);
       const std::int64_t left = (frame.record.end - frame.record.start).ns;
       EXPECT_NEAR(static_cast<double>(left), microseconds * 1'000.0, 1'000.0) << "clocks agree to a microsecond";
-      const std::int64_t whole = left < 1'000 ? 0 : (left - 1'000) / 1'000;   // 100 ns a bit
+      const std::int64_t whole = left < 1'000 ? 0 : (left - 1'000) / 1'000;  // 100 ns a bit
       EXPECT_EQ(frame.bytes.size(), static_cast<std::size_t>(whole));
       EXPECT_EQ(frame.record.state, records::kChannelCoding | records::kChannelCut) << "no CRC that is there is wrong";
       const auto header = wire::header_of(frame.bytes);
@@ -246,7 +247,7 @@ TEST(ChannelLog, WhatAGuardianBlocksReachedNobodyAndWhatItMakesOutIsSound) {
   nodes::Fault babble = fault_of(FaultKind::kBabblingIdiot, 3, 10, 5);
   EXPECT_TRUE(LoggedBus(star_of({babble}), 8).frames().empty());
   const LoggedBus babbling(star_of({babble}), 20);
-  for (const Heard::Frame& frame : babbling.frames()) expect_sent_by(frame, 3);   // with which its own noise collides
+  for (const Heard::Frame& frame : babbling.frames()) expect_sent_by(frame, 3);  // with which its own noise collides
 
   const LoggedBus misshapen(star_of({fault_of(FaultKind::kSosValue, 1, 10, 100)}), 120);
   EXPECT_EQ(misshapen.frames().size(), misshapen.heard.count(records::kChannelNothing));
@@ -290,7 +291,7 @@ TEST(ChannelLog, WhatIsDrawnIntoALongNoiseMayBreakOff) {
   noise.length = noise.interval = Duration::milliseconds(50);
   noise.channels = schedules::Channels::kA;
   nodes::Fault crash = fault_of(FaultKind::kCrash, 2, 12);
-  crash.from = Duration{12 * kCycleNs + 2 * 43'000 + 7'000 + 12'000};   // in its slot, the third
+  crash.from = Duration{12 * kCycleNs + 2 * 43'000 + 7'000 + 12'000};  // in its slot, the third
   const LoggedBus logged(with({noise, crash}), 40);
   const TrueTime breaks_off = TrueTime{1'000'000} + crash.from;
   std::size_t cut = 0;

@@ -17,7 +17,7 @@
 namespace ttf::sim {
 
 inline constexpr std::int64_t kCycleNs = 5'000'000;
-inline constexpr unsigned kAnything = 0xff;   // every bit of a slot status
+inline constexpr unsigned kAnything = 0xff;  // every bit of a slot status
 
 // What one controller says.
 struct Said final : bus::ControllerEvents {
@@ -62,8 +62,8 @@ struct FaultBusConfig {
   std::vector<nodes::Fault> faults;
   std::uint64_t seed = 1;
   std::int64_t most_drift_ppb = 200'000;
-  bool cold = false;           // all powered on at time zero; else integrated, cycle 0 beginning at a millisecond
-  bool inject = true;          // false: nobody disturbs
+  bool cold = false;   // all powered on at time zero; else integrated, cycle 0 beginning at a millisecond
+  bool inject = true;  // false: nobody disturbs
 };
 inline FaultBusConfig with(std::vector<nodes::Fault> faults) {
   FaultBusConfig config;
@@ -130,7 +130,8 @@ class FaultBus final : public records::Sink {
   TrueTime origin() const { return TrueTime{config_.cold ? 0 : 1'000'000}; }
   bus::InitialClock integrated(const timebase::Oscillator& oscillator) const {
     const TrueTime start = origin();
-    const std::int64_t thousand = (oscillator.ticks_at(start + config_.cluster.cycle() * 1000) - oscillator.ticks_at(start)).value;
+    const std::int64_t thousand =
+        (oscillator.ticks_at(start + config_.cluster.cycle() * 1000) - oscillator.ticks_at(start)).value;
     return {oscillator.ticks_at(start) + Microticks{1}, static_cast<int>((thousand + 500) / 1000 - kMicroPerCycle)};
   }
   using records::Sink::on;
@@ -148,7 +149,8 @@ class FaultBus final : public records::Sink {
   std::vector<Activity> activities_;
 };
 
-// A fault of node `node`, from cycle `from` on for `cycles` cycles, a macrotick before cycle boundaries; -1: to the end.
+// A fault of node `node`, from cycle `from` on for `cycles` cycles, a macrotick before cycle boundaries; -1: to the
+// end.
 inline nodes::Fault fault_of(nodes::FaultKind kind, int node, int from = 10, int cycles = -1) {
   nodes::Fault fault;
   fault.kind = kind;

@@ -17,8 +17,8 @@ struct Sum final : records::Sink {
   std::uint64_t sum = 0xcbf29ce484222325;
   std::uint64_t frames = 0, images = 0;
   std::map<std::string, std::uint64_t> acts;
-  std::map<unsigned, std::uint64_t> problems;   // by bit of their status
-  std::map<int, std::uint64_t> empty;           // by slot: no frame in it
+  std::map<unsigned, std::uint64_t> problems;  // by bit of their status
+  std::map<int, std::uint64_t> empty;          // by slot: no frame in it
 
   void on(const records::SlotFrameSent& frame) override {
     ++frames;

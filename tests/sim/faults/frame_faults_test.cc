@@ -1,5 +1,5 @@
-// What befalls a node's frames, and which check of which receiver sees it. Integrated clusters of four: node n sends in slot
-// n + 1, on both channels, in every cycle.
+// What befalls a node's frames, and which check of which receiver sees it. Integrated clusters of four: node n sends in
+// slot n + 1, on both channels, in every cycle.
 #include <gtest/gtest.h>
 
 #include "tests/sim/faults/fault_bus.h"
@@ -46,7 +46,8 @@ TEST(FrameFaults, SayInWordsWhatTheyDo) {
   timing.shift = Duration{-2000};
   EXPECT_EQ(first_act(timing), "a frame of node1 on A is 2000 ns early");
   nodes::Fault drift = fault_of(FaultKind::kDrift, 1);
-  for (const auto& [ppb, words] : {std::pair{300'000, "300"}, std::pair{-1'500'250, "-1500.25"}, std::pair{123'457, "123.457"}}) {
+  for (const auto& [ppb, words] :
+       {std::pair{300'000, "300"}, std::pair{-1'500'250, "-1500.25"}, std::pair{123'457, "123.457"}}) {
     drift.drift_ppb = ppb;
     EXPECT_EQ(first_act(drift), fmt::format("node1 drifts by {} ppm from now on", words));
   }
@@ -152,7 +153,7 @@ TEST(FrameFaults, MasqueradingAsACrashedNodeIsNotSeen) {
   FaultBus bus(std::move(config));
   bus.run(5 * 50);
   for (const int n : {0, 1}) {
-    EXPECT_EQ(bus.said(n).count(4, bus::kNoFrame), 2 * (10 + 10)) << n;   // cycles 10 to 19, and 40 to 49
+    EXPECT_EQ(bus.said(n).count(4, bus::kNoFrame), 2 * (10 + 10)) << n;  // cycles 10 to 19, and 40 to 49
     EXPECT_EQ(bus.said(n).count(4, kAnything & ~bus::kNoFrame), 0) << n;
     EXPECT_EQ(bus.state(n), PocKind::kNormalActive);
   }
@@ -168,7 +169,8 @@ TEST(FrameFaults, MasqueradingInAFreeSlotIsAContentError) {
 }
 
 TEST(FrameFaults, SosTimingDividesTheReceivers) {
-  // A frame of 26.3 us leaves 7 us into a slot of 43 us; towards the far end of the bus it is on its way for up to 2.5 us.
+  // A frame of 26.3 us leaves 7 us into a slot of 43 us; towards the far end of the bus it is on its way for up to 2.5
+  // us.
   nodes::Fault fault = fault_of(FaultKind::kSosTiming, 0, 10, 10);
   fault.shift = Duration{8'900};
   const FaultBus bus(fault, 30);

@@ -79,7 +79,7 @@ TEST(GuardianFaults, AByzantineClockSaysTheSameToAll) {
   fault.shift = Duration{4'000};
   fault.pattern = nodes::ByzantinePattern::kPullRates;
   FaultBusConfig config = star(fault);
-  config.cluster.nodes.pop_back();      // three sync nodes, of which one lies
+  config.cluster.nodes.pop_back();  // three sync nodes, of which one lies
   config.cluster.frames.pop_back();
   FaultBus bus(std::move(config));
   bus.run(5 * 20);

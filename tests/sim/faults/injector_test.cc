@@ -22,7 +22,8 @@ bool kind_lasts(FaultKind kind) { return kind == FaultKind::kWrongSchedule || ki
 std::vector<nodes::Fault> every_kind() {
   std::vector<nodes::Fault> faults;
   for (const FaultKind kind : nodes::kAllFaultKinds) {
-    nodes::Fault fault = fault_of(kind, static_cast<int>(faults.size() % 6), 10 + 6 * static_cast<int>(faults.size()), 5);
+    nodes::Fault fault =
+        fault_of(kind, static_cast<int>(faults.size() % 6), 10 + 6 * static_cast<int>(faults.size()), 5);
     if (kind == FaultKind::kMasquerading) fault.slot = 40;
     if (kind == FaultKind::kSosTiming) fault.shift = Duration::microseconds(8);
     if (kind == FaultKind::kByzantineClock) fault.shift = Duration::microseconds(3);
@@ -179,7 +180,7 @@ TEST_F(Bytes, GivenBitsAreInvertedAndNoOthers) {
   } cases[] = {
       {FaultKind::kBitFlipHeader, {0, 39}, {0, 39}},
       {FaultKind::kBitFlipPayload, {0, 127}, {40, 167}},
-      {FaultKind::kBitFlipPayload, {127, 128}, {167}},   // the frame has no more
+      {FaultKind::kBitFlipPayload, {127, 128}, {167}},  // the frame has no more
       {FaultKind::kBitFlipTrailer, {0, 23}, {168, 191}},
   };
   for (const auto& one : cases) {
@@ -194,7 +195,9 @@ TEST_F(Bytes, DrawnBitsAreAsManyAndDifferentEveryTimeAndWithinTheirPart) {
   const struct {
     FaultKind kind;
     int low, high;
-  } cases[] = {{FaultKind::kBitFlipHeader, 0, 39}, {FaultKind::kBitFlipPayload, 40, 167}, {FaultKind::kBitFlipTrailer, 168, 191}};
+  } cases[] = {{FaultKind::kBitFlipHeader, 0, 39},
+               {FaultKind::kBitFlipPayload, 40, 167},
+               {FaultKind::kBitFlipTrailer, 168, 191}};
   for (const auto& one : cases)
     for (const int flips : {1, 5, 24}) {
       nodes::Fault fault = fault_of(one.kind, 2, 0);
@@ -227,8 +230,8 @@ TEST_F(Bytes, WhatTheDecoderSaysOfThem) {
     Injector injector(plan(fault), cluster_, plant_, 1, 0, nobody_);
     return wire::decode_frame(Channel::kB, left(injector)).error;
   };
-  EXPECT_EQ(says(FaultKind::kBitFlipHeader, {12}), wire::FrameError::kHeaderCrc);    // of the frame id
-  EXPECT_EQ(says(FaultKind::kBitFlipHeader, {36}), wire::FrameError::kFrameCrc);     // of the cycle count
+  EXPECT_EQ(says(FaultKind::kBitFlipHeader, {12}), wire::FrameError::kHeaderCrc);  // of the frame id
+  EXPECT_EQ(says(FaultKind::kBitFlipHeader, {36}), wire::FrameError::kFrameCrc);   // of the cycle count
   EXPECT_EQ(says(FaultKind::kBitFlipPayload, {64}), wire::FrameError::kFrameCrc);
   EXPECT_EQ(says(FaultKind::kBitFlipTrailer, {7}), wire::FrameError::kFrameCrc);
 }
@@ -254,8 +257,9 @@ TEST_F(Bytes, WhatAFaultSendsIsNotTakenForTheNodesFrame) {
   Injector injector(plan(fault), cluster_, plant_, 1, 0, nobody_);
   EXPECT_TRUE(flipped(left(injector)).empty()) << "at the sender it is in order";
   const auto arrives = [&](NodeId receiver, bool emitted) {
-    Arriving signal{NodeId{2}, receiver, Channel::kB, bus::Signal::kFrame, plant_.time, plant_.time + Duration{26'300},
-                    receiver != kNoNode, frame(), emitted};
+    Arriving signal{NodeId{2},           receiver,    Channel::kB,
+                    bus::Signal::kFrame, plant_.time, plant_.time + Duration{26'300},
+                    receiver != kNoNode, frame(),     emitted};
     EXPECT_TRUE(injector.arriving(signal));
     return flipped({signal.bytes.begin(), signal.bytes.end()});
   };
@@ -375,16 +379,18 @@ TEST(BelievedSchedules, WhatCannotBeIsSaidWhenThePlanIsResolved) {
     return fault;
   };
   EXPECT_EQ(refused({wrong(nodes::WrongSchedule::kStaticSlot, 6)}), "");
-  EXPECT_EQ(refused({wrong(nodes::WrongSchedule::kStaticSlot, 11)}),
-            "drive.yaml:5: faults[0].by = 11: must not make the network idle time shorter by more than 644 macroticks: 64 "
-            "slots would take 704");
+  EXPECT_EQ(
+      refused({wrong(nodes::WrongSchedule::kStaticSlot, 11)}),
+      "drive.yaml:5: faults[0].by = 11: must not make the network idle time shorter by more than 644 macroticks: 64 "
+      "slots would take 704");
   // Twice six is too much again.
   EXPECT_NE(refused({wrong(nodes::WrongSchedule::kStaticSlot, 6), wrong(nodes::WrongSchedule::kStaticSlot, 6)}), "");
   EXPECT_EQ(refused({wrong(nodes::WrongSchedule::kPayloadLength, 120)}),
             "drive.yaml:5: faults[0].by = 120: must not make the 8 words of a static frame more than 127");
   nodes::Fault same = fault_of(FaultKind::kDuplicateColdstart, 0, 0);
   same.duplicate = nodes::DuplicateMode::kSameKeySlot;
-  EXPECT_EQ(refused({same}), "drive.yaml: faults[0].slot: must be given: there is no other coldstart node to take it from");
+  EXPECT_EQ(refused({same}),
+            "drive.yaml: faults[0].slot: must be given: there is no other coldstart node to take it from");
   nodes::Fault masquerade = fault_of(FaultKind::kMasquerading, 3, 0);
   masquerade.slot = 4;
   EXPECT_EQ(refused({masquerade}), "drive.yaml: faults[0].slot = 4: must be another's slot of 4 nodes");
@@ -428,7 +434,7 @@ TEST(BelievedSchedules, EachDiffersFromTheClusterInItsOwnWay) {
     return changed;
   };
   const schedules::Cluster shifted = believed(nodes::WrongSchedule::kShiftedSlots, 62);
-  EXPECT_EQ(shifted.nodes[3].flexray->pKeySlotId, 2);   // round the end of 64
+  EXPECT_EQ(shifted.nodes[3].flexray->pKeySlotId, 2);  // round the end of 64
   EXPECT_TRUE(std::is_sorted(shifted.frames.begin(), shifted.frames.end(),
                              [](const auto& a, const auto& b) { return a.slot < b.slot; }));
   const schedules::Cluster longer = believed(nodes::WrongSchedule::kCycleLength, 40);

@@ -24,7 +24,8 @@ TEST(MachineryFaults, ACrashedNodesSlotIsEmptyUntilItIsBack) {
   bus.run(5 * 60);
   EXPECT_EQ(bus.acts(), 2U);
   EXPECT_EQ(bus.state(3), PocKind::kNormalActive);
-  // Integration takes two cycles to derive a schedule and two good double cycles (bus/poc.h), and what precedes an even one.
+  // Integration takes two cycles to derive a schedule and two good double cycles (bus/poc.h), and what precedes an even
+  // one.
   const int empty = bus.said(0).count(4, bus::kNoFrame) / 2;
   EXPECT_GE(empty, 10 + 6);
   EXPECT_LE(empty, 10 + 8);
@@ -52,7 +53,7 @@ TEST(MachineryFaults, DriftThatGrowsBeyondTheLimitHaltsTheNodeAndNobodyElse) {
 
 TEST(MachineryFaults, DriftThatJumpsLosesTheClusterBeforeAnythingIsMeasured) {
   nodes::Fault fault = fault_of(FaultKind::kDrift, 3, 10);
-  fault.drift_ppb = 6'000'000;   // 30 us in a cycle: out of every slot
+  fault.drift_ppb = 6'000'000;  // 30 us in a cycle: out of every slot
   FaultBusConfig config = with({fault});
   config.cluster = bus_cluster(4, 2, 3);
   FaultBus bus(std::move(config));
@@ -109,7 +110,7 @@ TEST(MachineryFaults, ALoneColdstartNodeDoesNotStartUntilAnotherIsThere) {
   EXPECT_TRUE(was_in(bus.said(0), PocKind::kColdstartCollisionResolution));
   EXPECT_TRUE(was_in(bus.said(0), PocKind::kColdstartGap));
   for (int n = 0; n < 4; ++n) EXPECT_FALSE(was_in(bus.said(n), PocKind::kNormalActive)) << n;
-  EXPECT_EQ(bus.acts(), 1U);   // node 1 is the only other one
+  EXPECT_EQ(bus.acts(), 1U);  // node 1 is the only other one
   bus.run(5 * 120);
   for (int n = 0; n < 4; ++n) EXPECT_EQ(bus.state(n), PocKind::kNormalActive) << n;
 }

@@ -45,7 +45,7 @@ TEST(MediumFaults, ABabblingIdiotOnBothChannelsTakesTheClusterDown) {
 TEST(MediumFaults, FramesAtIntervalsAreContentErrorsOrCollisions) {
   nodes::Fault fault = fault_of(FaultKind::kBabblingIdiot, 3, 10, 20);
   fault.signal = nodes::FaultSignal::kFrame;
-  fault.interval = Duration{630'000};   // 15 slots of 43 us less 15 us: every time elsewhere
+  fault.interval = Duration{630'000};  // 15 slots of 43 us less 15 us: every time elsewhere
   FaultBus bus(with({fault}));
   bus.run(5 * 40);
   EXPECT_EQ(bus.acts(), 2U * (20 * 5'000 / 630 + 1));
@@ -78,7 +78,7 @@ TEST(MediumFaults, NoiseIsSeenInSlotsThatAreNobodys) {
 
 TEST(MediumFaults, NoiseDuringStartUpIsWaitedOutByTheNoiseTimer) {
   nodes::Fault fault = fault_of(FaultKind::kNoise, -1, 0, 10);
-  fault.interval = Duration::milliseconds(4);   // less than the listen timeout of two cycles
+  fault.interval = Duration::milliseconds(4);  // less than the listen timeout of two cycles
   FaultBusConfig config = with({fault});
   config.cold = true;
   FaultBus bus(std::move(config));
