@@ -4,7 +4,7 @@
 
 #include "core/decimal.h"
 #include "core/errors.h"
-#include "schedules/real_time.h"
+#include "schedules/check/real_time_rules.h"
 
 namespace ttf::cli {
 

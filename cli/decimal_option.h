@@ -14,7 +14,7 @@ namespace ttf::cli {
 std::int64_t decimal_option(const char* option, const std::string& text, std::int64_t scale,
                             Range<std::int64_t> allowed, std::string_view unit);
 
-// --time-scale, in parts per million (schedules/real_time.h).
+// --time-scale, in parts per million (schedules/check/real_time_rules.h).
 std::int64_t time_scale_option(const std::string& text);
 
 }  // namespace ttf::cli

@@ -12,7 +12,7 @@ enum class NodeId : std::uint8_t {};     // index in Cluster::nodes
 enum class PduId : std::uint8_t {};      // index in Cluster::pdus
 enum class SensorId : std::uint8_t {};   // index in Cluster::sensors
 enum class ObjectId : std::uint16_t {};  // index in the world's objects; truth, never on a bus
-enum class TrackId : std::uint16_t {};   // given when a track is first confirmed (fusion/identities.h)
+enum class TrackId : std::uint16_t {};   // given when a track is first confirmed (fusion/tracks/identities.h)
 
 inline constexpr NodeId kNoNode{0xff};
 inline constexpr PduId kNoPdu{0xff};

@@ -1,50 +1,23 @@
 #!/usr/bin/env python3
-"""Checks that every include obeys the house's table: who may know whom. Held here, once; runs as a test.
+"""Holds every source to the house's table, tools/house.toml: who may include whom, and by which doors. Runs as a test.
 
     check_layers.py [REPOSITORY]      exit 1 and one line for every problem
 
-What counts is what a file sees, through other headers too. Every source file lies in a room; the project's own headers are
-included with quotes, by their path from the top, and nothing else is. tests/tools/check_layers_test.py tries the ways around.
+Between rooms counts what a file sees, through other headers too; between sub-rooms and at doors, what it includes itself. Every
+source file lies in a room; the project's own headers are included with quotes, by their path from the top. A source's namespace
+is its path (core/ is ttf itself), a test's that of the folder it mirrors. tests/tools/check_layers_test.py tries the ways around.
 """
 
 import pathlib
 import re
 import sys
+import tomllib
 
-# Room -> rooms it may include. The longest matching prefix of a file's path is its room.
-CORE = ["core"]
-RECORDS = "recording/records"
-ALLOWED = {
-    "core": [],
-    "timebase": CORE,
-    "schedules": CORE,
-    "fusion": CORE,
-    "recording/records": CORE,
-    "bus/wire": CORE + ["schedules"],
-    "bus": CORE + ["timebase", "schedules", "bus/wire", RECORDS],
-    "recording": CORE + ["schedules", "bus/wire", RECORDS],
-    "sim/world": CORE + ["bus/wire"],
-    "nodes": CORE + ["timebase", "schedules", "fusion", RECORDS, "bus/wire", "bus", "recording", "sim/world"],
-    "sim": CORE + ["timebase", "schedules", "fusion", RECORDS, "bus/wire", "bus", "recording", "sim/world", "nodes"],
-    "experiments/results": CORE,
-    "experiments": CORE + ["timebase", "schedules", "fusion", RECORDS, "bus/wire", "bus", "recording", "sim/world",
-                           "nodes", "sim", "experiments/results"],
-    "report": CORE + ["schedules", "recording", RECORDS, "experiments/results"],
-}
-# Leaves: rooms nobody but the program and the tests may name.
-ALLOWED["bus/socketcan"] = ALLOWED["bus"] + ["bus"]
-ALLOWED["bus/dds"] = ALLOWED["bus"] + ["bus"]
-ALLOWED["bus/dds/ros"] = ALLOWED["bus/dds"] + ["bus/dds"]
-ALLOWED["nodes/runner"] = ALLOWED["nodes"] + ["nodes"]
-ALLOWED["experiments/mpi"] = ALLOWED["experiments"] + ["experiments"]
-ALLOWED["cli"] = [room for room in ALLOWED]
-ALLOWED["tests"] = [room for room in ALLOWED]
-
-# Threads live only in the runner, the media, the log writer and the sweep engine: folders, or files by their name.
-THREADS_ALLOWED = ["nodes/runner", "bus/socketcan", "bus/dds", "recording/log_behind.h", "recording/log_behind.cc", "recording/log_writer.cc",
-                   "experiments", "tests"]
+MOST_SOURCES = 25
 THREAD_HEADERS = {"thread", "mutex", "shared_mutex", "future", "atomic", "condition_variable", "semaphore", "latch",
                   "barrier", "stop_token", "execution", "pthread.h", "threads.h", "stdatomic.h", "omp.h"}
+# What tests share is no mirror of a room.
+SHARED_TESTS = {"laws", "support", "golden", "bench", "fuzz", "tools", "test_bed"}
 
 SOURCES = {".h", ".cc"}
 OTHER_SOURCES = {".c", ".cpp", ".cxx", ".c++", ".hh", ".hpp", ".hxx", ".inc", ".inl", ".ipp", ".tcc", ".cppm", ".ixx"}
@@ -55,9 +28,46 @@ TOKEN = re.compile(r'''R"(?P<mark>[^(\s"]*)\(.*?\)(?P=mark)"|"(?:\\.|[^"\\\n])*"
 DIRECTIVE = re.compile(r"^[ \t]*(?:#|%:|\?\?=)[ \t]*(?:include_next|include|import)\b[ \t]*(.*)$", re.MULTILINE)
 
 
-def room_of(path: str) -> str | None:
-    matches = [room for room in ALLOWED if path.startswith(room + "/")]
-    return max(matches, key=len) if matches else None
+class House:
+    """The table, with what follows from it."""
+
+    def __init__(self, table: dict):
+        self.allowed = {room: list(rooms) for room, rooms in table["may_include"].items()}
+        for leaf, room in table.get("leaves", {}).items():
+            self.allowed[leaf] = self.allowed[room] + [room]
+        everything = list(self.allowed)
+        self.allowed["cli"] = everything
+        self.allowed["tests"] = everything + ["cli"]
+        self.sub_rooms = table.get("sub_rooms", {})
+        self.doors = table.get("doors", {})
+        self.threads = table.get("threads", {}).get("allowed", [])
+        self.many_sources = table.get("more_than_25_sources", {})
+
+    def room_of(self, path: str) -> str | None:
+        matches = [room for room in self.allowed if path.startswith(room + "/")]
+        return max(matches, key=len) if matches else None
+
+    def sub_room_of(self, path: str) -> str | None:
+        """The room's own name for a file in its own folder."""
+        room = self.room_of(path)
+        if room is None:
+            return None
+        rest = path[len(room) + 1:].split("/")
+        return room if len(rest) == 1 else f"{room}/{rest[0]}"
+
+    def may_use_threads(self, name: str) -> bool:
+        return any(name == place or name.startswith(place + "/") for place in self.threads)
+
+    def place(self, sub_room: str, room: str) -> int | None:
+        """How high a sub-room lies in its room."""
+        name = "." if sub_room == room else sub_room[len(room) + 1:]
+        order = self.sub_rooms.get(room, ["."])
+        return order.index(name) if name in order else None
+
+
+def read_house() -> House:
+    with open(pathlib.Path(__file__).parent / "house.toml", "rb") as file:
+        return House(tomllib.load(file))
 
 
 def directives(text: str) -> list[str]:
@@ -80,10 +90,10 @@ def source_files(root: pathlib.Path, folder: str = "") -> list[pathlib.Path]:
     return found
 
 
-def include_problem(root: pathlib.Path, include: str) -> str | None:
+def include_problem(house: House, root: pathlib.Path, include: str) -> str | None:
     """What is wrong with a quoted include, whoever it belongs to."""
     parts = include.split("/")
-    if room_of(include) is None or "." in parts or ".." in parts or "" in parts:
+    if house.room_of(include) is None or "." in parts or ".." in parts or "" in parts:
         return "is in no room: includes start with the folder's name"
     if not include.endswith(".h"):
         return "is no header"
@@ -92,10 +102,6 @@ def include_problem(root: pathlib.Path, include: str) -> str | None:
     if not generated and not (root / include).is_file():
         return "is not there"
     return None
-
-
-def may_use_threads(name: str) -> bool:
-    return any(name == place or name.startswith(place + "/") for place in THREADS_ALLOWED)
 
 
 def seen_from(name: str, quoted: dict[str, list[str]]) -> dict[str, list[str]]:
@@ -126,44 +132,107 @@ def circles(allowed: dict[str, list[str]]) -> list[str]:
     return found
 
 
-def problems(root: pathlib.Path) -> list[str]:
-    found = circles(ALLOWED)
+def inside_problems(house: House, name: str, include: str) -> list[str]:
+    """Between sub-rooms: never upwards within a room, and through doors alone."""
+    room, target_room = house.room_of(name), house.room_of(include)
+    own, target = house.sub_room_of(name), house.sub_room_of(include)
+    if room == "tests" or own == target:
+        return []
+    found = []
+    if room == target_room:
+        here, there = house.place(own, room), house.place(target, room)
+        if here is not None and there is not None and there > here:
+            found.append(f'{name}: {own} may not include {target} ("{include}"), which lies above it')
+    if target in house.doors and include[len(target) + 1:] not in house.doors[target]:
+        found.append(f'{name}: "{include}" is no door of {target}')
+    return found
+
+
+def folder_problems(house: House, files: list[str]) -> list[str]:
+    found = []
+    folders = {}
+    for name in files:
+        folders.setdefault(name.rsplit("/", 1)[0], []).append(name)
+    for folder, sources in sorted(folders.items()):
+        room = house.room_of(folder + "/x")
+        if room is None:
+            continue
+        if len(sources) > MOST_SOURCES and not folder.startswith("tests/") and folder not in house.many_sources:
+            found.append(f"{folder}: {len(sources)} sources in a folder; at most {MOST_SOURCES}, or a reason in tools/house.toml")
+        sub_room = house.sub_room_of(folder + "/x")
+        if room in house.sub_rooms and house.place(sub_room, room) is None:
+            found.append(f"{folder}: {sub_room} is no sub-room in tools/house.toml")
+        parts = folder.split("/")[1:]
+        if room == "tests" and parts and parts[0] not in SHARED_TESTS:
+            rooms = house.allowed.keys() | house.doors.keys()
+            if not any("/".join(parts[:length]) in rooms for length in (len(parts), len(parts) - 1)):
+                found.append(f"{folder}: mirrors no room")
+    for folder in house.many_sources:
+        if len(folders.get(folder, [])) <= MOST_SOURCES:
+            found.append(f"tools/house.toml: {folder} needs no reason")
+    return found
+
+
+NAMESPACE = re.compile(r"^namespace (ttf(?:::\w+)*) \{(.*?)^\}", re.MULTILINE | re.DOTALL)
+DEFINITION = re.compile(r"[{=]")
+
+
+def namespace_problems(name: str, text: str) -> list[str]:
+    """A source declares names of its own path's namespace alone; of others it may only say what there is."""
+    parts = name.split("/")[:-1]
+    if parts[0] == "tests" and parts[1:2] and parts[1] in SHARED_TESTS:
+        return []   # what tests share stands beside what it serves
+    own = {"::".join(["ttf"] + (parts[1:] if parts[0] in ("core", "tests") else parts))}
+    if parts[0] == "tests":
+        own.add("ttf::laws")   # laws are instantiated where they are
+        if parts[1:2] == ["core"]:
+            own.add("ttf")
+    return [f"{name}: namespace {space} is not its path's" for space, body in NAMESPACE.findall(text)
+            if space not in own and DEFINITION.search(body)]
+
+
+def problems(root: pathlib.Path, house: House) -> list[str]:
+    found = circles(house.allowed)
     quoted = {}
-    for file in source_files(root):
+    files = source_files(root)
+    for file in files:
         name = file.relative_to(root).as_posix()
-        if room_of(name) is None:
+        if house.room_of(name) is None:
             found.append(f"{name}: is in no room")
             continue
         if file.suffix not in SOURCES:
             found.append(f"{name}: sources are .h and .cc")
         quoted[name] = []
-        for argument in directives(file.read_text(encoding="utf-8")):
+        text = file.read_text(encoding="utf-8")
+        found += namespace_problems(name, text)
+        for argument in directives(text):
             if quotes := re.fullmatch(r'"([^"]+)"', argument):
-                if problem := include_problem(root, quotes[1]):
+                if problem := include_problem(house, root, quotes[1]):
                     found.append(f'{name}: "{quotes[1]}" {problem}')
                 else:
                     quoted[name].append(quotes[1])
+                    found += inside_problems(house, name, quotes[1])
             elif angles := re.fullmatch(r"<([^>]+)>", argument):
                 parts = angles[1].split("/")
-                if ".." in parts or "." in parts or "" in parts or (root / angles[1]).exists() or room_of(angles[1]):
+                if ".." in parts or "." in parts or "" in parts or (root / angles[1]).exists() or house.room_of(angles[1]):
                     found.append(f"{name}: <{angles[1]}>: the project's own headers are included with quotes")
-                if angles[1] in THREAD_HEADERS and not may_use_threads(name):
+                if angles[1] in THREAD_HEADERS and not house.may_use_threads(name):
                     found.append(f"{name}: <{angles[1]}>: threads live only in the runner, the media, the log writer and "
                                  "the sweep engine")
             else:
                 found.append(f"{name}: #include {argument}: includes name a file")
     for name in quoted:
-        room = room_of(name)
+        room = house.room_of(name)
         for include, way in seen_from(name, quoted).items():
-            target = room_of(include)
-            if target != room and target not in ALLOWED[room]:
+            target = house.room_of(include)
+            if target != room and target not in house.allowed[room]:
                 over = f" over {', '.join(way)}" if way else ""
                 found.append(f'{name}: {room} may not include {target} ("{include}"{over})')
-    return found
+    return found + folder_problems(house, list(quoted))
 
 
 if __name__ == "__main__":
     top = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ".").resolve()
-    result = problems(top)
+    result = problems(top, read_house())
     print("\n".join(result) or "layers: every include obeys the table")
     sys.exit(1 if result else 0)

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "bus/live_medium.h"
+#include "bus/ports/live_medium.h"
 #include "bus/socketcan/flexray_on_can.h"
 
 namespace ttf::socketcan {

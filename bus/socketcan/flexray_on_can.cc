@@ -5,7 +5,7 @@
 
 #include "bus/wire/flexray_crc.h"
 #include "core/check.h"
-#include "schedules/can_load.h"
+#include "schedules/analysis/can_load.h"
 
 namespace ttf::socketcan {
 namespace {

@@ -31,10 +31,10 @@
 #include <optional>
 #include <span>
 
-#include "bus/flexray_port.h"
+#include "bus/ports/flexray_port.h"
 #include "bus/wire/flexray_frame.h"
 #include "core/time.h"
-#include "schedules/cluster.h"
+#include "schedules/model/cluster.h"
 
 namespace ttf::socketcan {
 

@@ -1,5 +1,5 @@
 // The real-time medium on SocketCAN: one interface per FlexRay channel (docs/socketcan.md says what is on it), one per
-// private CAN. It keeps the laws of bus/live_medium.h; what is particular here:
+// private CAN. It keeps the laws of bus/ports/live_medium.h; what is particular here:
 //
 //   lost       CAN frames that the receive buffer had no room for, each fragment by itself, echoes of this node's own
 //              frames among them; and frames whose first fragments came and whose others did not
@@ -23,7 +23,7 @@
 #include <string>
 #include <vector>
 
-#include "bus/live_medium.h"
+#include "bus/ports/live_medium.h"
 #include "bus/socketcan/departures.h"
 #include "bus/socketcan/flexray_on_can.h"
 #include "bus/socketcan/socket.h"

@@ -8,9 +8,9 @@
 #include "bus/socketcan/flexray_on_can.h"
 #include "bus/wire/flexray_frame.h"
 #include "core/int128.h"
-#include "schedules/can_load.h"
-#include "schedules/minislots.h"
-#include "schedules/real_time.h"
+#include "schedules/analysis/can_load.h"
+#include "schedules/analysis/minislots.h"
+#include "schedules/check/real_time_rules.h"
 
 namespace ttf::socketcan {
 namespace {

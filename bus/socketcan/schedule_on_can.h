@@ -1,10 +1,10 @@
 // Whether a schedule holds where its frames travel on real CAN FD hardware, which is slower than FlexRay: as
-// flexray_on_can.h maps them, one CAN for each channel, at worst (schedules/can_load.h: as many stuff bits as there can
+// flexray_on_can.h maps them, one CAN for each channel, at worst (schedules/analysis/can_load.h: as many stuff bits as there can
 // be). Only bits are counted; what controllers and drivers take comes on top.
 //
 //   static slots    the sync frame of a key slot and its follow-up, or a frame of gPayloadLengthStatic, must take no
 //                   longer than a static slot: from action point to action point
-//   dynamic slots   each frame no longer than the minislots that its length takes (schedules/minislots.h)
+//   dynamic slots   each frame no longer than the minislots that its length takes (schedules/analysis/minislots.h)
 //
 // What begins at its action point and holds has left the bus before the next action point. What does not hold delays
 // those behind it, and is delayed: nothing is lost by it, but arrival windows may be missed.
@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "core/time.h"
-#include "schedules/cluster.h"
+#include "schedules/model/cluster.h"
 
 namespace ttf::socketcan {
 

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "bus/live_medium.h"
+#include "bus/ports/live_medium.h"
 
 namespace ttf::socketcan {
 

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "core/check.h"
-#include "schedules/can_load.h"
+#include "schedules/analysis/can_load.h"
 
 namespace ttf::wire {
 namespace {

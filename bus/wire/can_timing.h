@@ -1,5 +1,5 @@
 // How long a CAN frame with given data takes on the wire, stuff bits counted one by one (ISO 11898-1:2015). What any
-// data may take is the schedule's affair: schedules/can_load.h.
+// data may take is the schedule's affair: schedules/analysis/can_load.h.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 #include <span>
 
 #include "core/time.h"
-#include "schedules/cluster.h"
+#include "schedules/model/cluster.h"
 
 namespace ttf::wire {
 

@@ -13,7 +13,7 @@
 #include <cstdint>
 #include <span>
 
-#include "schedules/cluster.h"
+#include "schedules/model/cluster.h"
 
 namespace ttf::wire {
 

@@ -15,7 +15,7 @@
 #include <optional>
 #include <span>
 
-#include "schedules/cluster.h"
+#include "schedules/model/cluster.h"
 
 namespace ttf::wire {
 

@@ -1,4 +1,4 @@
-// Packing and unpacking of PDU fragments: fixed-point signals, most significant bit first (schedules/pdu.h).
+// Packing and unpacking of PDU fragments: fixed-point signals, most significant bit first (schedules/model/pdu.h).
 #pragma once
 
 #include <cstddef>
@@ -6,7 +6,7 @@
 #include <span>
 #include <string_view>
 
-#include "schedules/pdu.h"
+#include "schedules/model/pdu.h"
 
 namespace ttf::wire {
 

@@ -1,4 +1,4 @@
-// What a strobe on a CAN carries (schedules/sensor_lines.h): the measurement's number, most significant byte first.
+// What a strobe on a CAN carries (schedules/model/sensor_lines.h): the measurement's number, most significant byte first.
 #pragma once
 
 #include <array>
@@ -7,7 +7,7 @@
 #include <optional>
 #include <span>
 
-#include "schedules/sensor_lines.h"
+#include "schedules/model/sensor_lines.h"
 
 namespace ttf::wire {
 

@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "experiments/sweep_drive.h"
-#include "experiments/sweep_engine.h"
+#include "experiments/sweep/run.h"
+#include "experiments/sweep/engine.h"
 
 namespace ttf::experiments {
 

@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "fusion/estimator.h"
+#include "fusion/estimators/estimator.h"
 #include "fusion/estimators/model_estimator.h"
 #include "fusion/filters/extended.h"
 #include "fusion/filters/unscented.h"

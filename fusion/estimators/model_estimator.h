@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "core/check.h"
-#include "fusion/estimator.h"
+#include "fusion/estimators/estimator.h"
 #include "fusion/estimators/single.h"
 #include "fusion/sensors/mounted.h"
 #include "fusion/sensors/position.h"
@@ -138,7 +138,7 @@ template <class F, class Kernel> class ModelEstimator final : public Estimator {
     through_sensor(observation, [&](const auto& sensor, const auto& z) { kernel.update(sensor, z, own); });
   }
 
-  // What is a position has been placed in the vehicle's axes before (fusion/known_sensor.h).
+  // What is a position has been placed in the vehicle's axes before (fusion/sensors/known_sensor.h).
   template <class Body> auto through_sensor(const Observation& o, const Body& body) const {
     if (o.kind == ObservationKind::kPosition)
       return body(sensors::Position{},

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <optional>
 
-#include "fusion/estimate.h"
+#include "fusion/estimators/estimate.h"
 #include "fusion/filters/filter.h"
 #include "fusion/filters/merge.h"
 #include "fusion/motion/conversion.h"

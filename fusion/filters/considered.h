@@ -2,7 +2,7 @@
 // correlation with the B biases of all sensors together, each sensor's one after the other.
 #pragma once
 
-#include "fusion/gaussian.h"
+#include "fusion/linear/gaussian.h"
 
 namespace ttf::fusion::filters {
 

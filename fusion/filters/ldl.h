@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/check.h"
-#include "fusion/gaussian.h"
+#include "fusion/linear/gaussian.h"
 #include "fusion/motion/kernels.h"
 
 namespace ttf::fusion {

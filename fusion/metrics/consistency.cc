@@ -1,7 +1,7 @@
 #include "fusion/metrics/consistency.h"
 
 #include "core/check.h"
-#include "fusion/metrics.h"
+#include "fusion/metrics/chi_square.h"
 
 namespace ttf::fusion::metrics {
 

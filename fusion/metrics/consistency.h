@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "fusion/gaussian.h"
+#include "fusion/linear/gaussian.h"
 
 namespace ttf::fusion::metrics {
 

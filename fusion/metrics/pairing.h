@@ -1,6 +1,6 @@
 // One-to-one pairs of two lists at least cost, where a pair that is not offered, or not worth it, stays apart.
 //
-// The optimum is that of fusion/assignment.h, exact for dense and for square problems; with a pair's gain 1 + bonus -
+// The optimum is that of fusion/association/assignment.h, exact for dense and for square problems; with a pair's gain 1 + bonus -
 // cost it is the cut-off problem of GOSPA and OSPA, or the one that takes as many pairs as it can first. Laws:
 //   P1  no set of one-to-one pairs of what was offered has a larger sum of gains (but for rounding, 1e-12 of the sum)
 //   P2  equal sums: rows come in order and prefer small columns. Among pairs of exactly equal cost no row could move to
@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-#include "fusion/assignment.h"
+#include "fusion/association/assignment.h"
 
 namespace ttf::fusion::metrics {
 

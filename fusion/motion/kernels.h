@@ -5,7 +5,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "fusion/gaussian.h"
+#include "fusion/linear/gaussian.h"
 
 namespace ttf::fusion {
 

@@ -3,7 +3,7 @@
 // five numbers, a motion model says how they follow from its state: every sensor takes every motion model.
 #pragma once
 
-#include "fusion/gaussian.h"
+#include "fusion/linear/gaussian.h"
 
 namespace ttf::fusion {
 

@@ -8,7 +8,7 @@
 // leaves most of Eigen's small products as calls, which cost more than what they compute.
 #pragma once
 
-#include "fusion/gaussian.h"
+#include "fusion/linear/gaussian.h"
 #include "fusion/oosm/whitening.h"
 
 namespace ttf::fusion::oosm {

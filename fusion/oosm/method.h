@@ -34,7 +34,7 @@
 
 #include "core/ids.h"
 #include "core/time.h"
-#include "fusion/gaussian.h"
+#include "fusion/linear/gaussian.h"
 
 namespace ttf::fusion::oosm {
 

@@ -9,7 +9,7 @@
 
 #include <Eigen/LU>
 
-#include "fusion/gaussian.h"
+#include "fusion/linear/gaussian.h"
 #include "fusion/oosm/whitening.h"
 
 namespace ttf::fusion::oosm {

@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-#include "fusion/gaussian.h"
+#include "fusion/linear/gaussian.h"
 
 namespace ttf::fusion::oosm {
 

@@ -1,7 +1,7 @@
 // A sensor whose systematic errors are some of the biases of all sensors together (fusion/filters/consider.h): the same
 // sensor, and d expected / d (all of them), zero but for its own.
 //
-// What a sensor errs by is in its own axes (fusion/known_sensor.h), polar or Cartesian; what it measures is either a
+// What a sensor errs by is in its own axes (fusion/sensors/known_sensor.h), polar or Cartesian; what it measures is either a
 // position, which has been placed in the vehicle's axes, or range, bearing and range rate from where it is mounted.
 // With q from the sensor to the object, p the position, v the velocity, all in the vehicle's axes:
 //   polar errors of a position      q / |q| by the range, (-q_y, q_x) by the bearing
@@ -13,7 +13,7 @@
 #include <array>
 #include <cmath>
 
-#include "fusion/known_sensor.h"
+#include "fusion/sensors/known_sensor.h"
 #include "fusion/sensors/range_bearing.h"
 #include "fusion/sensors/sensor_model.h"
 

@@ -1,5 +1,5 @@
 // z = (x, y, orientation) [m, m, rad] of a box that was fitted to an outline: front and back look alike, so its
-// orientation is the heading up to half a turn. Its length and width are measured besides: fusion/extent.h.
+// orientation is the heading up to half a turn. Its length and width are measured besides: fusion/tracks/extent.h.
 #pragma once
 
 #include "fusion/motion/angles.h"

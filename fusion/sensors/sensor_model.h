@@ -21,7 +21,7 @@ namespace ttf::fusion::sensors {
 // every update factors S = H P H' + R and stops the program at a pivot that is not positive (filters/ldl.h): what comes
 // from outside is checked where it enters, a sensor's noise when its configuration is loaded, a covariance that a
 // message carries when it is unpacked, by positive_definite() there. R must also not drown in the rounding of H P H':
-// 1e-12 of it is enough. The methods of fusion/oosm/ ask the same of R (fusion/gaussian.h); that their whitening.h lets
+// 1e-12 of it is enough. The methods of fusion/oosm/ ask the same of R (fusion/linear/gaussian.h); that their whitening.h lets
 // pivots of zero pass is for predicted covariances and process noise, which may be semi-definite.
 template <int M> struct Measurement {
   Vector<M> z = Vector<M>::Zero();

@@ -7,7 +7,7 @@
 
 #include <cstdint>
 
-#include "bus/live_medium.h"
+#include "bus/ports/live_medium.h"
 #include "core/time.h"
 
 namespace ttf::runner {

@@ -6,7 +6,7 @@
 #include <mutex>
 #include <thread>
 
-#include "bus/live_medium.h"
+#include "bus/ports/live_medium.h"
 #include "core/time.h"
 #include "recording/records/binned_durations.h"
 

@@ -12,7 +12,7 @@
 #include <functional>
 #include <thread>
 
-#include "bus/live_medium.h"
+#include "bus/ports/live_medium.h"
 #include "nodes/runner/runner.h"
 
 namespace ttf::runner {

@@ -1,17 +1,17 @@
 // The FlexRay port of a node in real time: what its controller sends goes to the medium when it is due, or, where
 // that is so long ago that it would come outside its arrival window, not at all.
 //
-// The laws of bus/flexray_port.h hold but for L6 and the bits' own lengths: two nodes that send at once do not
+// The laws of bus/ports/flexray_port.h hold but for L6 and the bits' own lengths: two nodes that send at once do not
 // collide on such a medium, and a frame is there at once. The runner hands it over when it would have ended
-// (nodes/runner/arrivals.h).
+// (nodes/runner/arrival_window.h).
 #pragma once
 
 #include <cstdint>
 
-#include "bus/controller.h"
-#include "bus/flexray_port.h"
-#include "bus/live_medium.h"
-#include "nodes/runner/arrivals.h"
+#include "bus/controller/controller.h"
+#include "bus/ports/flexray_port.h"
+#include "bus/ports/live_medium.h"
+#include "nodes/runner/arrival_window.h"
 #include "nodes/runner/drive_clock.h"
 #include "nodes/runner/timing_account.h"
 #include "timebase/oscillator.h"

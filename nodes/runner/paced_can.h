@@ -9,10 +9,10 @@
 #include <functional>
 #include <vector>
 
-#include "bus/can_port.h"
+#include "bus/ports/can_port.h"
 #include "core/time.h"
 #include "recording/records/records.h"
-#include "schedules/cluster.h"
+#include "schedules/model/cluster.h"
 
 namespace ttf::runner {
 

@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "bus/wire/strobe.h"
-#include "nodes/node_clock.h"
+#include "nodes/host/node_clock.h"
 #include "recording/records/tee.h"
-#include "schedules/sensor_lines.h"
+#include "schedules/model/sensor_lines.h"
 
 namespace ttf::runner {
 namespace {

@@ -25,10 +25,10 @@
 #include <string>
 #include <vector>
 
-#include "bus/live_medium.h"
+#include "bus/ports/live_medium.h"
 #include "core/time.h"
-#include "nodes/executive.h"
-#include "nodes/runner/arrivals.h"
+#include "nodes/host/executive.h"
+#include "nodes/runner/arrival_window.h"
 #include "nodes/runner/drive_clock.h"
 #include "nodes/runner/floor.h"
 #include "nodes/runner/live_flexray.h"
@@ -36,7 +36,7 @@
 #include "nodes/runner/timing_account.h"
 #include "nodes/runner/wake_up.h"
 #include "recording/records/records.h"
-#include "schedules/cluster.h"
+#include "schedules/model/cluster.h"
 #include "timebase/oscillator.h"
 
 namespace ttf::runner {

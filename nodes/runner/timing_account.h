@@ -6,11 +6,11 @@
 #include <cstdint>
 #include <functional>
 
-#include "bus/live_medium.h"
+#include "bus/ports/live_medium.h"
 #include "core/time.h"
 #include "recording/records/binned_durations.h"
 #include "recording/records/records.h"
-#include "schedules/cluster.h"
+#include "schedules/model/cluster.h"
 
 namespace ttf::runner {
 

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "bus/live_medium.h"
+#include "bus/ports/live_medium.h"
 
 namespace ttf::runner {
 

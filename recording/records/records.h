@@ -144,7 +144,7 @@ struct ClockCorrected {
 };
 
 // Protocol operation control of a node's controller went from one state to another: numbers as E-Ray's CCSV.POCS, words
-// as bus/poc_text.cc. A node that begins integrated has not changed its state.
+// as bus/poc/text.cc. A node that begins integrated has not changed its state.
 struct StateChanged {
   Stamp stamp;  // global time as the node has it in the new state
   std::uint8_t from = 0, to = 0;
@@ -351,7 +351,7 @@ struct LatenessHistogram {
 };
 
 // What the medium of a node's process has counted since that began, as LatenessHistogram: of runs in real time.
-// Frames and signals of FlexRay, and CAN frames (bus/live_medium.h).
+// Frames and signals of FlexRay, and CAN frames (bus/ports/live_medium.h).
 struct MediumCounts {
   Stamp stamp;
   std::uint64_t sent = 0;

@@ -11,10 +11,10 @@
 #include <utility>
 
 #include "core/random.h"
-#include "nodes/fault_plan.h"
-#include "schedules/cluster.h"
-#include "sim/disturbance.h"
-#include "sim/plant.h"
+#include "faults/plan.h"
+#include "schedules/model/cluster.h"
+#include "sim/medium/disturbance.h"
+#include "sim/crank/plant.h"
 
 namespace ttf::sim {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/check.h"
-#include "nodes/believed_schedule.h"
+#include "faults/believed_schedule.h"
 #include "sim/faults/families.h"
 
 namespace ttf::sim {

@@ -16,12 +16,12 @@
 #include <span>
 #include <vector>
 
-#include "nodes/fault_plan.h"
+#include "faults/plan.h"
 #include "recording/records/records.h"
-#include "schedules/cluster.h"
-#include "sim/disturbance.h"
+#include "schedules/model/cluster.h"
+#include "sim/medium/disturbance.h"
 #include "sim/faults/active_fault.h"
-#include "sim/plant.h"
+#include "sim/crank/plant.h"
 
 namespace ttf::sim {
 
@@ -29,7 +29,7 @@ class Injector final : public Disturbance, private FaultLog {
  public:
   // `plan`: resolved for the cluster. `origin`: what its times count from. Everything but the plan must outlive the
   // injector; the simulation is told of it by set_disturbance(), and gets the schedules its nodes believe in where it
-  // is made (nodes/believed_schedule.h).
+  // is made (faults/believed_schedule.h).
   Injector(nodes::FaultPlan plan, const schedules::Cluster& cluster, Plant& plant, std::uint64_t seed,
            std::uint32_t replication, records::Sink& sink, TrueTime origin = {});
   ~Injector() override;

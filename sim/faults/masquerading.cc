@@ -1,7 +1,7 @@
 // Frames that claim to be another's, with a right CRC, and the frames of a node that believes in another schedule.
 #include <array>
 
-#include "bus/slot_table.h"
+#include "bus/controller/slot_table.h"
 #include "sim/faults/families.h"
 #include "sim/faults/frame_fault.h"
 
@@ -110,7 +110,7 @@ class InAnothersSlot final : public FrameFault {
   std::array<std::byte, wire::kMaxFrameBytes> frame_{};
 };
 
-// The node's controller runs on the schedule that it believes in (nodes/believed_schedule.h): what it sends is what
+// The node's controller runs on the schedule that it believes in (faults/believed_schedule.h): what it sends is what
 // comes of it.
 class WrongBelief final : public ActiveFault {
  public:

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "core/random.h"
-#include "sim/bus_simulation.h"
+#include "sim/crank/bus_simulation.h"
 #include "tests/bench/yardstick.h"
-#include "tests/sim/bus_clusters.h"
+#include "tests/sim/crank/bus_clusters.h"
 
 namespace ttf::sim {
 namespace {

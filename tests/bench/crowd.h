@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "fusion/strategy.h"
+#include "fusion/strategies/strategy.h"
 #include "tests/fusion/scenes.h"
 
 namespace ttf::fusion {

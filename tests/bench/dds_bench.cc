@@ -17,8 +17,8 @@
 #include <utility>
 #include <vector>
 
-#include "bus/dds/exchange.h"
-#include "bus/dds/supervisor.h"
+#include "bus/dds/exchange/exchange.h"
+#include "bus/dds/exchange/exchange_supervisor.h"
 #include "core/check.h"
 #include "tests/bench/yardstick.h"
 

@@ -6,9 +6,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "recording/log_writer.h"
+#include "recording/log/writer.h"
 #include "tests/bench/yardstick.h"
-#include "tests/sim/drive_fixture.h"
+#include "tests/drives/drive_fixture.h"
 
 namespace ttf {
 namespace {

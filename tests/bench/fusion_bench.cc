@@ -58,7 +58,7 @@ void cycle(benchmark::State& state, const Crowd& crowd, StrategyKind kind, const
 void Cycle(benchmark::State& state) { cycle(state, scene(), static_cast<StrategyKind>(state.range(0)), {}); }
 BENCHMARK(Cycle)->Arg(0)->Arg(1)->Arg(2)->ArgName("strategy")->Unit(benchmark::kMicrosecond);
 
-// The same, time-triggered, under every motion model (fusion/tracker_config.h) and filter.
+// The same, time-triggered, under every motion model (fusion/config/tracker_config.h) and filter.
 void CycleOf(benchmark::State& state) {
   cycle(state, scene(), StrategyKind::kTt,
         config_of(static_cast<MotionModel>(state.range(0)), 3.0, static_cast<FilterKind>(state.range(1))));
@@ -68,7 +68,7 @@ BENCHMARK(CycleOf)
     ->ArgNames({"motion", "filter"})
     ->Unit(benchmark::kMicrosecond);
 
-// The same, constant velocity or acceleration, where eight biases are considered (fusion/known_sensor.h).
+// The same, constant velocity or acceleration, where eight biases are considered (fusion/sensors/known_sensor.h).
 void CycleConsidering(benchmark::State& state) {
   TrackerConfig config = config_of(static_cast<MotionModel>(state.range(0)));
   config.systematic = SystematicErrorsAre::kConsidered;

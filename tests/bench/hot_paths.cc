@@ -17,11 +17,11 @@
 #include "fusion/motion/ctrv.h"
 #include "fusion/oosm/any_method.h"
 #include "fusion/sensors/position.h"
-#include "sim/bus_simulation.h"
+#include "sim/crank/bus_simulation.h"
 #include "tests/bench/crowd.h"
 #include "tests/fusion/oosm/timelines.h"
-#include "tests/sim/bus_clusters.h"
-#include "tests/sim/drive_fixture.h"
+#include "tests/sim/crank/bus_clusters.h"
+#include "tests/drives/drive_fixture.h"
 
 namespace ttf {
 namespace {

@@ -27,7 +27,7 @@
 #include <utility>
 #include <vector>
 
-#include "bus/dds/live_medium.h"
+#include "bus/dds/live/medium.h"
 #include "bus/wire/flexray_frame.h"
 #include "core/check.h"
 #include "tests/support/child_process.h"

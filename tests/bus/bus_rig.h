@@ -16,9 +16,9 @@
 #include <utility>
 #include <vector>
 
-#include "bus/controller.h"
-#include "bus/flexray_port.h"
-#include "schedules/cluster.h"
+#include "bus/controller/controller.h"
+#include "bus/ports/flexray_port.h"
+#include "schedules/model/cluster.h"
 #include "tests/bus/layouts.h"
 #include "timebase/oscillator.h"
 

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "bus/list_buffer.h"
+#include "bus/cni/list_buffer.h"
 #include "bus/wire/pdu_codec.h"
-#include "schedules/pdu.h"
+#include "schedules/model/pdu.h"
 
 namespace ttf::bus {
 

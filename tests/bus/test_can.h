@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "bus/can_port.h"
+#include "bus/ports/can_port.h"
 
 namespace ttf::bus {
 

@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "recording/merge.h"
+#include "recording/merge/merge.h"
 #include "recording/records/records.h"
 
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <tuple>
 
-#include "fusion/tracker_config.h"
+#include "fusion/config/tracker_config.h"
 
 namespace ttf::fusion {
 

@@ -6,7 +6,7 @@
 #include "fusion/metrics/clear_mot.h"
 #include "fusion/metrics/consistency.h"
 #include "fusion/metrics/set_distance.h"
-#include "fusion/timeline.h"
+#include "fusion/tracks/timeline.h"
 
 namespace ttf::fusion {
 namespace {

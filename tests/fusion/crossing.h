@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "fusion/tracker_config.h"
+#include "fusion/config/tracker_config.h"
 #include "tests/fusion/scenes.h"
 
 namespace ttf::fusion {

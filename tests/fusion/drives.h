@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "fusion/strategy.h"
+#include "fusion/strategies/strategy.h"
 #include "tests/fusion/scenes.h"
 
 namespace ttf::fusion {

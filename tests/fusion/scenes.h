@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "core/random.h"
-#include "fusion/estimator.h"
-#include "fusion/strategy.h"
-#include "fusion/tracker.h"
+#include "fusion/estimators/estimator.h"
+#include "fusion/strategies/strategy.h"
+#include "fusion/tracks/tracker.h"
 
 namespace ttf::fusion {
 

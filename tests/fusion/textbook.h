@@ -5,7 +5,7 @@
 
 #include <Eigen/Cholesky>
 
-#include "fusion/gaussian.h"
+#include "fusion/linear/gaussian.h"
 
 namespace ttf::fusion {
 

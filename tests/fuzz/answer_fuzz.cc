@@ -1,6 +1,6 @@
 // Any text as an experiment's answer.json. Laws: it is refused in a line, or makes a page, the same each time, in which
 // no name is markup.
-#include "report/experiment_report.h"
+#include "report/experiment/report.h"
 #include "tests/fuzz/harness.h"
 #include "tests/fuzz/page_laws.h"
 

@@ -2,11 +2,11 @@
 // sentence; packets lie within the file and are numbered from 1; packets written again are read the same; and the
 // verdict on a capture counts what it lists.
 #include "core/check.h"
-#include "recording/capture_check.h"
-#include "recording/capture_packet.h"
-#include "recording/capture_reader.h"
-#include "recording/capture_writer.h"
-#include "schedules/loader.h"
+#include "recording/capture/check.h"
+#include "recording/capture/packet.h"
+#include "recording/capture/reader.h"
+#include "recording/exports/pcapng_writer.h"
+#include "schedules/file/loader.h"
 #include "tests/fuzz/harness.h"
 
 namespace {

@@ -1,6 +1,6 @@
 // Any text as a cluster file. Law: a file is one document; what follows its end is refused, never passed over.
 #include "core/check.h"
-#include "schedules/loader.h"
+#include "schedules/file/loader.h"
 #include "tests/fuzz/cluster_laws.h"
 #include "tests/fuzz/harness.h"
 

@@ -6,12 +6,12 @@
 #include <algorithm>
 
 #include "core/check.h"
-#include "recording/lateness_sums.h"
-#include "recording/log_reader.h"
-#include "report/lateness_picture.h"
-#include "report/position_plot.h"
-#include "report/startup_diagram.h"
-#include "report/timing_diagram.h"
+#include "recording/exports/lateness_sums.h"
+#include "recording/log/reader.h"
+#include "report/plots/lateness_picture.h"
+#include "report/plots/position_plot.h"
+#include "report/startup/diagram.h"
+#include "report/timing/diagram.h"
 #include "tests/fuzz/harness.h"
 #include "tests/fuzz/mcap_around.h"
 

@@ -3,11 +3,11 @@
 #include <algorithm>
 
 #include "core/check.h"
-#include "schedules/fibex_export.h"
-#include "schedules/fibex_import.h"
-#include "schedules/loader.h"
+#include "schedules/exchange/fibex/export.h"
+#include "schedules/exchange/fibex/import.h"
+#include "schedules/file/loader.h"
 #include "tests/fuzz/harness.h"
-#include "tests/schedules/fibex_compare.h"
+#include "tests/schedules/exchange/fibex/fibex_compare.h"
 
 namespace ttf::fuzz {
 namespace {

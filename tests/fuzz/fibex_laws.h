@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "schedules/cluster.h"
+#include "schedules/model/cluster.h"
 
 namespace ttf::fuzz {
 

@@ -8,10 +8,10 @@
 #include <map>
 #include <vector>
 
-#include "bus/list_buffer.h"
+#include "bus/cni/list_buffer.h"
 #include "bus/wire/pdu_codec.h"
 #include "core/check.h"
-#include "schedules/loader.h"
+#include "schedules/file/loader.h"
 #include "tests/fuzz/harness.h"
 
 namespace {

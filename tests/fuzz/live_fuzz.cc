@@ -1,5 +1,5 @@
 // Anything that may arrive in real time, at any instant and in any order, at a node that is at work
-// (nodes/runner/arrivals.h): frames of any slot and cycle, sound or broken, sync frames with and without follow-ups,
+// (nodes/runner/arrival_window.h): frames of any slot and cycle, sound or broken, sync frames with and without follow-ups,
 // symbols of any length, CAN frames and strobes. Laws: arrivals are handed over in the order in which they are due,
 // none before it; the node stops for none of them, and its clock goes on.
 //
@@ -12,11 +12,11 @@
 
 #include "bus/wire/flexray_frame.h"
 #include "core/check.h"
-#include "nodes/catalog.h"
-#include "nodes/executive.h"
-#include "nodes/node_clock.h"
-#include "nodes/runner/arrivals.h"
-#include "schedules/loader.h"
+#include "drives/step_catalog.h"
+#include "nodes/host/executive.h"
+#include "nodes/host/node_clock.h"
+#include "nodes/runner/arrival_window.h"
+#include "schedules/file/loader.h"
 #include "tests/fuzz/harness.h"
 
 namespace {

@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "core/check.h"
-#include "recording/log_reader.h"
-#include "recording/log_writer.h"
-#include "recording/merge.h"
+#include "recording/log/reader.h"
+#include "recording/log/writer.h"
+#include "recording/merge/merge.h"
 #include "tests/fuzz/harness.h"
 #include "tests/recording/record_text.h"
 

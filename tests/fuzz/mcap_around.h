@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "recording/mcap_bytes.h"
+#include "recording/mcap/bytes.h"
 
 namespace ttf::fuzz {
 

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "nodes/scene.h"
+#include "nodes/sensing/scene.h"
 
 namespace ttf::fuzz {
 

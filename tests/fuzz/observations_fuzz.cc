@@ -12,11 +12,11 @@
 
 #include "core/check.h"
 #include "core/decimal.h"
-#include "experiments/arrivals.h"
-#include "experiments/sensor_timing.h"
-#include "experiments/track_replay.h"
-#include "recording/csv.h"
-#include "recording/observation_rows.h"
+#include "replay/recorded_lists.h"
+#include "replay/sensor_timing.h"
+#include "replay/replay.h"
+#include "recording/rows/csv.h"
+#include "recording/rows/observation_rows.h"
 #include "tests/fuzz/harness.h"
 
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "core/check.h"
-#include "recording/csv.h"
-#include "report/paper_experiment.h"
+#include "recording/rows/csv.h"
+#include "report/paper/experiment.h"
 #include "tests/fuzz/harness.h"
 
 namespace {

@@ -7,8 +7,8 @@
 
 #include "core/check.h"
 #include "nodes/laser/laser_preprocessor.h"
-#include "nodes/recorded.h"
-#include "recording/recorded_input.h"
+#include "nodes/sensing/recorded.h"
+#include "recording/rows/laser_radar_file.h"
 #include "tests/fuzz/harness.h"
 
 namespace {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/check.h"
-#include "nodes/scenario.h"
-#include "nodes/scene.h"
+#include "drives/scenario.h"
+#include "nodes/sensing/scene.h"
 #include "tests/fuzz/harness.h"
 
 namespace ttf::fuzz {

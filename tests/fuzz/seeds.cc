@@ -12,15 +12,15 @@
 #include "core/check.h"
 #include "core/random.h"
 #include "experiments/results/store.h"
-#include "recording/capture_packet.h"
-#include "recording/capture_writer.h"
-#include "recording/log_writer.h"
-#include "recording/mcap_reader.h"
-#include "schedules/loader.h"
-#include "sim/turn.h"
+#include "recording/capture/packet.h"
+#include "recording/exports/pcapng_writer.h"
+#include "recording/log/writer.h"
+#include "recording/mcap/reader.h"
+#include "schedules/file/loader.h"
+#include "sim/processes/turn.h"
 #include "tests/fuzz/harness.h"
 #include "tests/recording/record_text.h"
-#include "tests/schedules/fibex_example.h"
+#include "tests/schedules/exchange/fibex/fibex_example.h"
 
 namespace {
 

@@ -9,12 +9,12 @@
 #include <memory>
 #include <vector>
 
-#include "bus/can_controller.h"
-#include "bus/list_buffer.h"
+#include "bus/cni/can_controller.h"
+#include "bus/cni/list_buffer.h"
 #include "bus/wire/pdu_codec.h"
 #include "core/check.h"
-#include "nodes/catalog.h"
-#include "schedules/loader.h"
+#include "drives/step_catalog.h"
+#include "schedules/file/loader.h"
 #include "tests/fuzz/harness.h"
 #include "tests/fuzz/nothing_there.h"
 

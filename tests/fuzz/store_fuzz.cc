@@ -8,7 +8,7 @@
 #include <system_error>
 
 #include "core/check.h"
-#include "report/experiment_report.h"
+#include "report/experiment/report.h"
 #include "tests/fuzz/harness.h"
 #include "tests/fuzz/page_laws.h"
 

@@ -1,14 +1,14 @@
-// Any records as a Perfetto trace. Laws: the trace is sound, whatever the log says (tests/recording/perfetto_trace.h:
+// Any records as a Perfetto trace. Laws: the trace is sound, whatever the log says (tests/recording/exports/perfetto_trace.h:
 // tracks described once and before they are used, times that never go back, slices that end, flows with two ends), what
 // it says it wrote is there, and the same log gives the same bytes.
 //
 // Input: messages: kind (1 byte), length (2 bytes), payload.
 #include "core/check.h"
-#include "recording/merge.h"
-#include "recording/perfetto_export.h"
+#include "recording/merge/merge.h"
+#include "recording/exports/perfetto.h"
 #include "tests/fuzz/harness.h"
 #include "tests/fuzz/mcap_around.h"
-#include "tests/recording/perfetto_trace.h"
+#include "tests/recording/exports/perfetto_trace.h"
 
 namespace {
 

@@ -1,4 +1,4 @@
-// Any bytes as a turn (sim/turn.h). Laws: what is none is refused, with a sentence; what is one is the same after
+// Any bytes as a turn (sim/processes/turn.h). Laws: what is none is refused, with a sentence; what is one is the same after
 // writing and reading it again, and says nothing that could not be simulated.
 #include <algorithm>
 #include <span>
@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/check.h"
-#include "schedules/loader.h"
-#include "sim/turn.h"
+#include "schedules/file/loader.h"
+#include "sim/processes/turn.h"
 #include "tests/fuzz/harness.h"
 
 using namespace ttf;

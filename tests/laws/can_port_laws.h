@@ -1,4 +1,4 @@
-// The laws of bus/can_port.h as a suite that every medium is put through:
+// The laws of bus/ports/can_port.h as a suite that every medium is put through:
 //
 //   class MyBench : public laws::CanBench { ... };
 //   INSTANTIATE_TYPED_TEST_SUITE_P(MyMedium, CanPortLaws, MyBench);     // in namespace ttf::laws
@@ -15,7 +15,7 @@
 #include <tuple>
 #include <vector>
 
-#include "bus/can_port.h"
+#include "bus/ports/can_port.h"
 
 namespace ttf::laws {
 

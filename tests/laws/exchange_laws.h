@@ -1,4 +1,4 @@
-// The laws of bus/exchange.h as a suite that every exchange is put through:
+// The laws of bus/ports/exchange.h as a suite that every exchange is put through:
 //
 //   class MyBench : public laws::ExchangeBench { ... };
 //   INSTANTIATE_TYPED_TEST_SUITE_P(MyExchange, ExchangeLaws, MyBench);     // in namespace ttf::laws
@@ -20,7 +20,7 @@
 #include <thread>
 #include <vector>
 
-#include "bus/exchange.h"
+#include "bus/ports/exchange.h"
 #include "core/ids.h"
 #include "tests/support/messages.h"
 

@@ -1,4 +1,4 @@
-// The laws of bus/flexray_port.h as a suite that every medium is put through:
+// The laws of bus/ports/flexray_port.h as a suite that every medium is put through:
 //
 //   class MyBench : public laws::FlexRayBench { ... };
 //   INSTANTIATE_TYPED_TEST_SUITE_P(MyMedium, FlexRayPortLaws, MyBench);     // in namespace ttf::laws
@@ -15,7 +15,7 @@
 #include <tuple>
 #include <vector>
 
-#include "bus/flexray_port.h"
+#include "bus/ports/flexray_port.h"
 #include "bus/wire/flexray_frame.h"
 
 namespace ttf::laws {

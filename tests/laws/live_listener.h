@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "bus/live_medium.h"
+#include "bus/ports/live_medium.h"
 #include "tests/laws/live_traffic.h"
 
 namespace ttf::laws {

@@ -1,5 +1,5 @@
-// Each law of bus/live_medium.h as a function that tries it and returns what is wrong, in words; empty: nothing is. So
-// they can be tried on media that break them (tests/bus/live_medium_test.cc), and are known to notice.
+// Each law of bus/ports/live_medium.h as a function that tries it and returns what is wrong, in words; empty: nothing is. So
+// they can be tried on media that break them (tests/bus/ports/live_medium_test.cc), and are known to notice.
 #pragma once
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@
 #include <thread>
 #include <vector>
 
-#include "bus/live_medium.h"
+#include "bus/ports/live_medium.h"
 #include "tests/laws/live_listener.h"
 #include "tests/support/allocation_counter.h"
 

@@ -1,4 +1,4 @@
-// The laws of bus/live_medium.h as a suite that every live medium is put through:
+// The laws of bus/ports/live_medium.h as a suite that every live medium is put through:
 //
 //   class MyBench : public laws::LiveBench { ... };                          // tests/laws/live_listener.h
 //   INSTANTIATE_TYPED_TEST_SUITE_P(MyMedium, LiveMediumLaws, MyBench);       // in namespace ttf::laws

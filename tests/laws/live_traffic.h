@@ -1,4 +1,4 @@
-// What members say while the laws of bus/live_medium.h are tried: the number-th thing that a member says on a line. Who
+// What members say while the laws of bus/ports/live_medium.h are tried: the number-th thing that a member says on a line. Who
 // hears it can tell from the thing itself whose it is, and holds it against what it should be.
 #pragma once
 
@@ -9,7 +9,7 @@
 #include <optional>
 #include <span>
 
-#include "bus/live_medium.h"
+#include "bus/ports/live_medium.h"
 #include "bus/wire/flexray_frame.h"
 #include "core/time.h"
 

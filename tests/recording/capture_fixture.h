@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "bus/wire/flexray_frame.h"
-#include "recording/capture_packet.h"
-#include "recording/capture_reader.h"
-#include "recording/capture_writer.h"
-#include "schedules/loader.h"
+#include "recording/capture/packet.h"
+#include "recording/capture/reader.h"
+#include "recording/exports/pcapng_writer.h"
+#include "schedules/file/loader.h"
 
 namespace ttf::recording {
 

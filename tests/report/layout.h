@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "report/svg.h"
+#include "report/drawing/svg.h"
 
 namespace ttf::report {
 

@@ -1,7 +1,7 @@
 // A small cluster built in code: fourteen slots in a 5 ms cycle, some multiplexed, on one or both channels.
 #pragma once
 
-#include "schedules/cluster.h"
+#include "schedules/model/cluster.h"
 
 namespace ttf::report {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "recording/records/records.h"
-#include "report/names.h"
+#include "report/drawing/names.h"
 
 namespace ttf::report {
 

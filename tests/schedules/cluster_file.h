@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/errors.h"
-#include "schedules/checker.h"
-#include "schedules/loader.h"
+#include "schedules/check/checker.h"
+#include "schedules/file/loader.h"
 
 namespace ttf::schedules {
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "schedules/ages.h"
-#include "schedules/show.h"
+#include "schedules/analysis/ages.h"
+#include "schedules/exchange/text.h"
 #include "tests/schedules/cluster_file.h"
 
 namespace ttf::schedules {

@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "schedules/cluster.h"
+#include "schedules/model/cluster.h"
 
 namespace ttf::schedules {
 

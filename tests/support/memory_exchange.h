@@ -1,4 +1,4 @@
-// The exchange (bus/exchange.h) between threads of one process: the plainest thing that keeps its laws.
+// The exchange (bus/ports/exchange.h) between threads of one process: the plainest thing that keeps its laws.
 //
 //   MemoryExchange hub;
 //   auto a = hub.join(NodeId{0}), b = hub.join(NodeId{1});    // all before anybody sends
@@ -21,7 +21,7 @@
 #include <utility>
 #include <vector>
 
-#include "bus/exchange.h"
+#include "bus/ports/exchange.h"
 #include "core/check.h"
 #include "core/ids.h"
 

@@ -1,4 +1,4 @@
-// The live medium (bus/live_medium.h) between members of one process, each in a thread of its own or all in one: the
+// The live medium (bus/ports/live_medium.h) between members of one process, each in a thread of its own or all in one: the
 // plainest thing that keeps its laws.
 //
 //   MemoryLiveBus bus({.can_buses = {false, true}});
@@ -23,7 +23,7 @@
 #include <utility>
 #include <vector>
 
-#include "bus/live_medium.h"
+#include "bus/ports/live_medium.h"
 #include "bus/wire/flexray_frame.h"
 #include "core/check.h"
 

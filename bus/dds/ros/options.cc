@@ -6,8 +6,8 @@
 #include <cctype>
 #include <cstdlib>
 
-#include "bus/dds/configuration.h"
-#include "bus/dds/participant.h"
+#include "bus/dds/common/configuration.h"
+#include "bus/dds/common/participant.h"
 #include "core/decimal.h"
 #include "core/errors.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "bus/dds/participant.h"
+#include "bus/dds/common/participant.h"
 #include "bus/dds/ros/messages.h"
 #include "bus/dds/ros/options.h"
 #include "bus/dds/ros/outbox.h"

@@ -8,7 +8,7 @@
 
 #include "fusion/filters/kalman.h"
 #include "fusion/sensors/position.h"
-#include "tests/fusion/models/drawn.h"
+#include "tests/fusion/motion/drawn.h"
 #include "tests/support/allocation_counter.h"
 
 namespace ttf::fusion {

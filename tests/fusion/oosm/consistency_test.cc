@@ -10,7 +10,7 @@
 #include <cmath>
 #include <functional>
 
-#include "fusion/metrics.h"
+#include "fusion/metrics/chi_square.h"
 #include "tests/fusion/dense.h"
 #include "tests/fusion/oosm/any_methods.h"
 

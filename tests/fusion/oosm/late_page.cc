@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "report/axes.h"
+#include "report/drawing/axes.h"
 #include "tests/fusion/oosm/any_methods.h"
 #include "tests/fusion/oosm/true_error.h"
 

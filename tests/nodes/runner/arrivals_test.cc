@@ -1,5 +1,5 @@
 // Where arrivals are put on a node's clock, against hand-made frames at known microticks.
-#include "nodes/runner/arrivals.h"
+#include "nodes/runner/arrival_window.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "schedules/loader.h"
+#include "schedules/file/loader.h"
 #include "tests/support/allocation_counter.h"
 
 namespace ttf::runner {

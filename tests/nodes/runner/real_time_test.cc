@@ -1,5 +1,5 @@
 // What is asked of the kernel, in processes of their own that may lock more or less memory.
-#include "nodes/runner/real_time.h"
+#include "nodes/runner/thread_privileges.h"
 
 #include <gtest/gtest.h>
 #include <linux/capability.h>

@@ -16,14 +16,14 @@
 #include <vector>
 
 #include "bus/wire/strobe.h"
-#include "nodes/catalog.h"
+#include "drives/step_catalog.h"
 #include "nodes/runner/floor.h"
-#include "nodes/scenario.h"
+#include "drives/scenario.h"
 #include "recording/records/records.h"
-#include "schedules/loader.h"
-#include "schedules/ports.h"
-#include "sim/cluster_simulation.h"
-#include "sim/surroundings.h"
+#include "schedules/file/loader.h"
+#include "schedules/model/ports.h"
+#include "sim/crank/cluster_simulation.h"
+#include "drives/surroundings.h"
 #include "tests/support/memory_live_medium.h"
 
 namespace ttf::runner {

@@ -12,7 +12,7 @@
 #include "nodes/runner/floor.h"
 #include "nodes/runner/paced_can.h"
 #include "nodes/runner/wake_up.h"
-#include "schedules/loader.h"
+#include "schedules/file/loader.h"
 
 namespace ttf::runner {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "sim/channel_log.h"
+#include "sim/medium/channel_log.h"
 #include "tests/sim/faults/fault_bus.h"
 
 namespace ttf::sim {

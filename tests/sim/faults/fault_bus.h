@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "core/random.h"
-#include "nodes/believed_schedule.h"
-#include "nodes/fault_plan.h"
-#include "sim/bus_simulation.h"
+#include "faults/believed_schedule.h"
+#include "faults/plan.h"
+#include "sim/crank/bus_simulation.h"
 #include "sim/faults/injector.h"
-#include "tests/sim/bus_clusters.h"
+#include "tests/sim/crank/bus_clusters.h"
 
 namespace ttf::sim {
 

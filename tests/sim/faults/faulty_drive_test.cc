@@ -3,7 +3,7 @@
 
 #include <map>
 
-#include "tests/sim/drive_fixture.h"
+#include "tests/drives/drive_fixture.h"
 
 namespace ttf::sim {
 namespace {

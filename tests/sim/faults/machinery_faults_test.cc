@@ -24,7 +24,7 @@ TEST(MachineryFaults, ACrashedNodesSlotIsEmptyUntilItIsBack) {
   bus.run(5 * 60);
   EXPECT_EQ(bus.acts(), 2U);
   EXPECT_EQ(bus.state(3), PocKind::kNormalActive);
-  // Integration takes two cycles to derive a schedule and two good double cycles (bus/poc.h), and what precedes an even
+  // Integration takes two cycles to derive a schedule and two good double cycles (bus/poc/poc.h), and what precedes an even
   // one.
   const int empty = bus.said(0).count(4, bus::kNoFrame) / 2;
   EXPECT_GE(empty, 10 + 6);

@@ -1,0 +1,55 @@
+// The communication network interface of one FlexRay controller: the lists its host writes, cut into the fragments that
+// slots carry, and the lists that arrive.
+//
+// The first slot of a list in a cycle latches it, so that a write between two of its slots tears nothing.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "bus/cni/list_buffer.h"
+#include "core/ids.h"
+#include "schedules/model/cluster.h"
+
+namespace ttf::bus {
+
+class Cni {
+ public:
+  Cni(const schedules::Cluster& cluster, NodeId node);
+
+  OutgoingList& outgoing(PduId pdu);  // must be a PDU this node sends
+  IncomingList& incoming(PduId pdu);  // any other PDU on FlexRay
+
+  // What a slot carries in a cycle.
+  struct Fragment {
+    std::span<const std::byte> payload;  // empty: a null frame
+    std::uint32_t sequence = 0;
+    bool last = false;  // completes a list that had not left completely before
+  };
+  Fragment fetch(const schedules::FrameSlot& slot, std::int64_t cycle);
+  // In the dynamic segment a frame is sent once per list: whether this channel has not carried what the slot has now,
+  // and that it has carried it.
+  bool pending(const schedules::FrameSlot& slot, schedules::Channel channel, std::int64_t cycle);
+  void carried(const schedules::FrameSlot& slot, schedules::Channel channel);
+
+ private:
+  struct Sent {
+    OutgoingList current, latched;
+    std::int64_t latched_cycle = -1;
+    std::optional<std::uint32_t> completed;                            // newest sequence that left completely
+    std::array<std::vector<std::optional<std::uint32_t>>, 2> carried;  // by channel and fragment: newest that left
+    explicit Sent(const schedules::PduLayout& layout);
+  };
+  Sent& latch(const schedules::FrameSlot& slot, std::int64_t cycle);
+
+  const schedules::Cluster& cluster_;
+  NodeId node_;
+  std::vector<std::unique_ptr<Sent>> sent_;              // by PduId
+  std::vector<std::unique_ptr<IncomingList>> received_;  // by PduId
+};
+
+}  // namespace ttf::bus

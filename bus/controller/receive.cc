@@ -1,0 +1,314 @@
+// Frame and symbol processing: what arrives, where it belongs, and whether it may be there (FlexRay 2.1A, chapter 6).
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+
+#include "bus/controller/state.h"
+#include "core/check.h"
+
+namespace ttf::bus {
+namespace {
+
+using schedules::Channel;
+using schedules::FrameSlot;
+
+constexpr int kIdleDelimiterBits = 11;  // cChannelIdleDelimiter
+
+bool receiver_on(PocKind kind) {
+  switch (kind) {
+    case PocKind::kDefaultConfig:
+    case PocKind::kConfig:
+    case PocKind::kReady:
+    case PocKind::kHalt: return false;
+    case PocKind::kNormalActive:
+    case PocKind::kNormalPassive:
+    case PocKind::kWakeupListen:
+    case PocKind::kWakeupSend:
+    case PocKind::kWakeupDetect:
+    case PocKind::kColdstartListen:
+    case PocKind::kColdstartCollisionResolution:
+    case PocKind::kColdstartConsistencyCheck:
+    case PocKind::kColdstartGap:
+    case PocKind::kColdstartJoin:
+    case PocKind::kIntegrationColdstartCheck:
+    case PocKind::kIntegrationListen:
+    case PocKind::kIntegrationConsistencyCheck:
+    case PocKind::kInitialiseSchedule: return true;
+  }
+  TTF_CHECK(false, "state {}", static_cast<int>(kind));
+}
+
+}  // namespace
+
+inline void FlexRayController::State::judge(const Reception& reception, bool conflict) {
+  if (g.gdSymbolWindow > 0 && (segment == Segment::kDynamic || segment == Segment::kRest))
+    judge_symbol_window(reception, conflict);
+  std::uint8_t errors = conflict ? kTransmissionConflict | kSyntaxError : 0;
+  if (reception.signal != Signal::kFrame || reception.frame.error != wire::FrameError::kNone) errors |= kSyntaxError;
+  const int slot = static_slot_at(reception.start);
+  if (slot >= 1 && slot <= g.gNumberOfStaticSlots) return judge_static(reception, slot, errors);
+  judge_elsewhere(reception, slot, errors, conflict);
+}
+
+void FlexRayController::State::receive(const Reception& reception) {
+  if (!receiver_on(poc.kind)) return;
+  const auto c = index_of(reception.channel);
+  // A controller that sends cannot make out what others send.
+  const bool conflict = talks_over(reception, c);
+  if (clock && !in_startup(poc.kind)) return judge(reception, conflict);
+  hear_in_startup(reception, conflict);
+  due = next_event();
+}
+
+bool FlexRayController::State::receive_on_both(const Reception& reception) {
+  const Microticks due_before = due;
+  const PocKind kind_before = poc.kind;
+  if (!judge_on_both(reception)) {
+    receive(reception);
+    receive(on_b(reception));
+  }
+  return due != due_before || poc.kind != kind_before;
+}
+
+// The schedule's frame that it is, if it is a valid one in its slot on both channels and nothing was heard of that slot
+// before; null where anything else may be the case.
+const FrameSlot* FlexRayController::State::first_of_slot_on_both(const Reception& reception) const {
+  const wire::FrameHeader& header = reception.frame.header;
+  const int slot = header.frame_id;
+  if (slot < 1 || slot > g.gNumberOfStaticSlots || header.cycle != counter ||
+      header.payload_words != g.gPayloadLengthStatic || (header.startup && !header.sync) ||
+      reception.signal != Signal::kFrame || reception.frame.error != wire::FrameError::kNone || !board.nothing(slot))
+    return nullptr;
+  const Microticks cycle_start = clock->cycle_start();
+  if (reception.start < cycle_start + line(slot).from || reception.end > cycle_start + line(slot + 1).from)
+    return nullptr;
+  return slots.expected_on_both(slot, counter);
+}
+
+// Judged once. False, and nothing is changed, where it has to be judged channel by channel.
+bool FlexRayController::State::judge_on_both(const Reception& reception) {
+  if (!in_operation() || talks_over(reception, 0) || talks_over(reception, 1) ||
+      (g.gdSymbolWindow > 0 && segment != Segment::kStatic))
+    return false;
+  const FrameSlot* const expected = first_of_slot_on_both(reception);
+  if (expected == nullptr) return false;
+  const int slot = expected->slot;
+  const bool under_way = board.under_way();
+  board.hear_a(slot);
+  accept(reception, Channel::kA, slot, *expected);
+  // What a host is told may make it act.
+  if (!in_operation() || board.under_way() != under_way) {
+    receive(on_b(reception));
+    return true;
+  }
+  board.hear_b(slot);
+  accept(reception, Channel::kB, slot, *expected);
+  return true;
+}
+
+bool FlexRayController::State::knows(const Reception& reception) {
+  // Until then it neither sends nor looks at what was seen, and what it sent itself is over.
+  if (due <= reception.end || segment != Segment::kStatic || told_of_receptions || !in_operation() ||
+      reception.start < std::max(sending_to[0], sending_to[1]) || reception.frame.header.payload_preamble)
+    return false;
+  const FrameSlot* const expected = first_of_slot_on_both(reception);
+  if (expected == nullptr) return false;
+  if (reception.frame.header.null_frame || expected->pdu == kNoPdu) return true;
+  const auto bytes = static_cast<std::size_t>(cluster.pdu(expected->pdu).fragment_bytes);
+  return cni.incoming(expected->pdu).knows(reception.frame.payload.first(bytes), expected->fragment);
+}
+
+void FlexRayController::State::hear_known(const Reception& reception) {
+  const wire::FrameHeader& header = reception.frame.header;
+  board.hear_a(header.frame_id);
+  board.hear_b(header.frame_id);
+  if (header.sync) hear_sync(reception, header.frame_id, schedules::Channels::kAB);
+}
+
+void FlexRayController::State::hear_in_startup(const Reception& reception, bool conflict) {
+  tell({PocEventKind::kChannelActive}, reception.end);
+  if (conflict && wakeup_sent != kNever) {
+    tell({PocEventKind::kWakeupCollision}, reception.end);
+  } else if (!conflict) {
+    if (reception.signal == Signal::kCas) tell({PocEventKind::kCasReceived}, reception.end);
+    if (reception.signal == Signal::kWakeup && reception.channel == p.pWakeupChannel)
+      tell({PocEventKind::kWakeupPatternReceived}, reception.end);
+    if (reception.signal == Signal::kFrame && wire::has_header(reception.frame))
+      tell({PocEventKind::kHeaderReceived}, reception.end);
+  }
+  if (clock)
+    judge(reception, conflict);
+  else if (!conflict)
+    hear(reception);
+  if (clock) return;
+  const bool idle = !port.carrier(Channel::kA) && !port.carrier(Channel::kB);
+  if (idle) tell({PocEventKind::kChannelsIdle}, reception.end + bits(kIdleDelimiterBits));
+}
+
+// Without a schedule only startup frames matter: two of them make one.
+void FlexRayController::State::hear(const Reception& reception) {
+  const wire::FrameHeader& header = reception.frame.header;
+  if (reception.signal != Signal::kFrame || reception.frame.error != wire::FrameError::kNone || !header.startup ||
+      !header.sync || header.frame_id > g.gNumberOfStaticSlots || header.payload_words != g.gPayloadLengthStatic)
+    return;
+  const StartupFrame heard{reception.channel, header.frame_id, header.cycle, reception.start};
+  const PocEvent event = PocEvent::startup_frame(header.frame_id, header.cycle);
+  if (poc.kind == PocKind::kColdstartListen || poc.kind == PocKind::kIntegrationListen) {
+    tell(event, reception.end);
+    if (poc.kind != PocKind::kInitialiseSchedule) return;
+    initialisation.hear(heard);
+    partner_overdue =
+        reception.end + Microticks{p.pMicroPerCycle + p.pRateCorrectionOut + 1} + port.handed_over_within();
+  } else if (poc.kind == PocKind::kInitialiseSchedule && heard.frame_id == poc.reference) {
+    const auto schedule = initialisation.hear(heard);
+    if (!schedule && heard.cycle % 2 == 0) return;  // the other channel's even frame
+    partner_overdue = kNever;
+    if (!schedule) return tell({PocEventKind::kScheduleNotDerived}, reception.end);
+    tell(event, reception.end);
+    begin_schedule(schedule->cycle_start, schedule->rate, schedule->cycle);
+    start_cycle();
+    // In the middle of a cycle: what is over is over. (Nothing is sent in it anyway.)
+    while (next_event() <= reception.end && segment == Segment::kStatic && next_static < slots.own_static().size()) {
+      ++next_static;
+      skip_to_own_static();
+    }
+  }
+}
+
+int FlexRayController::State::look_up_static_slot(Microticks at) {
+  const Microticks into = at - clock->cycle_start();
+  if (into < Microticks{}) return 0;
+  if (into >= grid.back().from) return g.gNumberOfStaticSlots + 1;
+  const auto from = [this](int slot) { return line(slot).from; };
+  // The one behind it, as a rule; else an estimate on the nominal grid, put right by a slot at most.
+  int slot = slot_at.slot + 1;
+  if (slot > g.gNumberOfStaticSlots || into < from(slot) || into >= from(slot + 1)) {
+    slot = static_cast<int>(std::min<std::int64_t>(nominal_slot.floor(into.value) + 1, g.gNumberOfStaticSlots));
+    while (from(slot) > into) --slot;
+    while (from(slot + 1) <= into) ++slot;
+  }
+  slot_at = {slot, clock->cycle_start() + from(slot), clock->cycle_start() + from(slot + 1), counter,
+             slots.expected(slot, counter)};
+  return slot;
+}
+
+// What began in `slot`, 0 being before the cycle, went on to slot `last` of it or beyond the segment.
+void FlexRayController::State::cross_slots(const Reception& reception, int slot, int last) {
+  board.crossed(reception.channel, slot + 1, std::min(last, board.slots()));
+  if (last <= board.slots()) return;
+  going_on[index_of(reception.channel)] = false;
+  count_minislots(reception);
+}
+
+// Before or behind the static segment, as `slot` says.
+void FlexRayController::State::judge_elsewhere(const Reception& reception, int slot, std::uint8_t errors,
+                                               bool conflict) {
+  const int minislot = slot == 0 ? 0 : minislots.minislot_at(*clock, reception.start);
+  if (minislot >= 1 && minislot <= minislots.count()) return judge_dynamic(reception, minislot, errors);
+
+  // Between the segments, in the symbol window, in the NIT, or from the cycle before.
+  if (slot == 0) {
+    going_on[index_of(reception.channel)] = false;
+    cross_slots(reception, slot, last_static_slot_of(reception));
+  } else if (minislot == 0) {
+    count_minislots(reception);
+  }
+  const Macroticks window = window_start();
+  const bool in_window = g.gdSymbolWindow > 0 && slot != 0 && reception.start >= clock->start_of(window) &&
+                         reception.end <= clock->start_of(window + Macroticks{g.gdSymbolWindow});
+  if (in_startup(poc.kind) || (in_window && reception.signal == Signal::kCas && !conflict)) return;
+  if (!in_window) errors |= kBoundaryViolation;
+  events.slot_problem(clock->cycle(), 0, reception.channel, static_cast<SlotStatus>(errors | kSyntaxError),
+                      reception.end);
+}
+
+void FlexRayController::State::judge_static(const Reception& reception, int slot, std::uint8_t errors) {
+  const auto c = index_of(reception.channel);
+  const FrameSlot* expected = slot_at.expected[c];  // `slot` has just been looked up
+  SlotBoard::Seen& status = board.at(slot);
+  if (const int last = last_static_slot_of(reception); last != slot) {
+    cross_slots(reception, slot, last);
+    errors |= kBoundaryViolation;
+  }
+  if (status.element[c]) errors |= kSyntaxError;  // a second communication element
+  status.element[c] = true;
+  if (errors == 0 && !is_of_slot(reception.frame.header, slot, expected)) errors |= kContentError;
+  status.errors[c] |= errors;
+  if (errors != 0) {
+    // Of one that outlasts the segment this comes when that has been closed.
+    if (!board.under_way() && !in_startup(poc.kind))
+      events.slot_problem(clock->cycle(), slot, reception.channel, static_cast<SlotStatus>(errors), reception.end);
+    return;
+  }
+  status.valid[c] = true;
+  accept(reception, reception.channel, slot, *expected);
+}
+
+// A valid frame in its slot, as this node's schedule expects it.
+void FlexRayController::State::accept(const Reception& reception, Channel channel, int slot,
+                                      const FrameSlot& expected) {
+  const wire::FrameHeader& header = reception.frame.header;
+  if (!in_startup(poc.kind)) events.frame_received(clock->cycle(), slot, channel, reception.frame, reception.end);
+  if (header.sync)
+    hear_sync(reception, slot, channel == Channel::kA ? schedules::Channels::kA : schedules::Channels::kB);
+  if (header.payload_preamble) network_management.combine(reception.frame.payload);
+  if (expected.pdu != kNoPdu && !store(expected, reception))
+    board.at(slot).errors[index_of(channel)] |= kContentError;  // a frame, but not of this slot's list
+}
+
+// The medium reports when the first bit of the TSS arrived, so no decoding time has to be taken off
+// (pDecodingCorrection); the bus' mean propagation delay is the schedule's to compensate.
+void FlexRayController::State::hear_sync(const Reception& reception, int slot, schedules::Channels channels) {
+  const Microticks late = reception.start - clock->cycle_start() - line(slot).action_point;
+  const auto deviation = [&](int compensation) { return static_cast<int>(late.value) - compensation; };
+  const std::array<int, 2> deviations{deviation(p.pDelayCompensationA), deviation(p.pDelayCompensationB)};
+  const auto starts_up = [&](Channel channel) {
+    return includes(channels, channel) && std::abs(deviations[index_of(channel)]) <= p.pdAcceptedStartupRange;
+  };
+  sync.heard(slot, channels, deviations,
+             reception.frame.header.startup && (starts_up(Channel::kA) || starts_up(Channel::kB)));
+}
+
+// The minislots that a reception took, from the first one on if it began before that: the slot counter goes on behind
+// them. The last of them; 0 if it ended before the segment.
+int FlexRayController::State::count_minislots(const Reception& reception) {
+  const int compensation = reception.channel == Channel::kA ? p.pDelayCompensationA : p.pDelayCompensationB;
+  const int first = minislots.minislot_at(*clock, reception.start);
+  const int last = std::max(first, minislots.minislot_at(*clock, reception.end - Microticks{compensation}));
+  if (last == 0 || segment != Segment::kDynamic) return last;
+  dynamic[index_of(reception.channel)].counter.occupied(std::max(first, 1), last);
+  plan_dynamic(reception.channel, reception.end);
+  due = next_event();
+  return last;
+}
+
+void FlexRayController::State::judge_dynamic(const Reception& reception, int minislot, std::uint8_t errors) {
+  const wire::FrameHeader& header = reception.frame.header;
+  const int slot = dynamic[index_of(reception.channel)].counter.slot_in(minislot);
+  if (count_minislots(reception) > minislots.count()) errors |= kBoundaryViolation;
+
+  const FrameSlot* expected = slots.expected(slot, counter, reception.channel, wire::message_id(reception.frame));
+  if (errors == 0 &&
+      (header.frame_id != slot || header.cycle != counter || header.sync || header.startup || expected == nullptr ||
+       expected->pdu == kNoPdu || header.null_frame || header.payload_preamble != expected->message_id.has_value() ||
+       reception.frame.payload.size() <
+           preamble_bytes(*expected) + static_cast<std::size_t>(cluster.pdu(expected->pdu).fragment_bytes)))
+    errors |= kContentError;
+  if (errors == 0 && !store(*expected, reception)) errors |= kContentError;
+  if (errors == 0 && !in_startup(poc.kind))
+    events.frame_received(clock->cycle(), slot, reception.channel, reception.frame, reception.end);
+  if (errors != 0 && !in_startup(poc.kind))
+    events.slot_problem(clock->cycle(), slot, reception.channel, static_cast<SlotStatus>(errors), reception.end);
+}
+
+// False: what the frame carries is no fragment of this slot's list.
+bool FlexRayController::State::store(const FrameSlot& slot, const Reception& reception) {
+  if (slot.pdu == kNoPdu || reception.frame.header.null_frame || in_startup(poc.kind)) return true;
+  IncomingList& list = cni.incoming(slot.pdu);
+  const auto bytes = static_cast<std::size_t>(cluster.pdu(slot.pdu).fragment_bytes);
+  const ArrivalEffect effect = list.arrive(reception.frame.payload.subspan(preamble_bytes(slot), bytes), slot.fragment);
+  events.list_arrived(slot.pdu, effect, list.arrived(), list.torn(), reception.end);
+  return effect != ArrivalEffect::kMalformed;
+}
+
+}  // namespace ttf::bus

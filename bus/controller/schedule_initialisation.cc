@@ -1,0 +1,42 @@
+#include "bus/controller/schedule_initialisation.h"
+
+#include <cstdlib>
+
+namespace ttf::bus {
+
+ScheduleInitialisation::ScheduleInitialisation(const schedules::GlobalParameters& flexray,
+                                               const schedules::NodeParameters& node)
+    : flexray_(flexray), node_(node) {}
+
+void ScheduleInitialisation::reset() { even_ = {}; }
+
+std::optional<InitialSchedule> ScheduleInitialisation::hear(const StartupFrame& frame) {
+  std::optional<StartupFrame>& even = even_[index_of(frame.channel)];
+  // Too late to be of the cycle after: the partner did not come.
+  const std::int64_t longest = node_.pMicroPerCycle + node_.pRateCorrectionOut;
+  const bool overdue = even && (frame.start - even->start).value > longest;
+  if (frame.cycle % 2 == 0) {
+    if (!even || overdue || frame.cycle != even->cycle) even = frame;
+    return std::nullopt;
+  }
+  if (!even || overdue || frame.cycle != even->cycle + 1) {
+    even.reset();
+    return std::nullopt;
+  }
+  if (frame.frame_id != even->frame_id) return std::nullopt;  // the partner may still come
+  const auto rate = static_cast<int>((frame.start - even->start).value - node_.pMicroPerCycle);
+  even.reset();
+  if (std::abs(rate) > node_.pRateCorrectionOut) return std::nullopt;
+  reset();
+
+  // The frame left at its slot's action point, and has been on its way for the delay that is compensated for.
+  const std::int64_t macroticks =
+      static_cast<std::int64_t>(frame.frame_id - 1) * flexray_.gdStaticSlot + flexray_.gdActionPointOffset;
+  const std::int64_t length = node_.pMicroPerCycle + rate;
+  const std::int64_t into_cycle = (macroticks * length + flexray_.gMacroPerCycle - 1) / flexray_.gMacroPerCycle;
+  const int compensation =
+      frame.channel == schedules::Channel::kA ? node_.pDelayCompensationA : node_.pDelayCompensationB;
+  return InitialSchedule{frame.frame_id, frame.cycle, frame.start - Microticks{into_cycle + compensation}, rate};
+}
+
+}  // namespace ttf::bus

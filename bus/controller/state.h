@@ -1,0 +1,187 @@
+// Inside the controller: its data, and what it does with them. controller.cc drives protocol operation control and the
+// cycle, controller_send.cc sends, controller_receive.cc receives and judges, controller_window.cc is the symbol
+// window.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <vector>
+
+#include "bus/controller/controller.h"
+#include "bus/controller/dynamic_segment.h"
+#include "bus/controller/network_management.h"
+#include "bus/controller/schedule_initialisation.h"
+#include "bus/controller/slot_board.h"
+#include "bus/controller/slot_table.h"
+#include "bus/controller/sync_collector.h"
+
+namespace ttf::bus {
+
+inline constexpr Microticks kNever{std::numeric_limits<std::int64_t>::max()};
+
+struct FlexRayController::State {
+  State(const schedules::Cluster& cluster, NodeId node, FlexRayPort& port, ControllerEvents& events);
+
+  // --- what never changes
+  const schedules::Cluster& cluster;
+  const schedules::GlobalParameters& g;
+  const schedules::NodeParameters& p;
+  NodeId node;
+  FlexRayPort& port;
+  ControllerEvents& events;
+  const PocParameters poc_parameters;
+  const SlotTable slots;
+  const MinislotGrid minislots;
+  const timebase::CycleGeometry geometry;
+  const bool told_of_receptions;         // its host
+  const timebase::Divisor nominal_slot;  // a static slot's microticks, give or take one
+  const Microticks static_frame;         // a static frame's length
+
+  // --- where it stands
+  PocState poc;
+  Cni cni;
+  NetworkManagement network_management;
+  std::optional<timebase::CycleClock> clock;
+  int next_rate = 0;
+  int extern_offset = 0, extern_rate = 0;  // [uT], the host's
+  SyncCollector sync;
+  ScheduleInitialisation initialisation;
+  Microticks listen_timer = kNever, noise_timer = kNever, wakeup_sent = kNever;
+  Microticks partner_overdue = kNever;                                   // while a schedule is being derived
+  std::array<Microticks, 2> sending_from{kNever, kNever}, sending_to{};  // by channel: this node's last transmission
+
+  SlotBoard board;
+  std::array<bool, 2> going_on{};  // by channel: what went on when the last static segment ended still does
+  SyncStatus sync_status;          // without its counter, which is protocol operation control's
+
+  // The static slot of this cycle that was looked up last: the other channel's frame of it comes next, then that of the
+  // slot behind it. Slot 0 is behind nothing.
+  struct SlotAt {
+    int slot = 0;
+    Microticks from{}, to{};                                // [from, to): none
+    int counter = 0;                                        // of the cycle
+    std::array<const schedules::FrameSlot*, 2> expected{};  // by channel, as SlotTable has it
+  };
+  SlotAt slot_at;
+  // The static slots by the clock: at which microtick of the cycle they begin, and have their action points.
+  struct GridLine {
+    Microticks from{}, action_point{};
+  };
+  std::vector<GridLine> grid;    // by slot - 1; behind the last one, where that ends
+  std::optional<int> grid_rate;  // the clock's, that it is of
+  int counter = 0;               // of the clock's cycle: 0..gCycleCountMax
+
+  // How far the cycle is.
+  // kBefore: the first cycle is to start; kDynamic: with the symbol window.
+  enum class Segment : std::uint8_t { kBefore, kStatic, kDynamic, kRest };
+  Segment segment = Segment::kStatic;
+  Microticks due = kNever;      // next_event(), which what arrives in a static slot changes nothing about
+  std::size_t next_static = 0;  // in slots.own_static()
+  struct Dynamic {
+    DynamicSlotCounter counter;
+    std::size_t next = 0;     // in slots.own_dynamic()
+    Microticks due = kNever;  // action point of that slot, as the counter stands
+    int minislot = 0;         // it begins in
+  };
+  std::array<Dynamic, 2> dynamic;  // by channel
+
+  // The symbol window, planned when the static segment ends; kNever where there is none.
+  Microticks window_from = kNever, window_to = kNever, symbol_point = kNever;
+  std::optional<schedules::Channels> symbol_request;         // a media access test symbol is to be sent there
+  std::array<SymbolWindowSeen, 2> window_seen, window_last;  // by channel: under way, and the last that is over
+  std::array<bool, 2> window_element{};                      // something has begun in it
+
+  std::array<std::byte, wire::kMaxPayloadBytes> payload{};
+  std::array<std::byte, wire::kMaxFrameBytes> frame{};
+
+  // --- protocol operation control (controller.cc)
+  void tell(const PocEvent& event, Microticks at);
+  void act(const PocActions& actions, Microticks at);
+  void begin_schedule(Microticks start, int rate, std::int64_t cycle);
+  void lay_cycle();  // `counter` and `grid`, by the clock
+  void drop_schedule();
+
+  // --- the cycle (controller.cc)
+  Microticks next_event() const;
+  void handle(Microticks at);
+  void start_cycle();
+  void enter_cycle(const StartupFramesSeen& ended, Microticks at);
+  void close_static_segment(Microticks at);
+  void note_what_goes_on();
+  void tell_slot_problems(Microticks at);
+  Macroticks slot_start(int slot) const { return {static_cast<std::int64_t>(slot - 1) * g.gdStaticSlot}; }
+  Macroticks action_point(int slot) const { return slot_start(slot) + Macroticks{g.gdActionPointOffset}; }
+  Macroticks static_end() const { return slot_start(g.gNumberOfStaticSlots + 1); }
+  const GridLine& line(int slot) const {
+    return grid[static_cast<std::size_t>(slot - 1)];
+  }                                  // up to one behind the last
+  Microticks bits(int count) const;  // gdBit, rounded up to whole microticks
+
+  // --- the symbol window (controller_window.cc)
+  bool request_media_test_symbol(schedules::Channels channels);
+  Macroticks window_start() const;
+  void plan_symbol_window();
+  void send_media_test_symbol(Microticks at);
+  void judge_symbol_window(const Reception& reception, bool conflict);
+  void close_symbol_window();
+
+  // --- sending (controller_send.cc)
+  void skip_to_own_static();
+  void send_static(Microticks at);
+  void plan_dynamic(schedules::Channel channel, Microticks now);
+  void send_dynamic(schedules::Channel channel, Microticks at);
+  std::size_t preamble_bytes(const schedules::FrameSlot& slot) const {
+    return static_cast<std::size_t>(schedules::preamble_bytes(g, slot));
+  }
+  // What a slot says, in `payload`.
+  wire::DecodedFrame frame_of(const schedules::FrameSlot& slot, const Cni::Fragment& content, bool null_frame);
+  // False: it was too late for it.
+  bool send_frame(const schedules::FrameSlot& slot, schedules::Channel channel, Microticks at, Microticks end,
+                  const Cni::Fragment& content, bool null_frame, bool last);
+  void send_on_both(const schedules::FrameSlot& slot, Microticks at, Microticks end, const Cni::Fragment& content,
+                    bool null_frame);
+  void send_symbol(Signal signal, schedules::Channel channel, Microticks at, Microticks end);
+  Microticks cas_length() const;
+  void send_cas(Microticks at);
+  void send_wakeup_pattern(Microticks at);
+
+  // --- receiving (controller_receive.cc)
+  void receive(const Reception& reception);
+  bool receive_on_both(const Reception& reception);
+  bool judge_on_both(const Reception& reception);
+  bool in_operation() const { return bus::in_operation(poc.kind); }
+  const schedules::FrameSlot* first_of_slot_on_both(const Reception& reception) const;
+  bool knows(const Reception& reception);
+  void hear_known(const Reception& reception);
+  void hear_sync(const Reception& reception, int slot, schedules::Channels channels);
+  bool talks_over(const Reception& reception, std::size_t channel) const {
+    return sending_from[channel] != kNever && reception.start < sending_to[channel] &&
+           reception.end > sending_from[channel];
+  }
+  void hear_in_startup(const Reception& reception, bool conflict);  // or without a schedule
+  void hear(const Reception& reception);                            // without a schedule
+  void judge(const Reception& reception, bool conflict);            // within the schedule
+  void judge_static(const Reception& reception, int slot, std::uint8_t errors);
+  bool is_of_slot(const wire::FrameHeader& header, int slot, const schedules::FrameSlot* expected) const {
+    return header.frame_id == slot && header.cycle == slot_at.counter &&
+           header.payload_words == g.gPayloadLengthStatic && expected != nullptr && (header.sync || !header.startup);
+  }
+  void accept(const Reception& reception, schedules::Channel channel, int slot, const schedules::FrameSlot& expected);
+  void judge_elsewhere(const Reception& reception, int slot, std::uint8_t errors, bool conflict);
+  void cross_slots(const Reception& reception, int slot, int last);
+  void judge_dynamic(const Reception& reception, int minislot, std::uint8_t errors);
+  int count_minislots(const Reception& reception);
+  bool store(const schedules::FrameSlot& slot, const Reception& reception);
+  // 0 before, gNumberOfStaticSlots + 1 after the segment; else it is in slot_at then.
+  int static_slot_at(Microticks at) {
+    return at >= slot_at.from && at < slot_at.to ? slot_at.slot : look_up_static_slot(at);
+  }
+  // What ends in the microtick it began in lies in one slot.
+  int last_static_slot_of(const Reception& reception) {
+    const Microticks last = reception.end - Microticks{1};
+    return static_slot_at(last > reception.start ? last : reception.start);
+  }
+  int look_up_static_slot(Microticks at);
+};
+
+}  // namespace ttf::bus

@@ -1,0 +1,63 @@
+// The symbol window: sending media access test symbols, and judging what is heard there (FlexRay 2.1A, chapters 5.1.4
+// and 6).
+#include "bus/controller/state.h"
+
+namespace ttf::bus {
+
+using schedules::Channel;
+using schedules::Channels;
+
+bool FlexRayController::State::request_media_test_symbol(Channels channels) {
+  if (mac_mode(poc) != MacMode::kAll || symbol_request || g.gdSymbolWindow == 0) return false;
+  symbol_request = channels;
+  return true;
+}
+
+// Behind the dynamic segment; its action point lies where that of a static slot does.
+Macroticks FlexRayController::State::window_start() const {
+  return minislots.count() > 0 ? minislots.start_of(minislots.count() + 1) : static_end();
+}
+
+void FlexRayController::State::plan_symbol_window() {
+  window_from = clock->start_of(window_start());
+  window_to = clock->start_of(window_start() + Macroticks{g.gdSymbolWindow});
+  symbol_point = clock->start_of(window_start() + Macroticks{g.gdActionPointOffset});
+  window_seen = {};
+  window_element = {};
+}
+
+void FlexRayController::State::send_media_test_symbol(Microticks at) {
+  symbol_point = kNever;
+  if (!symbol_request) return;
+  const Channels channels = *symbol_request;
+  symbol_request.reset();
+  // What was allowed when the host asked for it need not be any more.
+  if (mac_mode(poc) != MacMode::kAll) return;
+  for (const Channel channel : schedules::kBothChannels)
+    if (includes(channels, channel) && includes(p.pChannels, channel))
+      send_symbol(Signal::kCas, channel, at, at + cas_length());
+}
+
+// A symbol that lies in the window is a media access test symbol: it has a collision avoidance symbol's bits.
+void FlexRayController::State::judge_symbol_window(const Reception& reception, bool conflict) {
+  if (reception.end <= window_from || reception.start >= window_to) return;
+  const auto c = index_of(reception.channel);
+  // One that outlasts the window is judged when that has been closed without it.
+  SymbolWindowSeen& status = (segment == Segment::kRest ? window_last : window_seen)[c];
+  const bool begins = reception.start >= window_from, ends = reception.end <= window_to;
+  if (!begins || !ends) status.boundary_violation = true;
+  if (conflict) status.transmission_conflict = true;
+  if (!begins) return;
+  if (reception.signal != Signal::kCas || conflict || window_element[c])  // nothing, or a second one
+    status.syntax_error = true;
+  else if (ends)
+    status.valid_mts = true;
+  window_element[c] = true;
+}
+
+void FlexRayController::State::close_symbol_window() {
+  window_last = in_startup(poc.kind) ? decltype(window_last){} : window_seen;
+  segment = Segment::kRest;
+}
+
+}  // namespace ttf::bus

@@ -1,0 +1,34 @@
+// A process's place in a DDS domain. Nothing here shows DDS' own headers: its entities are numbers to everybody else.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace ttf::dds {
+
+using Handle = std::int32_t;  // dds_entity_t
+
+// Returns `result` if it is no error. Throws std::runtime_error "DDS: <what>: <why>".
+std::int32_t checked(std::int32_t result, std::string_view what);
+
+class Participant {
+ public:
+  // Joins the domain, 0..kMaxDomain, with the configuration of CYCLONEDDS_URI or, where that is not set, that of
+  // bus/dds/common/configuration.h. Participants of one process and domain share the configuration of the first.
+  // Throws std::runtime_error where that is not possible.
+  Participant(std::uint32_t domain, std::chrono::milliseconds lease);
+  ~Participant();  // takes everything with it that was made in it
+  Participant(const Participant&) = delete;
+  Participant& operator=(const Participant&) = delete;
+
+  Handle handle() const { return handle_; }
+
+ private:
+  std::uint32_t domain_;
+  bool configured_;  // the domain is ours to close
+  Handle handle_ = 0;
+};
+
+}  // namespace ttf::dds

@@ -1,0 +1,49 @@
+#include "bus/dds/exchange/departure.h"
+
+#include <algorithm>
+
+namespace ttf::dds {
+
+Departure::Order Departure::begin() {
+  ++round_;
+  reports_.clear();
+  closed_.clear();
+  holder_ = kNoNode;
+  closing_ = survivors_.empty();  // then there is nothing to agree upon
+  return {Kind::kFence, round_};
+}
+
+std::optional<Departure::Order> Departure::report(NodeId survivor, std::uint32_t round, std::uint64_t end) {
+  if (closing_ || round != round_ || !survivors_.contains(survivor)) return {};
+  reports_[survivor] = end;
+  return decide();
+}
+
+void Departure::closed(NodeId survivor, std::uint32_t round) {
+  if (closing_ && round == round_ && survivors_.contains(survivor)) closed_.insert(survivor);
+}
+
+std::optional<Departure::Order> Departure::without(NodeId survivor) {
+  if (survivors_.erase(survivor) == 0) return {};
+  reports_.erase(survivor);
+  closed_.erase(survivor);
+  if (survivors_.empty()) {
+    closing_ = true;
+    return {};
+  }
+  if (!closing_) return decide();
+  if (survivor == holder_ && !done()) return begin();
+  return {};
+}
+
+std::optional<Departure::Order> Departure::decide() {
+  if (reports_.size() < survivors_.size()) return {};
+  const auto by_end = [](const auto& a, const auto& b) { return a.second < b.second; };
+  const auto [least, most] = std::minmax_element(reports_.begin(), reports_.end(), by_end);
+  closing_ = true;
+  end_ = most->second;
+  if (least->second < end_) holder_ = most->first;
+  return Order{Kind::kClose, round_, holder_, least->second, end_};
+}
+
+}  // namespace ttf::dds

@@ -1,0 +1,27 @@
+#include "bus/dds/exchange/exchange.h"
+
+#include <exception>
+
+#include "bus/dds/exchange/member.h"
+
+namespace ttf::dds {
+
+Exchange::Exchange(const Session& session, NodeId self) : member_(std::make_unique<Member>(session, self)) {}
+
+Exchange::~Exchange() {
+  try {
+    member_->leave();
+  } catch (const std::exception&) {
+    // DDS is lost; then the others hear it from DDS, or from the supervisor.
+  }
+}
+
+void Exchange::wait_ready(std::chrono::milliseconds patience) { member_->wait_ready(patience); }
+
+void Exchange::send(std::span<const std::byte> message) { member_->send(message); }
+
+bus::Exchange::Heard Exchange::receive() { return member_->receive(); }
+
+void Exchange::leave() { member_->leave(); }
+
+}  // namespace ttf::dds

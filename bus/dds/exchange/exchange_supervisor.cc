@@ -1,0 +1,278 @@
+#include "bus/dds/exchange/exchange_supervisor.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <map>
+#include <mutex>
+#include <set>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+
+#include "bus/dds/exchange/channel.h"
+#include "bus/dds/exchange/departure.h"
+#include "bus/dds/exchange/numbering.h"
+#include "bus/dds/common/participant.h"
+#include "bus/dds/common/said.h"
+#include "bus/dds/exchange/waiter.h"
+#include "core/check.h"
+
+namespace ttf::dds {
+namespace {
+
+const Session& supervised(const Session& session) {
+  validate(session);
+  TTF_CHECK(session.supervised, "a supervisor of an exchange that has none");
+  return session;
+}
+
+}  // namespace
+
+class ExchangeSupervisor::Watch {
+ public:
+  explicit Watch(const Session& session)
+      : session_(supervised(session)), participant_(session.domain, session.lease),
+        control_(participant_, kControlTopic, session.name), waiter_(participant_, control_, nullptr),
+        members_(session.members.begin(), session.members.end()), thread_([this] { run(); }) {}
+  ~Watch();
+
+  void wait_ready(std::chrono::milliseconds patience);
+  void announce_gone(NodeId node);
+  std::optional<Event> next_event(std::chrono::milliseconds patience);
+
+ private:
+  // All below but the last three are the thread's.
+  void run();
+  void work();
+  bool everybody_has_come() const;
+  void on_control(const Said& said);
+  void begin_departure(NodeId node);
+  void give(NodeId about, const std::optional<Departure::Order>& order);
+  void without(NodeId node);
+  void end_departures();
+  void look_for_lost();
+  void tell(What what, NodeId node, std::uint64_t samples = 0);
+
+  const Session session_;
+  Participant participant_;
+  Channel control_;
+  Waiter waiter_;
+  const std::set<NodeId> members_;
+
+  // The thread's.
+  Numbering numbers_;
+  std::set<NodeId> hello_, left_, dead_, lost_;
+  std::map<NodeId, Departure> departures_;  // of the dead that not all survivors know to be gone
+
+  std::mutex mutex_;
+  std::condition_variable happened_;
+  std::deque<Event> events_;  // guarded by mutex_, as all below
+  std::deque<NodeId> announcements_;
+  std::set<NodeId> joined_, ready_, gone_;  // as wait_ready() needs them
+  bool stop_ = false;
+  std::exception_ptr failure_;
+
+  std::thread thread_;  // last, so that all it uses is there
+};
+
+ExchangeSupervisor::Watch::~Watch() {
+  {
+    const std::scoped_lock lock(mutex_);
+    stop_ = true;
+  }
+  try {
+    waiter_.call();
+  } catch (const std::exception&) {
+    // Then DDS is lost, which the thread has noticed, too.
+  }
+  thread_.join();
+}
+
+void ExchangeSupervisor::Watch::run() {
+  try {
+    work();
+  } catch (...) {
+    const std::scoped_lock lock(mutex_);
+    failure_ = std::current_exception();
+    happened_.notify_all();
+  }
+}
+
+void ExchangeSupervisor::Watch::work() {
+  control_.say({.sender = kSupervisor, .kind = Kind::kHello});
+  bool ready = false;
+  for (;;) {
+    while (control_.take([this](const Said& said) { on_control(said); })) {
+    }
+    std::deque<NodeId> announcements;
+    {
+      const std::scoped_lock lock(mutex_);
+      if (stop_) break;
+      announcements.swap(announcements_);
+    }
+    for (const NodeId node : announcements) begin_departure(node);
+    end_departures();
+    if (!ready && everybody_has_come()) {
+      control_.say({.sender = kSupervisor, .kind = Kind::kReady});
+      ready = true;
+    }
+    if (control_.connections_changed()) look_for_lost();
+    waiter_.wait({});
+  }
+  control_.say({.sender = kSupervisor, .kind = Kind::kBye});
+  control_.acknowledged_within(std::chrono::milliseconds(dead_.empty() ? 2000 : 500));
+}
+
+// Or has gone meanwhile.
+bool ExchangeSupervisor::Watch::everybody_has_come() const {
+  return std::all_of(members_.begin(), members_.end(),
+                     [this](NodeId member) { return hello_.contains(member) || dead_.contains(member); });
+}
+
+void ExchangeSupervisor::Watch::on_control(const Said& said) {
+  const NodeId node = said.sender;
+  if (!members_.contains(node))
+    throw std::runtime_error(fmt::format(
+        "session {} on DDS domain {}: {}", session_.name, session_.domain,
+        node == kSupervisor ? "there is a second supervisor" : fmt::format("node {} is no member", index_of(node))));
+  if (dead_.contains(node) || !numbers_.is_new(node, said.number)) return;
+  switch (said.kind) {
+    case Kind::kHello:
+      hello_.insert(node);
+      tell(What::kJoined, node);
+      return;
+    case Kind::kReady: tell(What::kReady, node); return;
+    case Kind::kBye:
+      left_.insert(node);
+      without(node);
+      tell(What::kLeft, node);
+      return;
+    case Kind::kReport:
+      if (const auto departure = departures_.find(said.about); departure != departures_.end())
+        give(said.about, departure->second.report(node, said.round, said.end));
+      return;
+    case Kind::kClosed:
+      if (const auto departure = departures_.find(said.about); departure != departures_.end())
+        departure->second.closed(node, said.round);
+      return;
+    case Kind::kAgain:
+    case Kind::kAllAgain:
+    case Kind::kHeard: return;  // for the members
+    case Kind::kFence:
+    case Kind::kClose:
+    case Kind::kMessage:
+      throw std::runtime_error(fmt::format("exchange: node {} speaks as no member may", index_of(node)));
+  }
+}
+
+void ExchangeSupervisor::Watch::begin_departure(NodeId node) {
+  if (!dead_.insert(node).second) return;
+  without(node);
+  std::set<NodeId> survivors;
+  for (const NodeId member : members_)
+    if (!dead_.contains(member) && !left_.contains(member)) survivors.insert(member);
+  auto& departure = departures_.try_emplace(node, std::move(survivors)).first->second;
+  give(node, departure.begin());
+}
+
+void ExchangeSupervisor::Watch::give(NodeId about, const std::optional<Departure::Order>& order) {
+  if (order)
+    control_.say({.sender = kSupervisor,
+                  .kind = order->kind,
+                  .about = about,
+                  .holder = order->holder,
+                  .round = order->round,
+                  .first = order->first,
+                  .end = order->end});
+}
+
+void ExchangeSupervisor::Watch::without(NodeId node) {
+  for (auto& [about, departure] : departures_) give(about, departure.without(node));
+}
+
+void ExchangeSupervisor::Watch::end_departures() {
+  for (auto entry = departures_.begin(); entry != departures_.end();) {
+    if (!entry->second.done()) {
+      ++entry;
+      continue;
+    }
+    tell(What::kGone, entry->first, entry->second.end());
+    entry = departures_.erase(entry);
+  }
+}
+
+void ExchangeSupervisor::Watch::look_for_lost() {
+  for (const NodeId node : hello_) {
+    if (dead_.contains(node) || left_.contains(node)) continue;
+    if (control_.lost(node)) {
+      if (lost_.insert(node).second) tell(What::kLost, node);
+    } else if (lost_.erase(node) > 0) {
+      tell(What::kBack, node);
+    }
+  }
+}
+
+void ExchangeSupervisor::Watch::tell(What what, NodeId node, std::uint64_t samples) {
+  const std::scoped_lock lock(mutex_);
+  if (what == What::kJoined) joined_.insert(node);
+  if (what == What::kReady) ready_.insert(node);
+  if (what == What::kGone || what == What::kLeft) gone_.insert(node);
+  events_.push_back({what, node, samples});
+  happened_.notify_all();
+}
+
+void ExchangeSupervisor::Watch::wait_ready(std::chrono::milliseconds patience) {
+  std::unique_lock lock(mutex_);
+  const auto ready = [this] {
+    return std::all_of(members_.begin(), members_.end(),
+                       [this](NodeId member) { return ready_.contains(member) || gone_.contains(member); });
+  };
+  const bool settled = happened_.wait_for(lock, patience, [&] { return failure_ || ready(); });
+  if (failure_) std::rethrow_exception(failure_);
+  if (settled) return;
+  std::vector<NodeId> absent, deaf;
+  for (const NodeId member : members_) {
+    if (gone_.contains(member)) continue;
+    if (!joined_.contains(member))
+      absent.push_back(member);
+    else if (!ready_.contains(member))
+      deaf.push_back(member);
+  }
+  if (!absent.empty()) deaf.clear();  // no wonder
+  throw NotReady(session_, patience, std::move(absent), std::move(deaf));
+}
+
+void ExchangeSupervisor::Watch::announce_gone(NodeId node) {
+  TTF_CHECK(members_.contains(node), "node {} is no member", index_of(node));
+  {
+    const std::scoped_lock lock(mutex_);
+    announcements_.push_back(node);
+  }
+  waiter_.call();
+}
+
+std::optional<ExchangeSupervisor::Event> ExchangeSupervisor::Watch::next_event(std::chrono::milliseconds patience) {
+  std::unique_lock lock(mutex_);
+  happened_.wait_for(lock, patience, [this] { return failure_ || !events_.empty(); });
+  if (!events_.empty()) {
+    const Event event = events_.front();
+    events_.pop_front();
+    return event;
+  }
+  if (failure_) std::rethrow_exception(failure_);
+  return {};
+}
+
+ExchangeSupervisor::ExchangeSupervisor(const Session& session) : watch_(std::make_unique<Watch>(session)) {}
+ExchangeSupervisor::~ExchangeSupervisor() = default;
+void ExchangeSupervisor::wait_ready(std::chrono::milliseconds patience) { watch_->wait_ready(patience); }
+void ExchangeSupervisor::announce_gone(NodeId node) { watch_->announce_gone(node); }
+std::optional<ExchangeSupervisor::Event> ExchangeSupervisor::next_event(std::chrono::milliseconds patience) {
+  return watch_->next_event(patience);
+}
+
+}  // namespace ttf::dds

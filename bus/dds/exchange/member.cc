@@ -1,0 +1,143 @@
+#include "bus/dds/exchange/member.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "core/check.h"
+
+namespace ttf::dds {
+namespace {
+
+// How much of what is heard of one member is kept at most, where not everybody tells that it has heard it. No two
+// survivors are further apart than what a writer may have unacknowledged (kMaxUnacknowledgedBytes), and that many
+// small samples weigh about twice as much.
+constexpr std::size_t kRetainBytes = 32 << 20;
+// For the acknowledgements of others while one is dead, from whom none will come.
+constexpr std::chrono::milliseconds kPatienceAfterDeath{500};
+
+std::string node(NodeId id) { return id == kSupervisor ? "the supervisor" : fmt::format("node {}", index_of(id)); }
+
+std::vector<NodeId> without(std::vector<NodeId> members, NodeId self) {
+  members.erase(std::remove(members.begin(), members.end(), self), members.end());
+  return members;
+}
+
+}  // namespace
+
+Exchange::Member::Member(const Session& session, NodeId self)
+    : session_(validate(session)), self_(self), participant_(session.domain, session.lease),
+      data_(participant_, kDataTopic, session.name), control_(participant_, kControlTopic, session.name),
+      waiter_(participant_, data_, &control_), heard_table_(without(session.members, self)) {
+  for (const NodeId id : session.members)
+    if (id != self) others_.try_emplace(id, Stream(id, session.supervised ? kRetainBytes : 0));
+  TTF_CHECK(others_.size() + 1 == session.members.size(), "node {} is no member", index_of(self));
+  say(data_, Kind::kHello);
+  say(control_, Kind::kHello);
+}
+
+// Of those from whom it is to come; who has gone meanwhile is not waited for.
+bool Exchange::Member::everybody(const std::set<NodeId>& said) const {
+  return std::all_of(others_.begin(), others_.end(),
+                     [&](const auto& entry) { return said.contains(entry.first) || gone_.contains(entry.first); });
+}
+
+void Exchange::Member::wait_ready(std::chrono::milliseconds patience) {
+  const Clock::time_point deadline = Clock::now() + patience;
+  bool said = false;
+  while (!all_ready_) {
+    if (take()) continue;
+    if (cut_off_) throw std::runtime_error("exchange: " + node(self_) + " has been announced gone");
+    const bool supervisor_heard = !session_.supervised || control_hello_.contains(kSupervisor);
+    if (!said && supervisor_heard && everybody(data_hello_) && everybody(control_hello_)) {
+      say(control_, Kind::kReady);
+      said = true;
+    }
+    all_ready_ = said && everybody(ready_) && (!session_.supervised || ready_.contains(kSupervisor));
+    if (all_ready_) return;
+    if (Clock::now() >= deadline) give_up(patience);
+    note_lost();  // of no interest yet
+    wait(deadline);
+  }
+}
+
+void Exchange::Member::give_up(std::chrono::milliseconds waited) const {
+  std::vector<NodeId> expected;
+  for (const auto& entry : others_)
+    if (!gone_.contains(entry.first)) expected.push_back(entry.first);
+  if (session_.supervised) expected.push_back(kSupervisor);
+  std::vector<NodeId> absent, deaf;
+  for (const NodeId id : expected) {
+    if (!control_hello_.contains(id) || (id != kSupervisor && !data_hello_.contains(id)))
+      absent.push_back(id);
+    else if (!ready_.contains(id))
+      deaf.push_back(id);
+  }
+  if (!absent.empty()) deaf.clear();  // no wonder
+  throw NotReady(session_, waited, std::move(absent), std::move(deaf));
+}
+
+void Exchange::Member::send(std::span<const std::byte> message) {
+  TTF_CHECK(all_ready_ && !left_, "node {} sends before wait_ready() or after leave()", index_of(self_));
+  data_.say({.sender = self_, .kind = Kind::kMessage, .bytes = message});
+}
+
+bus::Exchange::Heard Exchange::Member::receive() {
+  for (;;) {
+    if (cut_off_) throw std::runtime_error("exchange: " + node(self_) + " has been announced gone");
+    if (!coming_.empty()) {
+      const Coming next = std::move(coming_.front());
+      coming_.pop_front();
+      current_ = next.bytes;
+      if (current_ == nullptr) return {next.from, true, {}};
+      return {next.from, false, *current_};
+    }
+    if (take()) continue;
+    const auto until = look_around();
+    wait(until);
+  }
+}
+
+std::optional<Exchange::Member::Clock::time_point> Exchange::Member::look_around() {
+  if (nobody_left()) throw std::runtime_error("exchange: " + node(self_) + ": nobody is left to be heard");
+  if (supervisor_left_) throw std::runtime_error("exchange: the supervisor has left");
+  note_lost();
+  std::optional<Clock::time_point> until;
+  for (const auto& [id, limit] : lost_) {
+    if (gone_.contains(id)) continue;
+    if (Clock::now() >= limit)
+      throw std::runtime_error(fmt::format("exchange: {} has fallen silent: DDS has lost it", node(id)));
+    until = std::min(until.value_or(limit), limit);
+  }
+  return until;
+}
+
+void Exchange::Member::note_lost() {
+  const bool data_changed = data_.connections_changed();
+  if (!control_.connections_changed() && !data_changed) return;
+  const auto note = [&](NodeId id) {
+    if (control_.lost(id))
+      lost_.try_emplace(id, Clock::now() + session_.lease);
+    else
+      lost_.erase(id);
+  };
+  if (session_.supervised) return note(kSupervisor);  // it knows best who else is gone
+  for (const auto& entry : others_) note(entry.first);
+}
+
+void Exchange::Member::wait(std::optional<Clock::time_point> until) {
+  waiter_.wait(until ? std::optional<std::chrono::nanoseconds>(*until - Clock::now()) : std::nullopt);
+}
+
+void Exchange::Member::leave() {
+  if (std::exchange(left_, true)) return;
+  say(data_, Kind::kBye);
+  say(control_, Kind::kBye);
+  const bool somebody_died = last_death_ != Clock::time_point{} && Clock::now() - last_death_ < 2 * session_.lease;
+  const std::chrono::milliseconds patience = somebody_died ? kPatienceAfterDeath : session_.lease;
+  if (data_.acknowledged_within(patience)) control_.acknowledged_within(patience);
+}
+
+}  // namespace ttf::dds

@@ -1,0 +1,99 @@
+// A member of an exchange at work (bus/dds/exchange/exchange.h): who is there, what is heard of each, and its part in
+// agreeing on the end of those that die (bus/dds/exchange/stream.h).
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "bus/dds/exchange/channel.h"
+#include "bus/dds/exchange/exchange.h"
+#include "bus/dds/exchange/heard.h"
+#include "bus/dds/exchange/numbering.h"
+#include "bus/dds/common/participant.h"
+#include "bus/dds/common/said.h"
+#include "bus/dds/common/session.h"
+#include "bus/dds/exchange/stream.h"
+#include "bus/dds/exchange/waiter.h"
+#include "bus/ports/exchange.h"
+#include "core/ids.h"
+
+namespace ttf::dds {
+
+class Exchange::Member {
+ public:
+  Member(const Session& session, NodeId self);
+
+  void wait_ready(std::chrono::milliseconds patience);
+  void send(std::span<const std::byte> message);
+  bus::Exchange::Heard receive();
+  void leave();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  struct Other {
+    explicit Other(Stream its_stream) : stream(std::move(its_stream)) {}
+    Stream stream;
+    std::uint32_t round = 0;  // of the last kClose; 0: none
+    bool confirmed = false;   // that round's kClosed has been said
+  };
+  // What receive() is going to return; no bytes: gone.
+  struct Coming {
+    NodeId from{};
+    Bytes bytes;
+  };
+
+  // Takes what has come; whether there was anything.
+  bool take();
+  void drain_data();
+  void on_data(const Said& said);
+  void on_control(const Said& said);
+  void on_fence(const Said& said);
+  void on_close(const Said& said);
+  void on_again(const Said& said);
+  void deliver(NodeId from);  // what is in entries_
+  void confirm(NodeId of, Other& other);
+  void tell_heard();
+  Other& other(NodeId node);
+
+  void say(Channel& channel, Kind kind) { channel.say({.sender = self_, .kind = kind}); }
+  bool everybody(const std::set<NodeId>& said) const;
+  [[noreturn]] void give_up(std::chrono::milliseconds waited) const;
+  bool nobody_left() const { return gone_.size() == others_.size(); }
+  // Throws where waiting on would be in vain; else until when it need not be looked at again.
+  std::optional<Clock::time_point> look_around();
+  // Whom DDS has lost, and found again.
+  void note_lost();
+  void wait(std::optional<Clock::time_point> until);
+
+  const Session session_;
+  const NodeId self_;
+  Participant participant_;
+  Channel data_;
+  Channel control_;
+  Waiter waiter_;
+
+  Numbering control_numbers_;
+  std::map<NodeId, Other> others_;
+  HeardTable heard_table_;
+  std::size_t heard_bytes_ = 0;                          // since that was last told to the others
+  std::set<NodeId> data_hello_, control_hello_, ready_;  // who has said it
+  std::set<NodeId> gone_;                                // known here; receive() may have it still to come
+  std::map<NodeId, Clock::time_point> lost_;             // until when it may come back
+  bool all_ready_ = false;
+  bool cut_off_ = false;
+  bool supervisor_left_ = false;
+  bool left_ = false;
+  Clock::time_point last_death_{};
+  std::vector<Entry> entries_;  // scratch
+  std::deque<Coming> coming_;
+  Bytes current_;  // what receive() returned last
+};
+
+}  // namespace ttf::dds

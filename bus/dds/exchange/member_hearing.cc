@@ -1,0 +1,143 @@
+// What a member makes of what it hears.
+#include <fmt/format.h>
+
+#include <stdexcept>
+#include <utility>
+
+#include "bus/dds/exchange/member.h"
+
+namespace ttf::dds {
+namespace {
+
+// How much is heard before the others are told how far, so that they can forget it.
+constexpr std::size_t kTellEvery = 256 << 10;
+// What keeping a sample takes beside its bytes, about.
+constexpr std::size_t kSampleBytes = 96;
+
+Bytes copy(std::span<const std::byte> bytes) {
+  return std::make_shared<const std::vector<std::byte>>(bytes.begin(), bytes.end());
+}
+
+}  // namespace
+
+bool Exchange::Member::take() {
+  const bool data = data_.take([this](const Said& said) { on_data(said); });
+  const bool control = control_.take([this](const Said& said) { on_control(said); });
+  return data || control;
+}
+
+// Where the end of a member is agreed upon, all that DDS has brought of it counts as heard.
+void Exchange::Member::drain_data() {
+  while (data_.take([this](const Said& said) { on_data(said); })) {
+  }
+}
+
+Exchange::Member::Other& Exchange::Member::other(NodeId node) {
+  const auto found = others_.find(node);
+  if (found == others_.end())
+    throw std::runtime_error(fmt::format("session {} on DDS domain {}: node {} {}", session_.name, session_.domain,
+                                         index_of(node), node == self_ ? "is there twice" : "is no member"));
+  return found->second;
+}
+
+void Exchange::Member::on_data(const Said& said) {
+  Other& sender = other(said.sender);
+  sender.stream.accept({said.number, said.kind, copy(said.bytes)}, entries_);
+  deliver(said.sender);
+  heard_bytes_ += kSampleBytes + said.bytes.size();
+  if (session_.supervised && heard_bytes_ >= kTellEvery) tell_heard();
+}
+
+void Exchange::Member::tell_heard() {
+  HeardCounts heard;
+  for (const auto& [id, state] : others_) heard[id] = state.stream.heard();
+  const std::vector<std::byte> bytes = encode(heard);
+  control_.say({.sender = self_, .kind = Kind::kHeard, .bytes = bytes});
+  heard_bytes_ = 0;
+}
+
+void Exchange::Member::deliver(NodeId from) {
+  for (Entry& entry : entries_) {
+    if (entry.kind == Kind::kHello) data_hello_.insert(from);
+    if (entry.kind == Kind::kMessage) coming_.push_back({from, std::move(entry.bytes)});
+    if (entry.kind == Kind::kBye) {
+      coming_.push_back({from, nullptr});
+      gone_.insert(from);
+      heard_table_.without(from);
+    }
+  }
+  entries_.clear();
+  confirm(from, other(from));
+}
+
+void Exchange::Member::on_control(const Said& said) {
+  if (said.sender != kSupervisor) other(said.sender);
+  if (!control_numbers_.is_new(said.sender, said.number)) return;
+  switch (said.kind) {
+    case Kind::kHello: control_hello_.insert(said.sender); return;
+    case Kind::kReady: ready_.insert(said.sender); return;
+    case Kind::kBye:
+      if (said.sender == kSupervisor) supervisor_left_ = true;
+      return;
+    case Kind::kFence: on_fence(said); return;
+    case Kind::kClose: on_close(said); return;
+    case Kind::kAgain: on_again(said); return;
+    case Kind::kAllAgain:
+      if (const Other& about = other(said.about); about.round == said.round && about.stream.wanting())
+        throw std::runtime_error(about.stream.missing());
+      return;
+    case Kind::kHeard:
+      heard_table_.note(said.sender, decode(said.bytes));
+      for (auto& [id, state] : others_) state.stream.settle(heard_table_.by_all(id));
+      return;
+    case Kind::kReport:
+    case Kind::kClosed: return;  // the supervisor's business
+    case Kind::kMessage: throw std::runtime_error("exchange: a message among control samples");
+  }
+}
+
+void Exchange::Member::on_fence(const Said& said) {
+  if (said.about == self_) {
+    cut_off_ = true;
+    return;
+  }
+  Other& about = other(said.about);
+  drain_data();
+  last_death_ = Clock::now();
+  heard_table_.without(said.about);
+  const std::uint64_t end = about.stream.fence();
+  control_.say({.sender = self_, .kind = Kind::kReport, .about = said.about, .round = said.round, .end = end});
+}
+
+void Exchange::Member::on_close(const Said& said) {
+  if (said.about == self_) return;
+  Other& about = other(said.about);
+  about.round = said.round;
+  about.confirmed = false;
+  about.stream.close(said.end, entries_);
+  deliver(said.about);
+  if (said.holder != self_) return;
+  for (const Entry& entry : about.stream.again(said.first))
+    control_.say({.sender = self_,
+                  .kind = Kind::kAgain,
+                  .about = said.about,
+                  .inner = entry.kind,
+                  .round = said.round,
+                  .first = entry.number,
+                  .bytes = *entry.bytes});
+  control_.say({.sender = self_, .kind = Kind::kAllAgain, .about = said.about, .round = said.round});
+}
+
+void Exchange::Member::on_again(const Said& said) {
+  if (said.about == self_) return;
+  other(said.about).stream.accept({said.first, said.inner, copy(said.bytes)}, entries_);
+  deliver(said.about);
+}
+
+void Exchange::Member::confirm(NodeId of, Other& other) {
+  if (other.round == 0 || other.confirmed || !other.stream.closed()) return;
+  other.confirmed = true;
+  control_.say({.sender = self_, .kind = Kind::kClosed, .about = of, .round = other.round});
+}
+
+}  // namespace ttf::dds

@@ -1,0 +1,30 @@
+// Sleeps until one of some channels has something, or somebody calls.
+#pragma once
+
+#include <chrono>
+#include <optional>
+
+#include "bus/dds/exchange/channel.h"
+#include "bus/dds/common/participant.h"
+
+namespace ttf::dds {
+
+class Waiter {
+ public:
+  Waiter(const Participant& participant, const Channel& first, const Channel* second);
+  ~Waiter();
+  Waiter(const Waiter&) = delete;
+  Waiter& operator=(const Waiter&) = delete;
+
+  // Returns when a channel has something to take, or its connections have changed, or call() was called since, or
+  // after `patience`, if given. Whatever woke it must be seen to, else it does not sleep next time.
+  void wait(std::optional<std::chrono::nanoseconds> patience);
+  // From any thread.
+  void call();
+
+ private:
+  Handle set_ = 0;
+  Handle called_ = 0;
+};
+
+}  // namespace ttf::dds

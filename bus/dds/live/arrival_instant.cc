@@ -1,0 +1,27 @@
+#include "bus/dds/live/arrival_instant.h"
+
+#include <algorithm>
+
+namespace ttf::dds {
+
+bus::HostTime ArrivalInstant::of(NodeId sender, std::uint64_t host, std::int64_t sent, bus::HostTime received) {
+  Host& from = find(host);
+  from.heard = received;
+  const Duration delay{received.ns - sent};
+  const bus::HostTime at = received - (delay - from.delay.least(received, delay));
+  bus::HostTime& last = last_[index_of(sender)];
+  last = std::min(std::max(at, last), received);
+  return last;
+}
+
+ArrivalInstant::Host& ArrivalInstant::find(std::uint64_t identity) {
+  const auto found =
+      std::find_if(hosts_.begin(), hosts_.end(), [identity](const Host& host) { return host.identity == identity; });
+  if (found != hosts_.end()) return *found;
+  if (hosts_.size() < most_hosts_) return hosts_.emplace_back(Host{identity, {}, {}});
+  const auto silent =
+      std::min_element(hosts_.begin(), hosts_.end(), [](const Host& a, const Host& b) { return a.heard < b.heard; });
+  return *silent = Host{identity, {}, {}};
+}
+
+}  // namespace ttf::dds

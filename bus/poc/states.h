@@ -1,0 +1,78 @@
+// Inside protocol operation control: the table of answers (poc_table.cc), and the steps that are more than a change of
+// state, by the part of the state machine they belong to.
+#pragma once
+
+#include "bus/poc/poc.h"
+
+namespace ttf::bus::poc {
+
+struct Now {
+  const PocParameters& parameters;
+  const PocState& state;
+  const PocEvent& event;
+};
+using Answer = PocStep (*)(const Now&);
+
+// The one answer to an event in a state.
+Answer answer(PocKind state, PocEventKind event);
+
+// --- poc_states.cc: what several states share
+
+// Same state, same data: nothing happens.
+PocStep ignore(const Now& now, PocReason why);
+// Same state, data to be changed by the caller.
+PocStep stay(const Now& now, PocReason why, PocActions actions = {});
+// Another state; what counts within a state of start-up begins anew.
+PocStep enter(const Now& now, PocKind kind, PocReason why, PocActions actions = {});
+
+PocStep power_on(const Now& now);
+PocStep ready(const Now& now, PocReason why);
+PocStep halt(const Now& now, PocReason why);
+PocStep freeze(const Now& now, PocReason why);
+PocStep allow_coldstart(const Now& now);
+
+// Startup prepare: to coldstart listen if this node may coldstart, else to integration listen; the consequence says
+// which.
+PocStep listen(const Now& now, PocReason why);
+// The same for a step that has come to integration listen already: RUN refills the attempts before it chooses.
+PocStep listen_with(const PocParameters& parameters, PocStep step);
+// Initialise schedule, with the even startup frame that was heard.
+PocStep derive_schedule(const Now& now);
+
+// Keeps the verdict of clock correction for the next cycle start.
+PocStep note_clock(const Now& now);
+// Why start-up is aborted on the verdict, kNone if it is in order. No verdict at all counts as a missing term.
+PocReason clock_objection(const PocState& state);
+
+// --- poc_host.cc: the states in which the controller is deaf
+PocStep configure_again(const Now& now);
+PocStep run(const Now& now);
+PocStep leave_halt(const Now& now);
+PocStep freeze_halted(const Now& now, PocReason why);
+
+// --- poc_wakeup.cc
+PocStep wake(const Now& now);
+PocStep end_wakeup(const Now& now, WakeupStatus status, PocReason why);
+
+// --- poc_coldstart.cc: the path of the leading coldstart node
+PocStep attempt_coldstart(const Now& now, PocReason why);
+PocStep resolution_cycle(const Now& now);
+PocStep consistency_cycle(const Now& now);
+
+// --- poc_integration.cc: the paths of the following coldstart node and of any other node
+PocStep allow_coldstart_listening(const Now& now);
+PocStep second_frame(const Now& now);
+PocStep note_clock_of_whole_cycles(const Now& now);
+PocStep coldstart_check_cycle(const Now& now);
+PocStep join_cycle(const Now& now);
+PocStep integration_cycle(const Now& now);
+
+// --- poc_normal.cc
+PocStep request_halt(const Now& now);
+PocStep request_ready(const Now& now);
+PocStep request_all_slots(const Now& now);
+PocStep count_clock(const Now& now);
+PocStep active_cycle(const Now& now);
+PocStep passive_cycle(const Now& now);
+
+}  // namespace ttf::bus::poc

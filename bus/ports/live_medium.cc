@@ -1,0 +1,13 @@
+#include "bus/ports/live_medium.h"
+
+#include <time.h>
+
+namespace ttf::bus {
+
+HostTime host_now() {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return {static_cast<std::int64_t>(now.tv_sec) * 1'000'000'000 + now.tv_nsec};
+}
+
+}  // namespace ttf::bus

@@ -1,0 +1,125 @@
+#include "cli/drive/drive_setup.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <filesystem>
+
+#include "cli/drive/fault_tables.h"
+#include "core/errors.h"
+#include "core/file_bytes.h"
+#include "core/hash.h"
+#include "core/strict_yaml.h"
+#include "drives/step_catalog.h"
+#include "schedules/check/checker.h"
+#include "schedules/file/loader.h"
+
+namespace ttf::cli {
+
+schedules::Cluster checked_cluster(const std::string& file) {
+  schedules::Cluster cluster = schedules::load_cluster(file);
+  if (auto findings = schedules::check(cluster); !findings.empty()) throw InputError(std::move(findings));
+  schedules::bind_ports(cluster, nodes::step_ports());
+  return cluster;
+}
+
+schedules::Cluster checked_cluster(const nodes::Scenario& scenario, fusion::StrategyKind strategy) {
+  const std::string& file = scenario.cluster_files[static_cast<std::size_t>(strategy)];
+  try {
+    (void)read_file(file);
+  } catch (const InputError& error) {
+    Findings none;
+    const std::string name(nodes::name_of(strategy));
+    YamlMap clusters = StrictYaml::parse(scenario.text, scenario.file).root(none).map("clusters");
+    throw InputError({scenario.file, clusters.line(name), "clusters." + name, file,
+                      "must be a cluster file, but it " + error.findings().front().expected});
+  }
+  return checked_cluster(file);
+}
+
+Recording read_recording(const std::string& path) {
+  if (path.empty()) return {};
+  const std::string text = read_file(path);
+  return {std::make_shared<recording::RecordedInput>(recording::parse_laser_radar(text, path)),
+          std::filesystem::path(path).filename().string(), hex_hash(text)};
+}
+
+recording::LogManifest manifest_of(const nodes::Scenario& scenario, const schedules::Cluster& cluster,
+                                   fusion::StrategyKind strategy, std::uint64_t seed, const Recording& recording) {
+  recording::LogManifest manifest;
+  manifest.version = TTF_VERSION;
+  manifest.seed = seed;
+  manifest.scenario_name = scenario.name;
+  manifest.cluster_name = cluster.name;
+  manifest.strategy = nodes::name_of(strategy);
+  manifest.cycle_ns = cluster.cycle().ns;
+  manifest.bit_ps = cluster.flexray.gdBit_ps;
+  manifest.hashes = {{"scenario", hex_hash(scenario.text)}, {"cluster", hex_hash(cluster.text)}};
+  if (recording.rows) {
+    manifest.recording_name = recording.name;
+    manifest.hashes.emplace_back("recording", recording.hash);
+  }
+  for (const schedules::Node& node : cluster.nodes) {
+    manifest.node_names.push_back(node.name);
+    manifest.task_names.emplace_back();
+    for (const schedules::Task& task : node.tasks) manifest.task_names.back().push_back(task.name);
+  }
+  for (const schedules::PduLayout& pdu : cluster.pdus) {
+    manifest.pdu_names.push_back(pdu.name);
+    manifest.pdu_sensors.push_back(pdu.sensor);
+  }
+  for (const schedules::Sensor& sensor : cluster.sensors) manifest.sensor_names.push_back(sensor.name);
+  for (const schedules::CanBus& bus : cluster.can_buses) manifest.can_bus_names.push_back(bus.name);
+  return manifest;
+}
+
+std::vector<fusion::StrategyKind> chosen(const std::string& name) {
+  std::vector<fusion::StrategyKind> strategies;
+  for (const auto kind : {fusion::StrategyKind::kBuff, fusion::StrategyKind::kAdva, fusion::StrategyKind::kTt})
+    if (name.empty() || nodes::name_of(kind) == name) strategies.push_back(kind);
+  return strategies;
+}
+
+std::unique_ptr<recording::LogWriter> begin_log(const std::string& path, const recording::LogManifest& manifest,
+                                                const nodes::Scenario& scenario, const schedules::Cluster& cluster) {
+  auto log = std::make_unique<recording::LogWriter>(path, manifest);
+  log->attach(std::filesystem::path(scenario.file).filename().string(), "application/yaml", scenario.text);
+  log->attach(std::filesystem::path(cluster.file).filename().string(), "application/yaml", cluster.text);
+  return log;
+}
+
+std::uint64_t seed_of(const std::string& text) {
+  constexpr std::uint64_t kMost = std::uint64_t{1} << 62;
+  std::uint64_t seed = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
+  if (error != std::errc{} || end != text.data() + text.size() || seed > kMost)
+    throw InputError({"command line", 0, "--seed", text, fmt::format("must be a whole number 0..{}", kMost)});
+  return seed;
+}
+
+std::string folder_of(const nodes::Scenario& scenario) {
+  if (scenario.name.empty() || scenario.name.find('/') != std::string::npos || scenario.name.front() == '.')
+    throw InputError({scenario.file, 0, "name", scenario.name, "must name a folder under out/, or --out be given"});
+  return "out/" + scenario.name;
+}
+
+DriveJudge::DriveJudge(const nodes::Scenario& scenario, const schedules::Cluster& cluster)
+    : scenario_(scenario), cluster_(cluster), plan_(nodes::resolve(scenario.faults, cluster)),
+      measures_(sim::evaluation_start(scenario)), startup_(cluster.cycle()),
+      faults_(cluster, plan_, !scenario.startup.cold) {}
+
+std::vector<records::Sink*> DriveJudge::sinks() {
+  std::vector<records::Sink*> sinks{&measures_, &startup_};
+  if (!scenario_.faults.empty()) sinks.push_back(&faults_);
+  return sinks;
+}
+
+void DriveJudge::finish(StrategyResult& result) {
+  result.summary = measures_.finish();
+  result.startup = startup_.nodes();
+  faults_.finish(sim::kFirstCycle + scenario_.duration);
+  result.faults = faults_.findings();
+  result.fault_free = fault_free_nodes(result.faults, plan_, cluster_);
+}
+
+}  // namespace ttf::cli

@@ -1,0 +1,247 @@
+#include "cli/drive/fault_tables.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "core/counted.h"
+#include "evaluation/faults/judge.h"
+#include "report/drawing/tables.h"
+
+namespace ttf::cli {
+namespace {
+
+using experiments::CheckSeen;
+using experiments::FaultEffects;
+using experiments::FaultFindings;
+using experiments::FaultSeen;
+using experiments::GuardianSeen;
+using experiments::Harm;
+using experiments::HarmSeen;
+using experiments::StateSeen;
+
+double seconds(TrueTime at) { return (at - TrueTime{}).seconds(); }
+std::string cell(TrueTime at) { return report::cell(seconds(at), 6); }
+std::string cell(const std::optional<TrueTime>& at) { return at ? cell(*at) : "-"; }
+
+std::string node_name(NodeId node, const schedules::Cluster& cluster) {
+  return index_of(node) < cluster.nodes.size() ? cluster.node(node).name : "-";
+}
+
+std::string node_names(const std::vector<NodeId>& nodes, const schedules::Cluster& cluster) {
+  std::string names;
+  for (const NodeId node : nodes) names += (names.empty() ? "" : ", ") + node_name(node, cluster);
+  return names;
+}
+
+constexpr std::string_view kUnattributed = "unattributed";
+
+// Every fault's effects by what it is called in the tables, and last what belongs to none.
+template <class Each> void for_each(const FaultFindings& findings, Each each) {
+  for (const FaultSeen& fault : findings.faults)
+    each(fmt::format("{}", fault.fault), fault, std::optional(fault.begins));
+  each(std::string(kUnattributed), findings.unattributed, std::optional<TrueTime>());
+}
+
+std::string injected_text(const FaultFindings& findings, const schedules::Cluster& cluster) {
+  report::Table table({"#", "fault", "node", "begins [s]", "first act [s]", "acts", "ends [s]", "what it did first"});
+  for (const FaultSeen& fault : findings.faults)
+    table.add({fmt::format("{}", fault.fault), fault.kind, node_name(fault.node, cluster), cell(fault.begins),
+               cell(fault.first_act), fmt::format("{}", fault.acts), cell(fault.ends), fault.text});
+  return table.text();
+}
+
+std::string seers(const CheckSeen& seen, const schedules::Cluster& cluster) {
+  std::string names = node_names(seen.nodes, cluster);
+  for (const auto channel : schedules::kBothChannels)
+    if (seen.guardians[index_of(channel)])
+      names += fmt::format("{}guardian {}", names.empty() ? "" : ", ", letter(channel));
+  return names;
+}
+
+std::string checks_text(const FaultFindings& findings, const schedules::Cluster& cluster) {
+  report::Table table({"#", "check", "cycles", "after [ms]", "seen by"});
+  for_each(findings, [&](const std::string& name, const FaultEffects& effects, std::optional<TrueTime> begins) {
+    for (const auto check : experiments::kAllChecks)
+      for (const bool faulty : {false, true}) {
+        const CheckSeen& seen = (faulty ? effects.by_faulty : effects.by_others)[static_cast<std::size_t>(check)];
+        if (seen.cycles == 0) continue;
+        table.add({name, std::string(name_of(check)), fmt::format("{}", seen.cycles),
+                   begins ? report::cell(in_ms(seen.first - *begins), 3) : "-",
+                   seers(seen, cluster) + (faulty ? " (faulty)" : "")});
+      }
+  });
+  return table.rows() == 0 ? "No check saw anything.\n" : table.text();
+}
+
+// Empty without guardians, or where they had nothing to do.
+std::string guardians_text(const FaultFindings& findings) {
+  report::Table table({"#", "guardians", "signals", "first cycle", "first [s]", "why"});
+  for_each(findings, [&](const std::string& name, const FaultEffects& effects, std::optional<TrueTime>) {
+    for (const GuardianSeen& kept : effects.guardians)
+      table.add({name, kept.cut ? "cut" : "blocked", fmt::format("{}", kept.signals),
+                 fmt::format("{}", kept.first_cycle), cell(kept.first), kept.why});
+  });
+  return table.rows() == 0 ? "" : table.text() + "\n";
+}
+
+std::string states_text(const FaultFindings& findings, const schedules::Cluster& cluster) {
+  report::Table table({"#", "node", "first [s]", "times", "from", "to", "why"});
+  for_each(findings, [&](const std::string& name, const FaultEffects& effects, std::optional<TrueTime>) {
+    for (const StateSeen& state : effects.states)
+      table.add({name, node_name(state.node, cluster), cell(state.first), fmt::format("{}", state.times), state.from,
+                 state.to, state.why});
+  });
+  return table.rows() == 0 ? "No node changed its state.\n" : table.text();
+}
+
+// What befell a node: how often, and where first.
+std::string harm_words(Harm harm, const HarmSeen& harmed, const schedules::Cluster& cluster) {
+  const std::string node = harmed.node == kNoNode ? "" : node_name(harmed.node, cluster);
+  const std::string where =
+      harmed.sender == kNoNode ? "" : fmt::format("slot {} of {}", harmed.slot, node_name(harmed.sender, cluster));
+  const bool often = harmed.times > 1;
+  switch (harm) {
+    case Harm::kFrameLost:  // of whatever slots and senders
+      return often
+                 ? fmt::format("{}: {} lost, the first: {} on any channel", node, counted(harmed.times, "frame"), where)
+                 : fmt::format("{}: a frame lost: {} on any channel", node, where);
+    case Harm::kFrameForged:
+      return often ? fmt::format("{}: {} of another taken for valid, the first: {}", node,
+                                 counted(harmed.times, "frame"), where)
+                   : fmt::format("{}: a frame of another taken for valid: {}", node, where);
+    case Harm::kLeftActive: return node + " left normal active" + (often ? fmt::format(" {} times", harmed.times) : "");
+    case Harm::kNotStarted: return node + " never became normal active";
+    case Harm::kPrecision:
+      return "clocks further apart than the assumed precision" + (often ? fmt::format(", {} times", harmed.times) : "");
+  }
+  return "";
+}
+
+std::string harms_text(const FaultFindings& findings, const std::vector<NodeId>& sound,
+                       const schedules::Cluster& cluster) {
+  std::string text;
+  for_each(findings, [&](const std::string& name, const FaultEffects& effects, std::optional<TrueTime>) {
+    for (const Harm harm : experiments::kAllHarms)
+      for (const HarmSeen& harmed : effects.harms[static_cast<std::size_t>(harm)])
+        text += fmt::format("HARMED{}{}, {:.6f} s: {}\n", name == kUnattributed ? ", " : " by fault ", name,
+                            seconds(harmed.first), harm_words(harm, harmed, cluster));
+  });
+  if (text.empty()) text = "No fault-free node was harmed.\n";
+  return text + (sound.empty() ? "No node was fault-free to the end.\n"
+                               : fmt::format("{} to the end: {}\n", counted(sound.size(), "fault-free node"),
+                                             node_names(sound, cluster)));
+}
+
+nlohmann::ordered_json seconds_or_null(const std::optional<TrueTime>& at) {
+  return at ? nlohmann::ordered_json(seconds(*at)) : nlohmann::ordered_json(nullptr);
+}
+nlohmann::ordered_json name_or_null(NodeId node, const schedules::Cluster& cluster) {
+  return node == kNoNode ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(node_name(node, cluster));
+}
+
+nlohmann::ordered_json checks_json(const FaultEffects& effects, const schedules::Cluster& cluster) {
+  auto checks = nlohmann::ordered_json::array();
+  for (const auto check : experiments::kAllChecks)
+    for (const bool faulty : {false, true}) {
+      const CheckSeen& seen = (faulty ? effects.by_faulty : effects.by_others)[static_cast<std::size_t>(check)];
+      if (seen.cycles == 0) continue;
+      nlohmann::ordered_json one = {{"check", name_of(check)},
+                                    {"by_faulty_node", faulty},
+                                    {"cycles", seen.cycles},
+                                    {"first_s", seconds(seen.first)},
+                                    {"nodes", names_json(seen.nodes, cluster)}};
+      if (check == experiments::Check::kGuardian) {
+        one["guardians"] = nlohmann::ordered_json::array();
+        for (const auto channel : schedules::kBothChannels)
+          if (seen.guardians[index_of(channel)]) one["guardians"].push_back(std::string(1, letter(channel)));
+      }
+      checks.push_back(std::move(one));
+    }
+  return checks;
+}
+
+// What came of a fault, or of none, is added to `one`.
+void add_effects(nlohmann::ordered_json& one, const FaultEffects& effects, const schedules::Cluster& cluster) {
+  one["checks"] = checks_json(effects, cluster);
+  one["guardians"] = nlohmann::ordered_json::array();
+  for (const GuardianSeen& kept : effects.guardians)
+    one["guardians"].push_back({{"what", kept.cut ? "cut" : "blocked"},
+                                {"why", kept.why},
+                                {"signals", kept.signals},
+                                {"first_cycle", kept.first_cycle},
+                                {"first_s", seconds(kept.first)}});
+  one["states"] = nlohmann::ordered_json::array();
+  for (const StateSeen& state : effects.states)
+    one["states"].push_back({{"node", node_name(state.node, cluster)},
+                             {"from", state.from},
+                             {"to", state.to},
+                             {"why", state.why},
+                             {"first_s", seconds(state.first)},
+                             {"times", state.times}});
+  one["harmed"] = effects.harmed();
+  one["harms"] = nlohmann::ordered_json::array();
+  for (const Harm harm : experiments::kAllHarms)
+    for (const HarmSeen& harmed : effects.harms[static_cast<std::size_t>(harm)])
+      one["harms"].push_back({{"harm", name_of(harm)},
+                              {"first_s", seconds(harmed.first)},
+                              {"node", name_or_null(harmed.node, cluster)},
+                              {"sender", name_or_null(harmed.sender, cluster)},
+                              {"slot", harmed.slot},
+                              {"times", harmed.times}});
+}
+
+}  // namespace
+
+nlohmann::ordered_json names_json(const std::vector<NodeId>& nodes, const schedules::Cluster& cluster) {
+  auto names = nlohmann::ordered_json::array();
+  for (const NodeId node : nodes) names.push_back(node_name(node, cluster));
+  return names;
+}
+
+std::vector<NodeId> fault_free_nodes(const FaultFindings& findings, const nodes::FaultPlan& plan,
+                                     const schedules::Cluster& cluster) {
+  std::vector<bool> faulty(cluster.nodes.size(), false);
+  for (const FaultSeen& fault : findings.faults) {
+    const std::vector<bool> named = experiments::named_by(plan.faults.at(fault.fault), cluster);
+    for (std::size_t n = 0; n < named.size(); ++n) faulty[n] = faulty[n] || named[n];
+  }
+  std::vector<NodeId> sound;
+  for (std::size_t n = 0; n < faulty.size(); ++n)
+    if (!faulty[n] && cluster.nodes[n].flexray) sound.push_back(static_cast<NodeId>(n));
+  return sound;
+}
+
+std::string faults_text(std::string_view run, const FaultFindings& findings, const std::vector<NodeId>& fault_free,
+                        const schedules::Cluster& cluster) {
+  std::string text = fmt::format("Faults, {}\n", run);
+  if (findings.faults.empty()) return text + "None of the plan's faults began.\n";
+  return text + injected_text(findings, cluster) + "\n" + checks_text(findings, cluster) + "\n" +
+         guardians_text(findings) + states_text(findings, cluster) + "\n" + harms_text(findings, fault_free, cluster);
+}
+
+nlohmann::ordered_json faults_json(const std::vector<FaultSeen>& faults, const schedules::Cluster& cluster) {
+  auto json = nlohmann::ordered_json::array();
+  for (const FaultSeen& fault : faults) {
+    nlohmann::ordered_json one;
+    one["fault"] = fault.fault;
+    one["kind"] = fault.kind;
+    one["node"] = name_or_null(fault.node, cluster);
+    one["begins_s"] = seconds(fault.begins);
+    one["ends_s"] = seconds_or_null(fault.ends);
+    one["acts"] = fault.acts;
+    one["first_act_s"] = seconds_or_null(fault.first_act);
+    one["first_act"] = fault.text;
+    add_effects(one, fault, cluster);
+    json.push_back(std::move(one));
+  }
+  return json;
+}
+
+nlohmann::ordered_json unattributed_json(const FaultEffects& effects, const schedules::Cluster& cluster) {
+  nlohmann::ordered_json one;
+  add_effects(one, effects, cluster);
+  return one;
+}
+
+}  // namespace ttf::cli

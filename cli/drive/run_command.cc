@@ -1,0 +1,111 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "cli/commands.h"
+#include "cli/drive/drive_setup.h"
+#include "cli/drive/fault_tables.h"
+#include "cli/output.h"
+#include "cli/drive/run_outputs.h"
+#include "cli/drive/startup_outputs.h"
+#include "core/errors.h"
+#include "drives/step_catalog.h"
+#include "recording/log/writer.h"
+#include "recording/records/tee.h"
+
+namespace ttf::cli {
+namespace {
+
+struct RunOptions {
+  std::string scenario;
+  std::string strategy;
+  std::optional<std::string> seed;
+  std::string input;
+  std::string out;
+  bool json = false;
+  bool no_log = false;
+  bool no_pictures = false;
+};
+
+StrategyResult run_strategy(const RunOptions& options, const nodes::Scenario& scenario, fusion::StrategyKind strategy,
+                            std::uint64_t seed, const Recording& recording, const std::string& folder) {
+  StrategyResult result;
+  result.strategy = strategy;
+  result.cluster = checked_cluster(scenario, strategy);
+  DriveJudge judge(scenario, result.cluster);
+  std::vector<records::Sink*> sinks = judge.sinks();
+  std::unique_ptr<recording::LogWriter> log;
+  if (!options.no_log) {
+    result.log_path = fmt::format("{}/{}.mcap", folder, nodes::name_of(strategy));
+    if (!options.input.empty()) refuse_overwriting(options.input, result.log_path, "--out");
+    log = begin_log(result.log_path, manifest_of(scenario, result.cluster, strategy, seed, recording), scenario,
+                    result.cluster);
+    sinks.push_back(log.get());
+  }
+  records::Tee tee(sinks);
+  const sim::DriveConfig config{&scenario, &result.cluster, strategy, seed, 0, recording.rows};
+  result.outcome = sim::run_drive(config, tee);
+  judge.finish(result);
+  if (log) {
+    log->close();
+    result.content_hash = log->content_hash_text();
+  }
+  return result;
+}
+
+int run_scenario(const RunOptions& options) {
+  const nodes::Scenario scenario = nodes::load_scenario(options.scenario);
+  const std::uint64_t seed = options.seed ? seed_of(*options.seed) : scenario.seed;
+  const Recording recording = read_recording(options.input);
+  const std::string folder = options.out.empty() ? folder_of(scenario) : options.out;
+  // Before anything is simulated or an earlier run's log is written over.
+  for (const fusion::StrategyKind strategy : chosen(options.strategy))
+    sim::check_fits(scenario, checked_cluster(scenario, strategy), strategy, recording.rows != nullptr);
+  create_folder(folder);
+
+  std::vector<StrategyResult> results;
+  for (const fusion::StrategyKind strategy : chosen(options.strategy)) {
+    fmt::print(stderr, "{}: {:g} s with {} ...\n", scenario.name, scenario.duration.seconds(),
+               nodes::name_of(strategy));
+    results.push_back(run_strategy(options, scenario, strategy, seed, recording, folder));
+  }
+  if (!options.no_pictures && !options.no_log) write_pictures(scenario, results, folder);
+  const nlohmann::ordered_json json = to_json(scenario, seed, results);
+  write_file(folder + "/summary.json", json.dump(2) + '\n');
+  if (options.json) {
+    fmt::print("{}\n", json.dump(2));
+  } else {
+    fmt::print("{}\n{}{}", scenario.description, startup_text(results, scenario.startup.cold),
+               comparison_table(results));
+    if (!scenario.faults.empty())
+      for (const StrategyResult& result : results)
+        fmt::print("\n{}",
+                   faults_text(nodes::name_of(result.strategy), result.faults, result.fault_free, result.cluster));
+  }
+  std::fflush(stdout);  // both may go to one file
+  fmt::print(stderr, "written to {}\n", folder);
+  return 0;
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, Action& action) {
+  auto options = std::make_shared<RunOptions>();
+  CLI::App* command = app.add_subcommand("run", "One drive in virtual time: log, summary table and pictures");
+  command->footer("Example: ttfusion run scenarios/paper_scenario1.yaml --seed 7 --out out/drive");
+  command->add_option("scenario", options->scenario, "Scenario file")->required();
+  command->add_option("--strategy", options->strategy, "Only one strategy; all three otherwise")
+      ->check(CLI::IsMember({"buff", "adva", "tt"}));
+  command->add_option("--seed", options->seed, "Seed of every random stream, instead of the scenario's");
+  command->add_option("--input", options->input, "Recorded observations in place of the sensor models")->check(kNamed);
+  command->add_option("--out", options->out, "Folder for logs and pictures (default: out/<scenario>)")->check(kNamed);
+  command->add_flag("--json", options->json, "Summary as JSON on standard output");
+  command->add_flag("--no-log", options->no_log, "Write no logs (and so no pictures)");
+  command->add_flag("--no-pictures", options->no_pictures, "Write logs only");
+  command->callback([options, &action] { action = [options] { return run_scenario(*options); }; });
+}
+
+}  // namespace ttf::cli

@@ -1,0 +1,302 @@
+#include "cli/drive/run_outputs.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "cli/drive/fault_tables.h"
+#include "cli/drive/real_time_outputs.h"
+#include "cli/drive/startup_outputs.h"
+#include "recording/log/reader.h"
+#include "recording/records/tee.h"
+#include "report/page/index_page.h"
+#include "report/plots/lateness_picture.h"
+#include "report/plots/position_plot.h"
+#include "report/drawing/render.h"
+#include "report/plots/schedule_picture.h"
+#include "report/startup/diagram.h"
+#include "report/drawing/tables.h"
+#include "report/timing/diagram.h"
+
+namespace ttf::cli {
+namespace {
+
+double us(Duration d) { return static_cast<double>(d.ns) * 1e-3; }
+
+using Value = std::string (*)(const StrategyResult&);
+struct Row {
+  const char* name;
+  Value value;
+  bool rare = false;  // what a sound drive has none of: shown where some strategy has some
+};
+
+std::string number(std::uint64_t n) { return fmt::format("{}", n); }
+// Of nothing there is no age, rather than one of zero.
+std::string mean_cell(const experiments::AgeStatistics& ages) {
+  return ages.count == 0 ? "-" : report::cell(in_ms(ages.mean()), 1);
+}
+std::string worst_cell(const experiments::AgeStatistics& ages) {
+  return ages.count == 0 ? "-" : report::cell(in_ms(ages.worst), 1);
+}
+
+// Times the feature service had an image and took it.
+std::uint64_t uses(const StrategyResult& result) { return result.summary.uses - result.summary.stale_uses; }
+
+// Of one clock alone, or of clocks that never ran together, there is no precision, rather than a perfect one.
+std::optional<double> precision_us(const StrategyResult& result) {
+  return result.outcome.precision.ns == 0 ? std::nullopt : std::optional(us(result.outcome.precision));
+}
+
+// Lists that were made and never fused: too late for the strategy, or lost between a task's end and its reader's start.
+std::uint64_t lost_lists(const StrategyResult& result) {
+  const nodes::ExecutiveCounts& counts = result.outcome.counts;
+  return result.summary.dropped + counts.torn_lists + counts.overwritten_lists + counts.discarded_lists;
+}
+
+const Row kRows[] = {
+    {"position RMSE against truth [m]",
+     [](const StrategyResult& r) { return report::cell(r.summary.position_rmse_truth, 3); }},
+    {"velocity RMSE against truth [m/s]",
+     [](const StrategyResult& r) { return report::cell(r.summary.velocity_rmse_truth, 3); }},
+    {"  x, y, vx, vy",
+     [](const StrategyResult& r) {
+       const auto& rmse = r.summary.rmse_truth;
+       return fmt::format("{} {} {} {}", report::cell(rmse[0], 2), report::cell(rmse[1], 2), report::cell(rmse[2], 2),
+                          report::cell(rmse[3], 2));
+     }},
+    {"position RMSE against DGPS [m]",
+     [](const StrategyResult& r) { return report::cell(r.summary.position_rmse_reference, 3); }},
+    {"velocity RMSE against DGPS [m/s]",
+     [](const StrategyResult& r) { return report::cell(r.summary.velocity_rmse_reference, 3); }},
+    {"NEES (4 degrees of freedom)", [](const StrategyResult& r) { return report::cell(r.summary.nees, 2); }},
+    {"  95 % band",
+     [](const StrategyResult& r) {
+       return r.summary.nees_samples == 0 ? std::string("-")
+                                          : fmt::format("{:.2f}..{:.2f}", r.summary.nees_low, r.summary.nees_high);
+     }},
+    {"age when fused, mean [ms]", [](const StrategyResult& r) { return mean_cell(r.summary.age_fused); }},
+    {"age when fused, worst [ms]", [](const StrategyResult& r) { return worst_cell(r.summary.age_fused); }},
+    {"age when used, mean [ms]", [](const StrategyResult& r) { return mean_cell(r.summary.age_used); }},
+    {"age when used, worst [ms]", [](const StrategyResult& r) { return worst_cell(r.summary.age_used); }},
+    {"observation lists received", [](const StrategyResult& r) { return number(r.summary.received); }},
+    {"  arrived out of sequence", [](const StrategyResult& r) { return number(r.summary.out_of_sequence); }},
+    {"  fused late (retrodicted)", [](const StrategyResult& r) { return number(r.summary.fused_late); }},
+    {"  times held back", [](const StrategyResult& r) { return number(r.summary.held); }},
+    {"  held back for, mean / worst [ms]",
+     [](const StrategyResult& r) {
+       const experiments::AgeStatistics& held = r.summary.held_for;
+       return held.count == 0 ? std::string("-") : mean_cell(held) + " / " + worst_cell(held);
+     }},
+    {"  dropped", [](const StrategyResult& r) { return number(lost_lists(r)); }},
+    {"    too old to be fused", [](const StrategyResult& r) { return number(r.summary.dropped); }, true},
+    {"    torn on the way", [](const StrategyResult& r) { return number(r.outcome.counts.torn_lists); }, true},
+    {"    overwritten before they were read",
+     [](const StrategyResult& r) { return number(r.outcome.counts.overwritten_lists); }, true},
+    {"    discarded: no time of measuring",
+     [](const StrategyResult& r) { return number(r.outcome.counts.discarded_lists); }, true},
+    {"fragments refused", [](const StrategyResult& r) { return number(r.outcome.counts.refused_fragments); }, true},
+    {"uses of an image", [](const StrategyResult& r) { return number(uses(r)); }},
+    {"  refused for its age", [](const StrategyResult& r) { return number(r.summary.stale_uses); }, true},
+    {"  with a warning", [](const StrategyResult& r) { return number(r.summary.warnings); }},
+    {"objects compared / missed / spurious",
+     [](const StrategyResult& r) {
+       if (r.summary.matched + r.summary.missed + r.summary.spurious == 0) return std::string("-");
+       return fmt::format("{} / {} / {}", r.summary.matched, r.summary.missed, r.summary.spurious);
+     }},
+    {"precision of the time base [us]",
+     [](const StrategyResult& r) {
+       const auto precision = precision_us(r);
+       return precision ? report::cell(*precision, 3) : std::string("-");
+     }},
+    {"slot problems", [](const StrategyResult& r) { return number(r.outcome.counts.slot_problems); }},
+    {"deadlines missed", [](const StrategyResult& r) { return number(r.outcome.counts.deadlines_missed); }},
+    {"FlexRay load per channel [%]",
+     [](const StrategyResult& r) { return report::cell(100 * r.outcome.flexray_load, 1); }},
+    {"content hash of the log",
+     [](const StrategyResult& r) { return r.content_hash.empty() ? std::string("-") : r.content_hash; }},
+    {"CAN frames refused", [](const StrategyResult& r) { return number(r.outcome.counts.refused_can_frames); }, true},
+    {"fates of lists that no record tells",
+     [](const StrategyResult& r) { return number(r.outcome.counts.unlisted_fates); }, true},
+};
+
+nlohmann::ordered_json ages(const experiments::AgeStatistics& statistics) {
+  if (statistics.count == 0) return {{"count", 0}, {"mean_ms", nullptr}, {"worst_ms", nullptr}};
+  return {{"count", statistics.count}, {"mean_ms", in_ms(statistics.mean())}, {"worst_ms", in_ms(statistics.worst)}};
+}
+
+constexpr const char* kPictureFormats[] = {".svg", ".png", ".pdf"};
+constexpr const char* kIndex = "index.html";
+constexpr const char* kSchedule = "schedule";
+// Of each strategy: STRATEGY_timing and so on.
+constexpr const char* kOfStrategy[] = {"startup", "lateness", "timing", "over_time", "plane"};
+
+report::PositionOptions position_options(const nodes::Scenario& scenario, const StrategyResult& result) {
+  report::PositionOptions options;
+  options.title = fmt::format("{}, {}", scenario.name, nodes::name_of(result.strategy));
+  options.from = sim::evaluation_start(scenario);
+  options.to = sim::drive_end(scenario);
+  for (std::size_t o = 0; o < scenario.world.objects.size(); ++o)
+    if (scenario.world.objects[o].reference) options.object = static_cast<ObjectId>(o);
+  return options;
+}
+
+}  // namespace
+
+std::string comparison_table(const std::vector<StrategyResult>& results) {
+  std::vector<std::string> header{"measure"};
+  for (const StrategyResult& result : results) header.emplace_back(nodes::name_of(result.strategy));
+  report::Table table(header);
+  const auto add = [&](const Row& row) {
+    std::vector<std::string> cells{row.name};
+    bool any = false;
+    for (const StrategyResult& result : results) {
+      cells.push_back(row.value(result));
+      any = any || cells.back() != "0";
+    }
+    if (any || !row.rare) table.add(std::move(cells));
+  };
+  for (const Row& row : kRows) add(row);
+  for (std::size_t b = 0; !results.empty() && b < results.front().cluster.can_buses.size(); ++b) {
+    std::vector<std::string> cells{fmt::format("{} load [%]", results.front().cluster.can_buses[b].name)};
+    for (const StrategyResult& result : results)
+      cells.push_back(b < result.outcome.can_load.size() ? report::cell(100 * result.outcome.can_load[b], 1) : "-");
+    table.add(std::move(cells));
+  }
+  return table.text();
+}
+
+// What is not a number becomes null.
+nlohmann::ordered_json to_json(const nodes::Scenario& scenario, std::uint64_t seed,
+                               const std::vector<StrategyResult>& results) {
+  nlohmann::ordered_json json;
+  json["scenario"] = scenario.name;
+  json["seed"] = seed;
+  json["duration_s"] = scenario.duration.seconds();
+  for (const StrategyResult& result : results) {
+    const experiments::DriveSummary& s = result.summary;
+    nlohmann::ordered_json one;
+    one["strategy"] = nodes::name_of(result.strategy);
+    one["cluster"] = result.cluster.name;
+    one["rmse_truth"] = {{"position_m", s.position_rmse_truth},
+                         {"velocity_mps", s.velocity_rmse_truth},
+                         {"x", s.rmse_truth[0]},
+                         {"y", s.rmse_truth[1]},
+                         {"vx", s.rmse_truth[2]},
+                         {"vy", s.rmse_truth[3]}};
+    one["rmse_reference"] = {{"position_m", s.position_rmse_reference},
+                             {"velocity_mps", s.velocity_rmse_reference},
+                             {"compared", s.reference_compared}};
+    one["nees"] = {{"mean", s.nees},
+                   {"samples", s.nees_samples},
+                   {"degrees_of_freedom", 4},
+                   {"band_95", {s.nees_low, s.nees_high}}};
+    one["age_when_fused"] = ages(s.age_fused);
+    one["age_when_used"] = ages(s.age_used);
+    for (const auto& [sensor, statistics] : s.age_used_by_sensor)
+      one["age_when_used_by_sensor"][result.cluster.sensor(sensor).name] = ages(statistics);
+    one["observations"] = {{"received", s.received},
+                           {"out_of_sequence", s.out_of_sequence},
+                           {"fused", s.fused},
+                           {"late", s.fused_late},
+                           {"held", s.held},
+                           {"dropped", s.dropped},
+                           {"duplicates", s.duplicates},
+                           {"torn", result.outcome.counts.torn_lists},
+                           {"overwritten", result.outcome.counts.overwritten_lists},
+                           {"discarded", result.outcome.counts.discarded_lists},
+                           {"lost", lost_lists(result)}};
+    one["held_back_for"] = ages(s.held_for);
+    one["objects"] = {{"compared", s.matched}, {"missed", s.missed}, {"spurious", s.spurious}};
+    one["uses"] = s.uses;
+    one["uses_with_warning"] = s.warnings;
+    if (!result.startup.empty()) one["startup"] = startup_json(result);
+    one["uses_refused_as_stale"] = s.stale_uses;
+    one["precision_us"] = nullptr;
+    if (const auto precision = precision_us(result)) one["precision_us"] = *precision;
+    one["slot_problems"] = result.outcome.counts.slot_problems;
+    one["deadlines_missed"] = result.outcome.counts.deadlines_missed;
+    one["overruns"] = result.outcome.counts.overruns;
+    one["saturated_signals"] = result.outcome.counts.saturated_signals;
+    one["refused_fragments"] = result.outcome.counts.refused_fragments;
+    one["refused_can_frames"] = result.outcome.counts.refused_can_frames;
+    one["unlisted_fates"] = result.outcome.counts.unlisted_fates;
+    one["frames_sent"] = result.outcome.frames_sent;
+    one["flexray_load"] = result.outcome.flexray_load;
+    for (std::size_t b = 0; b < result.outcome.can_load.size(); ++b)
+      one["can_load"][result.cluster.can_buses[b].name] = result.outcome.can_load[b];
+    one["content_hash"] = result.content_hash;
+    one["log"] = result.log_path;
+    if (result.real_time) one["real_time"] = real_time_json(result);
+    if (!scenario.faults.empty()) {
+      one["faults"] = faults_json(result.faults.faults, result.cluster);
+      one["fault_free_nodes"] = names_json(result.fault_free, result.cluster);
+      one["unattributed"] = unattributed_json(result.faults.unattributed, result.cluster);
+    }
+    json["strategies"].push_back(std::move(one));
+  }
+  return json;
+}
+
+std::vector<std::string> picture_files(std::string_view strategy) {
+  std::vector<std::string> files{kIndex};
+  for (const std::string format : kPictureFormats) {
+    files.push_back(kSchedule + format);
+    for (const char* const what : kOfStrategy) files.push_back(fmt::format("{}_{}{}", strategy, what, format));
+  }
+  return files;
+}
+
+void write_pictures(const nodes::Scenario& scenario, const std::vector<StrategyResult>& results,
+                    const std::string& folder) {
+  std::vector<report::IndexEntry> entries;
+  entries.push_back({scenario.description, "", "", comparison_table(results), {"summary.json"}});
+  const auto picture = [&](const std::string& name, const std::string& heading, const std::string& caption,
+                           const std::string& svg) {
+    report::write_picture(svg, folder + "/" + name + ".svg");
+    report::write_picture(svg, folder + "/" + name + ".png");
+    report::write_picture(svg, folder + "/" + name + ".pdf");
+    entries.push_back({heading, name + ".svg", caption, "", {name + ".png", name + ".pdf"}});
+  };
+
+  std::vector<std::unique_ptr<report::PositionPlots>> plots;
+  std::vector<const report::PositionPlots*> panels;
+  std::vector<std::string> titles;
+  for (const StrategyResult& result : results) {
+    report::Names names = report::names_of(result.cluster);
+    names.run = fmt::format("{}, {}", scenario.name, nodes::name_of(result.strategy));
+    const std::string strategy(nodes::name_of(result.strategy));
+    // The timing diagram shows 160 ms, four images, from where the drive is judged.
+    const TrueTime from = sim::evaluation_start(scenario);
+    report::TimingDiagram timing(names, result.cluster.cycle(), from, from + Duration::milliseconds(160));
+    plots.push_back(std::make_unique<report::PositionPlots>(names, position_options(scenario, result)));
+    report::StartupExtent extent;
+    records::Tee tee({&timing, plots.back().get(), &extent});
+    recording::read_log(result.log_path, tee);
+    if (const auto window = extent.window(result.cluster.cycle())) {
+      report::StartupDiagram startup(names, result.cluster.cycle(), window->first, window->second);
+      recording::read_log(result.log_path, startup);
+      picture(strategy + "_startup", strategy + ": start-up", "Every node's states, and what it sent.", startup.svg());
+    }
+    if (result.real_time) {
+      picture(strategy + "_lateness", strategy + ": lateness",
+              "How late the nodes' processes were woken up, in real time.",
+              report::lateness_svg(result.real_time->lateness, names));
+      entries.push_back({"", "", "", real_time_text(result), {}});
+    }
+    picture(strategy + "_timing", strategy + ": timing", "Slots, tasks and every measurement's way.", timing.svg());
+    picture(strategy + "_over_time", strategy + ": x and y over time", "", plots.back()->over_time_svg());
+    picture(strategy + "_plane", strategy + ": y over x", "", plots.back()->plane_svg());
+    panels.push_back(plots.back().get());
+    titles.push_back(strategy);
+  }
+  if (panels.size() > 1)
+    picture("comparison", "The strategies side by side", "y over x, the same axes.",
+            report::comparison_svg(panels, titles));
+  picture("schedule", "Schedule of " + results.back().cluster.name, "One communication cycle and the multiplexing.",
+          report::schedule_svg(results.back().cluster));
+  report::write_index(folder, scenario.name, entries);
+}
+
+}  // namespace ttf::cli

@@ -1,0 +1,44 @@
+// What `ttfusion run` leaves behind for people: tables, pictures, an index page; and its JSON.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "evaluation/faults/fault_account.h"
+#include "evaluation/lateness/lateness_account.h"
+#include "evaluation/accuracy/drive_measures.h"
+#include "evaluation/cluster/startup_account.h"
+#include "fusion/strategies/strategy.h"
+#include "drives/scenario.h"
+#include "schedules/model/cluster.h"
+#include "drives/drive.h"
+
+namespace ttf::cli {
+
+struct StrategyResult {
+  fusion::StrategyKind strategy{};
+  schedules::Cluster cluster;
+  sim::DriveOutcome outcome;
+  experiments::DriveSummary summary;
+  std::vector<experiments::NodeStartup> startup;  // nodes that started up or changed their state
+  experiments::FaultFindings faults;
+  std::vector<NodeId> fault_free;                          // to the end, of those on FlexRay
+  std::optional<experiments::RealTimeFindings> real_time;  // of a run by the wall clock
+  std::string log_path;
+  std::string content_hash;
+};
+
+// The comparison table, a column a strategy.
+std::string comparison_table(const std::vector<StrategyResult>& results);
+nlohmann::ordered_json to_json(const nodes::Scenario& scenario, std::uint64_t seed,
+                               const std::vector<StrategyResult>& results);
+// All files that write_pictures() may make of this one strategy.
+std::vector<std::string> picture_files(std::string_view strategy);
+// Timing diagrams, position plots and index.html in `folder`, from the logs alone.
+void write_pictures(const nodes::Scenario& scenario, const std::vector<StrategyResult>& results,
+                    const std::string& folder);
+
+}  // namespace ttf::cli

@@ -1,0 +1,61 @@
+#include "cli/drive/startup_outputs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "report/drawing/tables.h"
+
+namespace ttf::cli {
+
+std::string startup_text(const std::vector<StrategyResult>& results, bool cold) {
+  std::vector<std::pair<std::string, std::string>> tables;  // with the strategies they are of
+  for (const StrategyResult& result : results) {
+    if (result.startup.empty()) continue;
+    report::Table table({"node", cold ? "powered on [ms]" : "powered on again [ms]",
+                         cold ? "first active in cycle" : "first active again in cycle", "at [ms]",
+                         "in state at the end, and why"});
+    for (const experiments::NodeStartup& node : result.startup) {
+      const bool on_flexray = !node.state.empty();
+      table.add({result.cluster.node(node.node).name, node.powered ? report::cell(in_ms(*node.powered), 1) : "-",
+                 node.active ? fmt::format("{}", node.active->cycle) : "-",
+                 node.active ? report::cell(in_ms(node.active->at), 1) : "-",
+                 on_flexray ? fmt::format("{}: {}", node.state, node.why) : "not on FlexRay"});
+    }
+    const std::string name(nodes::name_of(result.strategy)), body = table.text();
+    const auto same =
+        std::find_if(tables.begin(), tables.end(), [&](const auto& other) { return other.second == body; });
+    if (same != tables.end())
+      same->first += ", " + name;
+    else
+      tables.emplace_back(name, body);
+  }
+  std::string text;
+  for (const auto& [names, body] : tables)
+    text += fmt::format("{} with {}\n{}\n", cold ? "start-up" : "changes of state", names, body);
+  return text;
+}
+
+nlohmann::ordered_json startup_json(const StrategyResult& result) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const experiments::NodeStartup& node : result.startup) {
+    nlohmann::ordered_json one;
+    one["node"] = result.cluster.node(node.node).name;
+    one["powered_on_ms"] = nullptr;
+    if (node.powered) one["powered_on_ms"] = in_ms(*node.powered);
+    one["active"] = nullptr;
+    if (node.active)
+      one["active"] = {{"cycle", node.active->cycle},
+                       {"at_ms", in_ms(node.active->at)},
+                       {"from", node.active->from},
+                       {"why", node.active->why}};
+    one["state"] = node.state;
+    one["why"] = node.why;
+    list.push_back(std::move(one));
+  }
+  return list;
+}
+
+}  // namespace ttf::cli

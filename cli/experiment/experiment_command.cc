@@ -1,0 +1,96 @@
+#include <fmt/format.h>
+#include <malloc.h>
+
+#include <charconv>
+#include <memory>
+#include <string>
+
+#include "cli/commands.h"
+#include "cli/experiment/options.h"
+#include "core/errors.h"
+#include "core/strict_yaml.h"
+#include "experiments/sweep/file.h"
+
+namespace ttf::cli {
+
+experiments::Shard shard_of(const std::string& text) {
+  experiments::Shard shard;
+  if (text.empty()) return shard;
+  const char* const end = text.data() + text.size();
+  const auto first = std::from_chars(text.data(), end, shard.part);
+  if (first.ec == std::errc{} && first.ptr != end && *first.ptr == '/') {
+    const auto second = std::from_chars(first.ptr + 1, end, shard.count);
+    if (second.ec == std::errc{} && second.ptr == end && shard.part >= 1 && shard.part <= shard.count) {
+      --shard.part;
+      return shard;
+    }
+  }
+  throw InputError({"command line", 0, "--shard", text, "must be i/n with i from 1 to n"});
+}
+
+ExperimentKind kind_of(const ExperimentOptions& options) {
+  Findings none;
+  YamlMap root = StrictYaml::load(options.file).root(none);
+  const std::string kind = root.text_or("kind", "");
+  if (kind == "fault_campaign") return ExperimentKind::kFaultCampaign;
+  if (kind == "sweep") return ExperimentKind::kSweep;
+  throw InputError({options.file, root.line("kind"), "kind", kind, "must be sweep or fault_campaign"});
+}
+
+namespace {
+
+// What a drive gives back the next one takes. The C library would return it to the system every time, which interrupts
+// all workers.
+void keep_freed_memory() {
+  constexpr int kMegabyte = 1 << 20;
+  mallopt(M_MMAP_THRESHOLD, 16 * kMegabyte);
+  mallopt(M_TRIM_THRESHOLD, 32 * kMegabyte);
+}
+
+int run_experiment(const ExperimentOptions& options) {
+  keep_freed_memory();
+  experiments::Ranks ranks;
+  if (ranks.size() > 1) return run_on_ranks(options, ranks);
+  if (kind_of(options) == ExperimentKind::kFaultCampaign) {
+    if (options.replications > 0)
+      throw InputError({"command line", 0, "--replications", std::to_string(options.replications),
+                        "is for sweeps: a campaign has faults, each once"});
+    return run_fault_campaign(options);
+  }
+  return run_sweep_experiment(options, ranks);
+}
+
+}  // namespace
+
+void add_experiment(CLI::App& app, Action& action) {
+  auto options = std::make_shared<ExperimentOptions>();
+  CLI::App* command = app.add_subcommand(
+      "experiment",
+      "Many drives, and what they answer: a sweep over paradigms and axes, or a campaign of single faults");
+  command->footer(
+      "Examples: ttfusion experiment experiments/process_noise.yaml --out out/noise\n"
+      "          ttfusion experiment experiments/process_noise.yaml --out out/noise --resume\n"
+      "          ttfusion experiment experiments/process_noise.yaml --replay 3/time_triggered/17 --out out/one\n"
+      "          ttfusion experiment experiments/fault_campaign.yaml --replay 17\n"
+      "          ttfusion experiment FILE --shard 1/2 --out a; ttfusion experiment FILE --shard 2/2 --out b;\n"
+      "          ttfusion experiment FILE --merge a b --out both\n"
+      "          ttfusion experiment FILE --replications 20 --out quick\n"
+      "          mpirun -n 8 ttfusion experiment FILE --out all");
+  command->add_option("file", options->file, "Experiment file")->required();
+  command->add_option("--jobs", options->jobs, "Workers (default: one per processor)")->check(CLI::Range(1u, 1024u));
+  command->add_option("--replications", options->replications, "As many of every point, whatever the file says")
+      ->check(CLI::Range(1u, experiments::kMostReplications));
+  auto* shard =
+      command->add_option("--shard", options->shard, "i/n: every n-th fault or replication only, from the i-th on");
+  auto* merge = command->add_option("--merge", options->merge, "Folders of all shards, whose results are put together");
+  auto* replay =
+      command->add_option("--replay", options->replay, "One fault alone, or one run as point/paradigm/replication");
+  auto* resume = command->add_flag("--resume", options->resume, "Go on with what --out has already");
+  command->add_option("--out", options->out, "Folder for results (a sweep's default: out/<name>)");
+  auto* json = command->add_flag("--json", options->json, "The answer as JSON on standard output");
+  merge->excludes(shard)->excludes(resume);
+  replay->excludes(shard)->excludes(merge)->excludes(resume)->excludes(json);
+  command->callback([options, &action] { action = [options] { return run_experiment(*options); }; });
+}
+
+}  // namespace ttf::cli

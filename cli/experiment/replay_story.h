@@ -1,0 +1,39 @@
+// One fault of a campaign in words: what the fault does, what the guardians keep from the others, and which nodes
+// change their state and why, in the order of time.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "experiments/campaign/trial.h"
+
+namespace ttf::cli {
+
+class ReplayStory final : public experiments::TrialStory {
+ public:
+  explicit ReplayStory(const schedules::Cluster& cluster) : cluster_(cluster) {}
+
+  void state_changed(NodeId node, bus::PocKind from, const bus::PocStep& step, TrueTime at) override;
+  void fault_acts(const records::FaultActivity& activity) override;
+  void guardian_intervened(const sim::StarCoupler::Intervention& intervention) override;
+  void judged(const experiments::Judgement& judgement) override;
+  // Prints it: what happened at one instant in the order in which it was told.
+  void finish();
+
+ private:
+  static constexpr std::uint64_t kShown = 12;  // acts of the fault, and as many of the guardians
+  enum class Of : std::uint8_t { kOthers, kFault, kGuardians };
+  struct Line {
+    TrueTime at;
+    Of of;
+    std::string text;
+  };
+  void say(TrueTime at, std::string text, Of of = Of::kOthers) { lines_.push_back({at, of, std::move(text)}); }
+
+  const schedules::Cluster& cluster_;
+  std::vector<Line> lines_;  // in the order they were told: a guardian's doing, and who noticed what, long afterwards
+};
+
+}  // namespace ttf::cli

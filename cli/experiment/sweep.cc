@@ -1,0 +1,268 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "cli/experiment/drives.h"
+#include "cli/experiment/options.h"
+#include "cli/output.h"
+#include "cli/progress.h"
+#include "core/counted.h"
+#include "core/errors.h"
+#include "experiments/sweep/engine.h"
+#include "experiments/sweep/measures.h"
+#include "experiments/sweep/text.h"
+
+namespace ttf::cli {
+namespace {
+
+using experiments::SweepDrives;
+using experiments::SweepFile;
+using results::Store;
+
+constexpr std::size_t kShownFailures = 10;  // the others are in runs.csv
+
+std::string folder_of(const ExperimentOptions& options, const SweepFile& sweep) {
+  return options.out.empty() ? "out/" + sweep.name : options.out;
+}
+std::string store_in(const std::string& folder) { return folder + "/results.sqlite"; }
+
+std::string key_text(const SweepFile& sweep, const results::RunKey& key) {
+  return fmt::format("{}/{}/{}", key.point, sweep.paradigms[key.paradigm].name, key.replication);
+}
+
+std::string names_of(const SweepFile& sweep) {
+  std::vector<std::string> names;
+  for (const experiments::Paradigm& paradigm : sweep.paradigms) names.push_back(paradigm.name);
+  return joined(names);
+}
+
+results::RunKey key_of(const std::string& text, const SweepFile& sweep) {
+  const std::size_t first = text.find('/'), second = text.rfind('/');
+  results::RunKey key;
+  const auto number = [](std::string_view part, std::size_t below, std::uint32_t& value) {
+    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), value);
+    return error == std::errc{} && end == part.data() + part.size() && value < below;
+  };
+  if (first != std::string::npos && second > first) {
+    const std::string_view all = text;
+    const std::string_view name = all.substr(first + 1, second - first - 1);
+    for (std::uint32_t p = 0; p < sweep.paradigms.size(); ++p)
+      if (key.paradigm = p; sweep.paradigms[p].name == name &&
+                            number(all.substr(0, first), sweep.points(), key.point) &&
+                            number(all.substr(second + 1), sweep.replications, key.replication))
+        return key;
+  }
+  throw InputError(
+      {"command line", 0, "--replay", text,
+       fmt::format("must be point/paradigm/replication, of points 0..{} and replications 0..{}; paradigms: {}",
+                   sweep.points() - 1, sweep.replications - 1, names_of(sweep))});
+}
+
+int replay(const ExperimentOptions& options, const SweepDrives& drives) {
+  const SweepFile& sweep = drives.sweep();
+  const results::RunKey key = key_of(*options.replay, sweep);
+  if (!options.out.empty()) create_folder(options.out);
+  const results::Run run =
+      options.out.empty() ? drives.run(key, drives.prepare(key)) : drive_again(drives, key, options.out);
+  if (!options.out.empty()) fmt::print(stderr, "written to {}\n", options.out);
+  fmt::print("{}, {}, replication {}: {}\n", sweep.label_of(key.point), sweep.paradigms[key.paradigm].name,
+             key.replication, run.status);
+  const std::vector<std::string> columns = drives.columns();
+  for (std::size_t c = 0; c < columns.size(); ++c)
+    fmt::print("  {} {}\n", columns[c], std::isnan(run.values[c]) ? "-" : fmt::format("{}", run.values[c]));
+  return run.status == results::kDone ? 0 : 1;
+}
+
+// Of this experiment, every run of it. Throws InputError.
+Store opened(const SweepDrives& drives, const std::string& path) {
+  Store store = Store::open(path);
+  if (store.head().identity != drives.identity() || store.head().measures != drives.columns() ||
+      store.head().version != TTF_VERSION)
+    throw InputError({path, 0, "", "",
+                      "must be of this experiment: the file, a file that it names or the program was another then"});
+  const SweepFile& sweep = drives.sweep();
+  for (const results::RunKey& key : store.keys())
+    if (key.point >= sweep.points() || key.replication >= sweep.replications || key.paradigm >= sweep.paradigms.size())
+      throw InputError({path, 0, "runs", fmt::format("{}/{}/{}", key.point, key.paradigm, key.replication),
+                        "must be a run of this experiment: point/paradigm/replication"});
+  return store;
+}
+
+Store store_of(const ExperimentOptions& options, const SweepDrives& drives, const std::string& path) {
+  const SweepFile& sweep = drives.sweep();
+  if (!std::filesystem::exists(path))
+    return Store::create(
+        path, {sweep.name, drives.identity(), TTF_VERSION, sweep.text, drives.columns(), sweep.replications});
+  if (!options.resume)
+    throw InputError({path, 0, "", "", "is there already: --resume goes on with it, another --out begins anew"});
+  Store store = opened(drives, path);
+  if (store.head().replications != sweep.replications) store.ask_for(sweep.replications);
+  return store;
+}
+
+// Whether all of it is there.
+bool merge(const std::vector<Store>& shards, const SweepFile& sweep, Store& store) {
+  for (const Store& shard : shards) {
+    std::vector<results::Run> some;
+    shard.for_each([&](const results::Run& run) {
+      some.push_back(run);
+      if (some.size() == 10'000) store.add(std::exchange(some, {}));
+    });
+    store.add(some);
+  }
+  const std::uint64_t all = sweep.runs();
+  if (sweep.stop || store.count() == all) return true;
+  fmt::print(stderr, "error: {} of {} runs are not among them: --resume drives them\n", all - store.count(), all);
+  return false;
+}
+
+// `ranks`: of more than one, every rank is a worker.
+void drive(const ExperimentOptions& options, const SweepDrives& drives, experiments::Shard shard, Store& store,
+           experiments::Ranks& ranks) {
+  const SweepFile& sweep = drives.sweep();
+  const bool alone = ranks.size() == 1;
+  const unsigned jobs = !alone ? 1 : options.jobs > 0 ? options.jobs : experiments::workers_here();
+  fmt::print(stderr, "{}: {}, {}, {}, {} ...\n", sweep.name, counted(sweep.points(), "point"),
+             counted(sweep.paradigms.size(), "paradigm"), counted(sweep.replications, "replication"),
+             alone ? counted(jobs, "worker") : counted(static_cast<std::size_t>(ranks.size()), "rank"));
+  const Progress progress("runs");
+  experiments::run_sweep(
+      drives, store, shard, jobs,
+      [&](const experiments::SweepProgress& now) { progress(now.done, now.all, now.driven); },
+      alone ? nullptr : &ranks);
+}
+
+nlohmann::ordered_json to_json(double value) {
+  return std::isnan(value) ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(value);
+}
+nlohmann::ordered_json to_json(const results::Interval& interval) {
+  return {{"count", interval.count}, {"mean", to_json(interval.mean)}, {"half_width", to_json(interval.half_width)}};
+}
+
+nlohmann::ordered_json to_json(const SweepFile& sweep, const experiments::SweepAnswer& answer) {
+  nlohmann::ordered_json json{{"experiment", sweep.name},
+                              {"file", sweep.file},
+                              {"question", sweep.question},
+                              {"seed", sweep.seed},
+                              {"confidence", sweep.confidence},
+                              {"runs", answer.runs},
+                              {"failed", answer.failed},
+                              {"baseline", sweep.paradigms[sweep.baseline].name},
+                              {"answer", experiments::answer_sentences(sweep, answer)}};
+  for (const std::string& name : sweep.measures) {
+    const experiments::Measure& measure = *experiments::find_measure(name);
+    json["measures"][name] = {{"unit", measure.unit}, {"meaning", measure.meaning}};
+  }
+  const auto axes = sweep.grid();
+  for (const experiments::PointAnswer& point : answer.points) {
+    nlohmann::ordered_json one{{"point", point.point}};
+    const auto settings = sweep.settings_of(point.point);
+    for (std::size_t a = 0; a < axes.size(); ++a) one["axes"][axes[a]->name] = settings[a]->label;
+    for (std::size_t p = 0; p < sweep.paradigms.size(); ++p)
+      for (std::size_t m = 0; m < sweep.measures.size(); ++m) {
+        nlohmann::ordered_json& cell = one["paradigms"][sweep.paradigms[p].name][sweep.measures[m]];
+        cell = to_json(point.means[p][m]);
+        if (p != sweep.baseline) cell["difference"] = to_json(point.differences[p][m]);
+      }
+    json["points"].push_back(std::move(one));
+  }
+  for (const experiments::Crossing& crossing : answer.crossings)
+    json["crossings"].push_back({{"paradigm", sweep.paradigms[crossing.paradigm].name},
+                                 {"axis", crossing.axis},
+                                 {"at", crossing.at},
+                                 {"others", crossing.others},
+                                 {"certain", crossing.certain}});
+  for (const experiments::ExpectationAnswer& expectation : answer.expectations)
+    json["expectations"].push_back(
+        {{"expected", expectation.text}, {"holds", expectation.holds}, {"where_not", expectation.where_not}});
+  return json;
+}
+
+// Failed runs, each with what drives it again.
+std::string failures_text(const ExperimentOptions& options, const SweepFile& sweep, const Store& store) {
+  std::string text;
+  std::size_t shown = 0;
+  store.for_each([&](const results::Run& run) {
+    if (run.status == results::kDone || ++shown > kShownFailures) return;
+    const std::string more = options.replications > 0 ? fmt::format(" --replications {}", options.replications) : "";
+    text += fmt::format("{}: {}\n  ttfusion experiment {} --replay {}{} --out one\n", sweep.label_of(run.key.point),
+                        run.status, options.file, key_text(sweep, run.key), more);
+  });
+  if (shown > kShownFailures) text += fmt::format("and {} more, in runs.csv\n", shown - kShownFailures);
+  return text;
+}
+
+}  // namespace
+
+int drive_and_answer(const ExperimentOptions& options, const SweepDrives& drives, experiments::Ranks& ranks) {
+  const SweepFile& sweep = drives.sweep();
+  // All that can be wrong with what is asked for, before anything is written.
+  const experiments::Shard shard = shard_of(options.shard);
+  if (!options.shard.empty() && sweep.stop)
+    throw InputError(
+        {"command line", 0, "--shard", options.shard, "needs an experiment without `stop`: no shard sees enough"});
+  std::vector<Store> shards;
+  for (const std::string& from : options.merge) shards.push_back(opened(drives, store_in(from)));
+
+  const std::string folder = folder_of(options, sweep);
+  create_folder(folder);
+  Store store = store_of(options, drives, store_in(folder));
+  if (shards.empty())
+    drive(options, drives, shard, store, ranks);
+  else if (!merge(shards, sweep, store))
+    return 1;
+
+  const experiments::SweepAnswer answer = experiments::answer_of(sweep, store);
+  const std::string text = experiments::answer_text(sweep, answer) + failures_text(options, sweep, store);
+  const nlohmann::ordered_json json = to_json(sweep, answer);
+  write_file(folder + "/answer.txt", text);
+  write_file(folder + "/answer.json", json.dump(2) + '\n');
+  write_file(folder + "/summary.csv", experiments::summary_csv(sweep, answer));
+  write_file(folder + "/runs.csv", experiments::runs_csv(sweep, store));
+  if (options.json)
+    fmt::print("{}\n", json.dump(2));
+  else
+    fmt::print("{}", text);
+  std::fflush(stdout);
+  fmt::print(stderr, "written to {}\n", folder);
+  return answer.holds() && answer.failed == 0 ? 0 : 1;
+}
+
+void settle_replications(ExperimentOptions& options, SweepFile& sweep) {
+  std::vector<std::string> paths;
+  for (const std::string& from : options.merge) paths.push_back(store_in(from));
+  if (const std::string own = store_in(folder_of(options, sweep)); options.resume && std::filesystem::exists(own))
+    paths.push_back(own);
+  std::uint32_t there = 0;
+  for (const std::string& path : paths) {
+    const std::uint32_t asked_for = Store::open(path).head().replications;
+    if (options.replications > 0 && options.replications < asked_for)
+      throw InputError({"command line", 0, "--replications", std::to_string(options.replications),
+                        fmt::format("must be {} at least: so many were asked for in {}", asked_for, path)});
+    there = std::max(there, asked_for);
+  }
+  const std::uint32_t files = sweep.replications;
+  sweep.replications = options.replications > 0 ? options.replications : there > 0 ? there : files;
+  options.replications = sweep.replications == files ? 0 : sweep.replications;
+  if (sweep.runs() > experiments::kMostRuns)
+    throw InputError({"command line", 0, "--replications", std::to_string(sweep.replications),
+                      fmt::format("must make {} runs at most, and make {}", experiments::kMostRuns, sweep.runs())});
+}
+
+int run_sweep_experiment(const ExperimentOptions& given, experiments::Ranks& alone) {
+  ExperimentOptions options = given;
+  SweepFile sweep = experiments::load_sweep(options.file);
+  settle_replications(options, sweep);
+  const SweepDrives drives(sweep);
+  if (options.replay) return replay(options, drives);
+  return drive_and_answer(options, drives, alone);
+}
+
+}  // namespace ttf::cli

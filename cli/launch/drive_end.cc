@@ -1,0 +1,92 @@
+#include "cli/launch/drive_end.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "bus/poc/poc.h"
+#include "core/counted.h"
+
+namespace ttf::cli {
+namespace {
+
+// Of those that were not in operation: nothing where it was.
+std::optional<std::string> why_absent(const NodeAtEnd& node) {
+  if (!node.ending) return "never started";
+  if (!node.ending->success()) return node.ending->text();
+  if (!node.on_flexray || node.state == bus::to_text(bus::PocKind::kNormalActive)) return std::nullopt;
+  return node.state.empty() ? "in a state that it never told" : node.state;
+}
+
+}  // namespace
+
+DriveEnd drive_end(const std::vector<NodeAtEnd>& nodes) {
+  DriveEnd end;
+  bool anybody = false;
+  for (const NodeAtEnd& node : nodes) {
+    auto why = why_absent(node);
+    anybody = anybody || (node.on_flexray && !why);
+    if (why) end.absent.push_back({node.name, std::move(*why)});
+  }
+  end.nobody = !anybody;
+  return end;
+}
+
+std::string DriveEnd::sentence() const {
+  if (absent.empty()) return "";
+  std::vector<std::string> names;
+  std::vector<std::pair<std::string, std::vector<std::string>>> by_state;  // in the order of their first nodes
+  for (const Absent& one : absent) {
+    names.push_back(one.name);
+    auto same = std::ranges::find(by_state, one.state, &std::pair<std::string, std::vector<std::string>>::first);
+    if (same == by_state.end()) same = by_state.insert(by_state.end(), {one.state, {}});
+    same->second.push_back(one.name);
+  }
+  std::string text =
+      nobody ? "nobody was in operation at the end: "
+             : fmt::format("{} {} not in operation at the end: ", joined(names), names.size() == 1 ? "was" : "were");
+  if (by_state.size() == 1) return text + by_state.front().first;
+  for (const auto& [state, who] : by_state)
+    text += fmt::format("{}{} ({})", state == by_state.front().first ? "" : "; ", state, joined(who));
+  return text;
+}
+
+nlohmann::ordered_json DriveEnd::json() const {
+  auto list = nlohmann::ordered_json::array();
+  for (const Absent& one : absent) list.push_back({{"node", one.name}, {"state", one.state}});
+  return list;
+}
+
+std::vector<std::string> states_at_end(const schedules::Cluster& cluster, bool cold,
+                                       const std::vector<experiments::NodeStartup>& changes) {
+  std::vector<std::string> states;
+  for (const schedules::Node& node : cluster.nodes)
+    states.emplace_back(!node.flexray ? "" : cold ? "not powered on" : bus::to_text(bus::PocKind::kNormalActive));
+  for (const experiments::NodeStartup& node : changes)
+    if (cluster.node(node.node).flexray && !node.state.empty()) states[index_of(node.node)] = node.state;
+  return states;
+}
+
+std::vector<NodeAtEnd> EndWatch::nodes(const schedules::Cluster& cluster,
+                                       const std::vector<std::string>& states) const {
+  std::vector<NodeAtEnd> nodes;
+  for (std::size_t n = 0; n < endings_.size(); ++n)
+    nodes.push_back({cluster.nodes[n].name, cluster.nodes[n].flexray.has_value(), endings_[n], states[n]});
+  return nodes;
+}
+
+launch::Hooks EndWatch::around(launch::Hooks hooks) {
+  launch::Hooks all = hooks;
+  all.on_all_ready = [this, told = hooks.on_all_ready] {
+    begun_ = true;
+    return told ? told() : nlohmann::json::object();
+  };
+  all.on_gone = [this, told = hooks.on_gone](std::size_t node, const launch::Ending& ending, bool comes_back) {
+    endings_[node] = ending;
+    if (told) told(node, ending, comes_back);
+  };
+  return all;
+}
+
+}  // namespace ttf::cli

@@ -1,0 +1,170 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "cli/commands.h"
+#include "cli/launch/drive_end.h"
+#include "cli/drive/drive_setup.h"
+#include "cli/drive/fault_tables.h"
+#include "cli/supervision/folder_lock.h"
+#include "cli/supervision/launch_folder.h"
+#include "cli/supervision/signal_watch.h"
+#include "cli/supervision/supervisor.h"
+#include "cli/launch/launch_live.h"
+#include "cli/launch/launch_plan.h"
+#include "cli/launch/launch_result.h"
+#include "cli/launch/launch_virtual.h"
+#include "cli/output.h"
+#include "cli/drive/real_time_outputs.h"
+#include "cli/drive/run_outputs.h"
+#include "cli/drive/startup_outputs.h"
+#include "core/decimal.h"
+
+namespace ttf::cli {
+namespace {
+
+constexpr const char* kSummary = "summary.json";
+constexpr const char* kNotInOperation = "not_in_operation_at_end";  // in there, and in the manifest
+
+// As it was given.
+std::vector<std::string> command_line() {
+  std::vector<std::string> arguments;
+  std::ifstream file("/proc/self/cmdline", std::ios::binary);
+  for (std::string argument; std::getline(file, argument, '\0');) arguments.push_back(argument);
+  return arguments;
+}
+
+// What came of the drive, from the logs of those who got to its end.
+void tell_result(const NodeSet& set, const StrategyResult& result, const std::optional<DriveEnd>& end,
+                 const LaunchArguments& arguments) {
+  const std::vector<StrategyResult> results{result};
+  if (!arguments.no_pictures) write_pictures(set.scenario, results, set.folder);
+  nlohmann::ordered_json json = to_json(set.scenario, set.seed, results);
+  if (end) json[kNotInOperation] = end->json();
+  write_file(fmt::format("{}/{}", set.folder, kSummary), json.dump(2) + '\n');
+  if (arguments.json) {
+    fmt::print("{}\n", json.dump(2));
+    return;
+  }
+  fmt::print("{}\n{}{}{}", set.scenario.description, startup_text(results, set.scenario.startup.cold),
+             comparison_table(results), real_time_text(result));
+  if (!set.scenario.faults.empty())
+    fmt::print("\n{}", faults_text(nodes::name_of(set.strategy), result.faults, result.fault_free, set.cluster));
+}
+
+// Who was not in operation at the end, and what there is nothing of to compare, in a sentence each. The exit code: a
+// drive at whose end nobody is left in the cluster has failed, however well its processes ended.
+int tell_end(const NodeSet& set, const DriveEnd& end, const StrategyResult* result, int exit_code,
+             launch::RunFolder& folder) {
+  const std::string absent = end.sentence();
+  const bool failed = end.nobody && exit_code == 0;
+  if (!absent.empty()) fmt::print(stderr, "{}: {}\n", failed ? "error" : "warning", absent);
+  if (result != nullptr && result->summary.uses == result->summary.stale_uses)
+    print_warnings(fmt::format("no image was used from {} s on, where the drive is evaluated: nothing is compared",
+                               scaled_text(set.scenario.evaluate_from.ns, 1'000'000'000)));
+  folder.set(kNotInOperation, end.json());
+  if (failed)
+    folder.finish(1, absent, std::chrono::system_clock::now());
+  else
+    folder.write();
+  return failed ? 1 : exit_code;
+}
+
+// What an earlier launch left, so that nobody takes it for this one's; and nothing else that is in the folder.
+void remove_earlier(const std::optional<launch::EarlierLaunch>& earlier, const LaunchPlan& plan,
+                    const launch::RunFolder& folder) {
+  for (const launch::NodeSpec& node : plan.nodes) folder.remove_logs(node.name);
+  if (!earlier) return;
+  for (const std::string& node : earlier->nodes) {
+    folder.remove_logs(node);
+    folder.remove(launch::file_stem(node) + ".txt");
+  }
+  for (const char* const name : {kTruthLog, kSummary}) folder.remove(name);
+  if (earlier->strategy.empty()) return;
+  folder.remove(merged_log(earlier->strategy));
+  for (const std::string& name : picture_files(earlier->strategy)) folder.remove(name);
+}
+
+// `Launch`: LiveLaunch or VirtualLaunch.
+template <class Launch> int run_plan(LaunchPlan plan, const LaunchArguments& arguments) {
+  nlohmann::ordered_json facts{{"command", command_line()}};
+  facts.update(facts_of(plan.set));
+  const auto earlier = launch::earlier_launch(plan.set.folder);
+  launch::RunFolder folder(plan.set.folder, std::move(facts), std::chrono::system_clock::now());
+  remove_earlier(earlier, plan, folder);
+  // Before the exchange begins a thread, which would take signals else.
+  std::optional<launch::SignalWatch> held_back(std::in_place);
+  Launch drive(plan.set);
+  EndWatch watch(plan.nodes.size());
+  launch::SupervisorConfig config;
+  config.nodes = std::move(plan.nodes);
+  config.screen = STDERR_FILENO;
+  config.folder = &folder;
+  std::optional<launch::Supervisor> supervisor(std::in_place, std::move(config), watch.around(drive.hooks()));
+  const int exit_code = supervisor->run().exit_code;
+  const launch::HealthTable health = supervisor->health();
+  supervisor.reset();
+  held_back.reset();  // what comes now may be interrupted as ever
+  print_warnings(drive.warnings());
+  const std::optional<StrategyResult> result = drive.result(folder.logs());
+  const StrategyResult* const told = result ? &*result : nullptr;
+  std::optional<DriveEnd> end;
+  if (watch.begun()) end = drive_end(watch.nodes(plan.set.cluster, drive.states_at_end(health, told)));
+  if (result) tell_result(plan.set, *result, end, arguments);
+  std::fflush(stdout);  // both may go to one file
+  const int code = end ? tell_end(plan.set, *end, told, exit_code, folder) : exit_code;
+  fmt::print(stderr, "written to {}\n", plan.set.folder);
+  return code;
+}
+
+// The exit code of a dry run is what the launch's would be if all went well with it.
+int run_launch(const LaunchArguments& arguments) {
+  LaunchPlan plan = plan_of(arguments);
+  const bool ready = launch::all_good(plan.preflight);
+  if (arguments.dry_run)
+    show_plan(plan, arguments.json);
+  else if (!ready)
+    show_preflight(plan);
+  if (!ready) return 1;
+  if (arguments.dry_run) {
+    launch::FolderLock::refuse_if_held(plan.set.folder);
+    try_folder(plan.set.folder);
+    return 0;
+  }
+  return plan.set.virtual_time ? run_plan<VirtualLaunch>(std::move(plan), arguments)
+                               : run_plan<LiveLaunch>(std::move(plan), arguments);
+}
+
+}  // namespace
+
+void add_launch(CLI::App& app, Action& action) {
+  auto arguments = std::make_shared<LaunchArguments>();
+  CLI::App* command = app.add_subcommand("launch", "The node set as separate processes, supervised");
+  command->footer(
+      "Example: ttfusion launch scenarios/paper_scenario1.yaml --virtual-time --policy feature=optional --dry-run");
+  add_node_set_options(*command, arguments->set);
+  command
+      ->add_option("--policy", arguments->policies,
+                   "NODE=required (default), NODE=restart or NODE=optional; for each node once")
+      ->allow_extra_args(false);
+  command->add_flag("--dry-run", arguments->dry_run,
+                    "Only say what would be started, and whether what it needs is there");
+  command
+      ->add_option("--out", arguments->set.out,
+                   "Folder of the run: logs, output, manifest (default: out/<scenario>/launch)")
+      ->check(kNamed);
+  command->add_flag("--json", arguments->json, "Summary, or with --dry-run the plan, as JSON on standard output");
+  command->add_flag("--no-pictures", arguments->no_pictures, "Leave logs and tables only");
+  command->callback([arguments, command, &action] {
+    arguments->session_given = command->count("--session") > 0;
+    action = [arguments] { return run_launch(*arguments); };
+  });
+}
+
+}  // namespace ttf::cli

@@ -1,0 +1,119 @@
+#include "cli/launch/launch_plan.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <stdexcept>
+
+#include "cli/node_set/can_interfaces.h"
+#include "cli/node_set/dds_preflight.h"
+#include "cli/drive/drive_setup.h"
+#include "cli/supervision/shell_text.h"
+#include "cli/node_set/live_topics.h"
+#include "core/errors.h"
+#include "core/hash.h"
+#include "drives/step_catalog.h"
+
+namespace ttf::cli {
+namespace {
+
+std::string this_program() {
+  std::error_code failure;
+  const auto path = std::filesystem::read_symlink("/proc/self/exe", failure);
+  if (failure) throw std::runtime_error("/proc/self/exe: cannot be read: " + failure.message());
+  return path.string();
+}
+
+// --policy NODE=POLICY
+void set_policies(const std::vector<std::string>& texts, const schedules::Cluster& cluster,
+                  std::vector<launch::NodeSpec>& nodes) {
+  std::map<std::string, std::string> given;
+  for (const std::string& text : texts) {
+    const std::size_t sign = text.rfind('=');
+    const auto policy = sign == std::string::npos ? std::nullopt : launch::policy_of(text.substr(sign + 1));
+    if (!policy)
+      throw InputError({"command line", 0, "--policy", text, "must be NODE=required, NODE=restart or NODE=optional"});
+    const std::string name = text.substr(0, sign);
+    if (!given.emplace(name, text).second)
+      throw InputError({"command line", 0, "--policy", text, "must be given once for each node"});
+    nodes[index_of(node_of(cluster, name))].policy = *policy;
+  }
+}
+
+// Of this launch alone, whatever else is launched on this machine or in this folder.
+std::string new_session() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return fmt::format("launch-{}-{}", getpid(), std::chrono::duration_cast<std::chrono::microseconds>(now).count());
+}
+
+void refuse_restart_in_virtual_time(const LaunchPlan& plan) {
+  for (const launch::NodeSpec& node : plan.nodes)
+    if (plan.set.virtual_time && node.policy == launch::Policy::kRestart)
+      throw InputError({"command line", 0, "--policy", node.name + "=restart",
+                        "must not be given with --virtual-time: nobody would wait for the node to catch up"});
+}
+
+}  // namespace
+
+LaunchPlan plan_of(const LaunchArguments& arguments) {
+  LaunchPlan plan;
+  plan.set = read_node_set(arguments.set);
+  if (plan.set.topics) check_topics(plan.set);
+  if (!arguments.session_given) plan.set.session = new_session();
+  const std::string program = this_program();
+  for (const schedules::Node& node : plan.set.cluster.nodes) {
+    launch::NodeSpec spec;
+    spec.name = node.name;
+    spec.command.arguments = {program, "node", node.name};
+    const std::vector<std::string> options = plan.set.options();
+    spec.command.arguments.insert(spec.command.arguments.end(), options.begin(), options.end());
+    plan.nodes.push_back(std::move(spec));
+  }
+  set_policies(arguments.policies, plan.set.cluster, plan.nodes);
+  refuse_restart_in_virtual_time(plan);
+  if (plan.set.bus.kind == launch::BusKind::kDds || plan.set.topics) check_dds_configuration();
+  plan.preflight = launch::look_at(plan.set.bus, private_cans(plan.set.cluster, plan.set.can_interfaces));
+  plan.preflight.insert(plan.preflight.begin(), {plan.set.cluster.file, true, "is consistent", {}});
+  return plan;
+}
+
+nlohmann::ordered_json facts_of(const NodeSet& set) {
+  return {{"version", TTF_VERSION},
+          {"scenario", {{"name", set.scenario.name}, {"file", set.file}, {"hash", hex_hash(set.scenario.text)}}},
+          {"cluster", {{"name", set.cluster.name}, {"file", set.cluster.file}, {"hash", hex_hash(set.cluster.text)}}},
+          {"strategy", nodes::name_of(set.strategy)},
+          {"seed", set.seed},
+          {"bus", set.bus.text()},
+          {"virtual_time", set.virtual_time},
+          {"time_scale", static_cast<double>(set.time_scale_ppm) * 1e-6},
+          {"duration_s", set.scenario.duration.seconds()},
+          {"folder", set.folder}};
+}
+
+void show_preflight(const LaunchPlan& plan) {
+  fmt::print(stderr, "{}", launch::text_of(plan.preflight));
+  if (plan.set.bus.kind == launch::BusKind::kSocketCan && !launch::all_good(plan.preflight))
+    fmt::print(stderr,
+               "without any CAN: --bus dds (the default); CANs on a kernel of one's own, without root: "
+               "tools/test_bed.sh (docs/socketcan.md)\n");
+}
+
+void show_plan(const LaunchPlan& plan, bool as_json) {
+  if (!as_json) {
+    show_preflight(plan);
+    for (const launch::NodeSpec& node : plan.nodes) fmt::print("{}\n", launch::shell_text(node.command.arguments));
+    return;
+  }
+  nlohmann::ordered_json json = facts_of(plan.set);
+  json["preflight"] = launch::json_of(plan.preflight);
+  for (const launch::NodeSpec& node : plan.nodes)
+    json["nodes"].push_back(
+        {{"name", node.name}, {"policy", name_of(node.policy)}, {"command", node.command.arguments}});
+  fmt::print("{}\n", json.dump(2));
+}
+
+}  // namespace ttf::cli

@@ -1,0 +1,212 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "cli/commands.h"
+#include "cli/output.h"
+#include "cli/time_window.h"
+#include "core/counted.h"
+#include "core/errors.h"
+#include "nodes/laser/laser_preprocessor.h"
+#include "recording/exports/lateness_sums.h"
+#include "recording/merge/merge.h"
+#include "recording/rows/laser_radar_file.h"
+#include "report/plots/boxes_picture.h"
+#include "report/plots/lateness_picture.h"
+#include "report/plots/position_plot.h"
+#include "report/drawing/render.h"
+#include "report/startup/diagram.h"
+#include "report/timing/diagram.h"
+
+namespace ttf::cli {
+namespace {
+
+struct DiagramOptions {
+  std::vector<std::string> logs;
+  double from_s = -1.0, to_s = -1.0;
+  std::string kind = "timing";
+  std::string out;
+  std::optional<int> frame;
+};
+
+// When the last task ended.
+struct Extent final : records::Sink {
+  TrueTime last{};
+  using records::Sink::on;
+  void on(const records::TaskRun& run) override { last = std::max(last, run.end.true_time); }
+};
+
+// The logs of each run as one.
+std::vector<recording::MergedLogs> runs_in(const std::vector<std::string>& paths) {
+  std::vector<recording::StoredLog> logs;
+  for (const std::string& path : paths) logs.emplace_back(path);
+  std::vector<recording::MergedLogs> runs = recording::merge_by_run(std::move(logs));
+  for (const recording::MergedLogs& run : runs) print_warnings(run.warnings());
+  return runs;
+}
+
+recording::MergedLogs one_run(const std::vector<std::string>& paths) {
+  recording::MergedLogs run(paths);
+  print_warnings(run.warnings());
+  return run;
+}
+
+// A recorded laser scan and the vehicles that preprocessing sees in it.
+std::string boxes(const DiagramOptions& options) {
+  if (options.logs.size() != 1) throw InputError({"command line", 0, "--kind", "boxes", "takes one recording"});
+  const auto scans = recording::read_lidar_scans(options.logs[0]);
+  const int frame = options.frame.value_or(0);
+  if (frame >= static_cast<int>(scans.size()))
+    throw InputError(
+        {"command line", 0, "--frame", fmt::format("{}", frame),
+         fmt::format("must be 0..{}: the recording has {}", scans.size() - 1, counted(scans.size(), "scan"))});
+  const recording::RecordedScan& scan = scans[static_cast<std::size_t>(frame)];
+  std::vector<nodes::ScanPoint> points;
+  std::vector<report::Point> drawn;
+  for (const recording::RecordedReturn& hit : scan.returns) {
+    points.push_back({0, hit.azimuth_rad, hit.range_m});
+    drawn.push_back({hit.range_m * std::cos(hit.azimuth_rad), hit.range_m * std::sin(hit.azimuth_rad)});
+  }
+  std::vector<nodes::LaserObject> objects;
+  nodes::LaserPreprocessor(nodes::LaserPreprocessingConfig{}, points.size()).process(points, objects);
+  std::vector<report::Box> rectangles;
+  for (const nodes::LaserObject& object : objects)
+    rectangles.push_back({object.x, object.y, object.heading, object.length, object.width, ""});
+  return report::boxes_svg(drawn, rectangles,
+                           fmt::format("Scan {}: {}, {} box{}", scan.frame, counted(points.size(), "return"),
+                                       objects.size(), objects.size() == 1 ? "" : "es"));
+}
+
+// The whole start-up and two cycles after it, unless told.
+std::string startup(const DiagramOptions& options) {
+  const TimeWindow window = time_window(options.from_s, options.to_s);
+  const recording::MergedLogs run = one_run(options.logs);
+  report::StartupExtent extent;
+  run.read(extent);
+  const Duration cycle{run.manifest().cycle_ns};
+  const auto whole = extent.window(cycle).value_or(std::pair(TrueTime{}, TrueTime{}));
+  report::StartupDiagram diagram(report::names_of(run.manifest()), cycle,
+                                 options.from_s >= 0.0 ? window.from : whole.first, window.to.value_or(whole.second));
+  run.read(diagram);
+  return diagram.svg();
+}
+
+// Of the whole run: a histogram has no window.
+std::string lateness(const DiagramOptions& options) {
+  for (const auto& [name, seconds] : {std::pair("--from", options.from_s), std::pair("--to", options.to_s)})
+    if (seconds >= 0.0)
+      throw InputError({"command line", 0, name, fmt::format("{:g} s", seconds),
+                        "does not go with --kind lateness, which is of the whole run"});
+  const recording::MergedLogs run = one_run(options.logs);
+  recording::LatenessSums sums;
+  run.read(sums);
+  if (sums.nodes().empty())
+    throw InputError({options.logs[0], 0, "", "", "tells of no lateness: the run was not in real time"});
+  return report::lateness_svg(sums.nodes(), report::names_of(run.manifest()));
+}
+
+std::string timing(const recording::MergedLogs& run, TrueTime from, TrueTime to) {
+  report::TimingDiagram diagram(report::names_of(run.manifest()), {run.manifest().cycle_ns}, from, to);
+  run.read(diagram);
+  return diagram.svg();
+}
+
+// Several runs side by side.
+std::string positions(const std::vector<recording::MergedLogs>& runs, TrueTime from, TrueTime to, bool plane) {
+  std::vector<std::unique_ptr<report::PositionPlots>> plots;
+  std::vector<const report::PositionPlots*> panels;
+  std::vector<std::string> titles;
+  for (const recording::MergedLogs& run : runs) {
+    report::PositionOptions position;
+    position.title = fmt::format("{}, {}", run.manifest().scenario_name, run.manifest().strategy);
+    position.from = from;
+    position.to = to;
+    plots.push_back(std::make_unique<report::PositionPlots>(report::names_of(run.manifest()), position));
+    run.read(*plots.back());
+    panels.push_back(plots.back().get());
+    titles.push_back(run.manifest().strategy);
+  }
+  if (plots.size() > 1)
+    return report::comparison_svg(panels, titles,
+                                  plane ? report::PositionView::kPlane : report::PositionView::kXOverTime);
+  return plane ? plots[0]->plane_svg() : plots[0]->over_time_svg();
+}
+
+int run_diagram(const DiagramOptions& options) {
+  report::check_picture_path(options.out);
+  if (options.kind == "boxes") {
+    report::write_picture(boxes(options), options.out);
+    return 0;
+  }
+  if (options.frame)
+    throw InputError({"command line", 0, "--frame", fmt::format("{}", *options.frame), "goes with --kind boxes only"});
+  if (options.kind == "startup") {
+    report::write_picture(startup(options), options.out);
+    return 0;
+  }
+  if (options.kind == "lateness") {
+    report::write_picture(lateness(options), options.out);
+    return 0;
+  }
+  const TimeWindow window = time_window(options.from_s, options.to_s);
+  const bool as_timing = options.kind == "timing";
+  std::vector<recording::MergedLogs> runs;
+  if (as_timing)
+    runs.push_back(one_run(options.logs));
+  else
+    runs = runs_in(options.logs);
+  Extent extent;
+  for (const recording::MergedLogs& run : runs) run.read(extent);
+  const TrueTime from = window.from;
+  if (extent.last == TrueTime{}) throw InputError({options.logs[0], 0, "", "", "holds no task's run: nothing to draw"});
+  if (from > extent.last)
+    throw InputError({"command line", 0, "--from", fmt::format("{:g} s", options.from_s),
+                      fmt::format("must be before the end of the log, {:g} s", (extent.last - TrueTime{}).seconds())});
+  // A timing diagram of a whole drive is unreadable: 160 ms unless told.
+  const TrueTime to = window.to ? *window.to : as_timing ? from + Duration::milliseconds(160) : extent.last;
+  const std::string svg = as_timing ? timing(runs[0], from, to) : positions(runs, from, to, options.kind == "plane");
+  report::write_picture(svg, options.out);
+  return 0;
+}
+
+}  // namespace
+
+void add_diagram(CLI::App& app, Action& action) {
+  auto options = std::make_shared<DiagramOptions>();
+  CLI::App* command = app.add_subcommand("diagram", "Timing and start-up diagrams and position plots from logs");
+  command->footer(
+      "Logs of one run, as its processes wrote them, are merged; position and plane show several runs side by side.\n"
+      "Examples: ttfusion diagram out/drive/tt.mcap --from 1.5 --to 1.65 -o timing.svg\n"
+      "          ttfusion diagram out/launch/*.mcap --from 1.5 --to 1.65 -o timing.svg\n"
+      "          ttfusion diagram out/cold_start/tt.mcap --kind startup -o startup.svg");
+  command
+      ->add_option("logs", options->logs,
+                   "Logs: one of a run or of each of its processes (with --kind boxes: a recording of laser scans)")
+      ->required();
+  command
+      ->add_option("--from", options->from_s,
+                   "Start of the window, true time in seconds (default: 0; of a start-up diagram: of the start-up)")
+      ->check(CLI::NonNegativeNumber);
+  command
+      ->add_option(
+          "--to", options->to_s,
+          "End of the window, true time in seconds (default: the end; of a timing diagram 160 ms after its start; "
+          "of a start-up diagram two cycles after the start-up)")
+      ->check(CLI::NonNegativeNumber);
+  command
+      ->add_option("--kind", options->kind,
+                   "timing, startup (states and what was sent), lateness (of wake-ups, in real time), "
+                   "position (x and y over time), plane (y over x), or boxes (of a recorded laser scan)")
+      ->check(CLI::IsMember({"timing", "startup", "lateness", "position", "plane", "boxes"}))
+      ->capture_default_str();
+  command->add_option("--frame", options->frame, "Which scan of a recording, with --kind boxes")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("-o,--out", options->out, "Picture to write: .svg, .png or .pdf")->required();
+  command->callback([options, &action] { action = [options] { return run_diagram(*options); }; });
+}
+
+}  // namespace ttf::cli

@@ -1,0 +1,116 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cli/commands.h"
+#include "cli/logs/export_gnuplot.h"
+#include "cli/output.h"
+#include "core/counted.h"
+#include "recording/exports/captures.h"
+#include "recording/merge/merge.h"
+#include "recording/exports/perfetto.h"
+
+namespace ttf::cli {
+namespace {
+
+struct ExportOptions {
+  std::vector<std::string> logs;
+  std::string format;
+  std::string out;
+  bool json = false;
+};
+
+std::string converted(const std::string& format, const recording::FrameCollector& collector,
+                      const std::vector<recording::LoggedFrame>& frames, const recording::LogNames& names) {
+  if (format == "pcapng") return recording::export_pcapng(collector, frames, names);
+  if (format == "candump") return recording::export_candump(collector, frames, names);
+  return recording::export_csv(collector, frames, names);
+}
+
+int export_perfetto(const ExportOptions& options, const recording::MergedLogs& run) {
+  OutputFile file(options.out);
+  recording::PerfettoExport trace(recording::LogNames(run.manifest()),
+                                  [&](std::string_view bytes) { file.write(bytes); });
+  run.read(trace);
+  const recording::TraceCounts counts = trace.finish();
+  file.finish();
+  if (options.json)
+    fmt::print(
+        "{{\n  \"format\": \"perfetto\",\n  \"slices\": {},\n  \"instants\": {},\n"
+        "  \"counter_values\": {},\n  \"flows\": {}\n}}\n",
+        counts.slices, counts.instants, counts.counters, counts.flows);
+  fmt::print(stderr, "{}, {} and {} of measurements written to {}\n", counted(counts.slices, "slice"),
+             counted(counts.instants, "instant"), counted(counts.flows, "way"), options.out);
+  return 0;
+}
+
+int export_for_papers(const ExportOptions& options) {
+  const std::vector<std::string> files = export_gnuplot(options.logs, options.out);
+  if (options.json) {
+    fmt::print("{{\n  \"format\": \"gnuplot\",\n  \"files\": [");
+    for (std::size_t f = 0; f < files.size(); ++f) fmt::print("{}\"{}\"", f == 0 ? "" : ", ", files[f]);
+    fmt::print("]\n}}\n");
+  }
+  fmt::print(stderr, "{} written to {}: `gnuplot NAME.gp` there draws NAME.pdf and NAME.png\n",
+             counted(files.size(), "file"), options.out);
+  return 0;
+}
+
+int run_export(const ExportOptions& options) {
+  if (options.format == "gnuplot") return export_for_papers(options);
+  for (const std::string& log : options.logs) refuse_overwriting(log, options.out, "--out");
+  const recording::MergedLogs run(options.logs);
+  print_warnings(run.warnings());
+  if (options.format == "perfetto") return export_perfetto(options, run);
+  recording::FrameCollector collector;
+  run.read(collector);
+  const recording::LogNames names(run.manifest());
+  const std::vector<recording::LoggedFrame> frames = collector.in_order();
+  write_file(options.out, converted(options.format, collector, frames, names));
+  std::size_t flexray = 0, can = 0, symbols = 0;
+  for (const recording::LoggedFrame& frame : frames) ++(frame.symbol != 0 ? symbols : frame.flexray ? flexray : can);
+  const bool can_only = options.format == "candump";
+  if (options.json)
+    fmt::print("{{\n  \"format\": \"{}\",\n  \"flexray_frames\": {},\n  \"symbols\": {},\n  \"can_frames\": {}\n}}\n",
+               options.format, can_only ? 0 : flexray, can_only ? 0 : symbols, can);
+  if (can_only)
+    fmt::print(stderr, "{} written to {}\n", counted(can, "CAN frame"), options.out);
+  else
+    fmt::print(stderr, "{} FlexRay and {} and {} written to {}\n", flexray, counted(can, "CAN frame"),
+               counted(symbols, "symbol"), options.out);
+  return 0;
+}
+
+}  // namespace
+
+void add_export(CLI::App& app, Action& action) {
+  auto options = std::make_shared<ExportOptions>();
+  CLI::App* command =
+      app.add_subcommand("export", "A run for Wireshark, canplayer, ui.perfetto.dev, a spreadsheet or a paper");
+  command->footer(
+      "The start of the run is 1970-01-01 in pcapng, second 1000000000 in candump, and 0 in csv and perfetto.\n"
+      "The logs of a run's processes are merged.\n"
+      "Example: ttfusion export out/drive/tt.mcap --format pcapng -o drive.pcapng\n"
+      "Example: ttfusion export out/noise --format gnuplot -o figures");
+  command
+      ->add_option("logs", options->logs,
+                   "Log of a run, or one of each of its processes; for gnuplot also of several runs, folders of "
+                   "logs or an experiment's folder")
+      ->required();
+  command
+      ->add_option("--format", options->format,
+                   "pcapng (FlexRay and CAN, for Wireshark), candump (CAN only, for canplayer), "
+                   "csv (all frames and symbols), perfetto (tasks, frames and ways, for ui.perfetto.dev), "
+                   "gnuplot (tables and scripts for papers, into a folder)")
+      ->required()
+      ->check(CLI::IsMember({"pcapng", "candump", "csv", "perfetto", "gnuplot"}));
+  command->add_option("-o,--out", options->out, "File to write; for gnuplot the folder")->required();
+  command->add_flag("--json", options->json, "Counts as JSON on standard output");
+  command->callback([options, &action] { action = [options] { return run_export(*options); }; });
+}
+
+}  // namespace ttf::cli

@@ -1,0 +1,125 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "cli/commands.h"
+#include "cli/experiment/drives.h"
+#include "cli/output.h"
+#include "cli/time_window.h"
+#include "core/errors.h"
+#include "core/time.h"
+#include "report/experiment/report.h"
+#include "report/run/report.h"
+
+namespace ttf::cli {
+namespace {
+
+struct ReportOptions {
+  std::vector<std::string> folders;
+  double from_s = -1.0, to_s = -1.0;
+  std::optional<std::string> file;
+  std::optional<std::uint32_t> point;
+  bool no_drives = false;
+  std::string out;
+};
+
+constexpr std::size_t kMostDrives = 10;                   // timing diagrams of an experiment's page
+constexpr Duration kDrawn = Duration::milliseconds(960);  // in all of them together, 160 ms each at most
+
+std::string experiment_html(const ReportOptions& options, report::DiagramWindow window) {
+  const report::ExperimentFolder folder = report::read_experiment_folder(options.folders[0]);
+  report::ExperimentDrives drives;
+  if (!options.no_drives) drives = drives_of(folder, options.file, options.point);
+  if (!drives.why_none.empty()) print_warnings(drives.why_none);
+  window.most = kMostDrives;
+  const auto shown = static_cast<std::int64_t>(std::clamp(drives.drives.size(), std::size_t{1}, kMostDrives));
+  window.length = std::min(window.length, Duration{kDrawn.ns / shown});
+  return report::experiment_report_html(folder, drives, window);
+}
+
+std::string html(const ReportOptions& options) {
+  const TimeWindow asked = time_window(options.from_s, options.to_s);
+  report::DiagramWindow window;
+  if (options.from_s >= 0.0) window.from = asked.from;
+  window.to = asked.to;
+  std::size_t experiments = 0;
+  for (const std::string& folder : options.folders)
+    experiments += report::kind_of_folder(folder) == report::FolderKind::kExperiment;
+  if (experiments == 0) {
+    for (const auto& [name, given] :
+         {std::pair("--file", options.file.has_value()), std::pair("--point", options.point.has_value()),
+          std::pair("--no-drives", options.no_drives)})
+      if (given) throw InputError({"command line", 0, name, "", "goes with an experiment, not with runs"});
+    std::vector<report::RunFolder> folders;
+    for (const std::string& path : options.folders) {
+      folders.push_back(report::read_run_folder(path));
+      for (const report::Drive& drive : folders.back().drives)
+        if (drive.log) print_warnings(drive.log->warnings());
+    }
+    return report::run_report_html(std::move(folders), window);
+  }
+  if (options.folders.size() > 1)
+    throw InputError({"command line", 0, "folders", options.folders[0],
+                      "must be one experiment, or runs alone: a report of several experiments there is none"});
+  return experiment_html(options, window);
+}
+
+// A folder's files are what the page is of, but for a page that was written there before.
+void refuse_input(const ReportOptions& options) {
+  namespace fs = std::filesystem;
+  std::error_code none;
+  for (const std::string& folder : options.folders)
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, none))
+      if (entry.is_regular_file(none) && entry.path().extension() != ".html")
+        refuse_overwriting(entry.path().string(), options.out, "--out");
+}
+
+int run_report(const ReportOptions& options) {
+  refuse_input(options);
+  const std::string page = html(options);
+  write_file(options.out, page);
+  fmt::print(stderr, "written to {}: {:.1f} MB\n", options.out, static_cast<double>(page.size()) * 1e-6);
+  return 0;
+}
+
+}  // namespace
+
+void add_report(CLI::App& app, Action& action) {
+  auto options = std::make_shared<ReportOptions>();
+  CLI::App* command =
+      app.add_subcommand("report", "One HTML page of a run, of several side by side, or of an experiment");
+  command->footer(
+      "The page needs no network and nothing beside it.\n"
+      "Examples: ttfusion report out/paper_scenario1 -o drive.html\n"
+      "          ttfusion report out/seed1 out/seed2 out/seed3 -o drives.html\n"
+      "          ttfusion report out/process_noise -o answer.html\n"
+      "          ttfusion report out/process_noise --point 7 -o point7.html");
+  command->add_option("folders", options->folders, "What run, launch or experiment left in --out")
+      ->required()
+      ->check(kNamed);
+  command
+      ->add_option("--from", options->from_s,
+                   "Start of the timing diagrams, true time in seconds (default: from where the drive is judged)")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--to", options->to_s, "End of the timing diagrams (default: 160 ms later; 2 s later at most)")
+      ->check(CLI::NonNegativeNumber);
+  auto* file =
+      command->add_option("--file", options->file,
+                          "An experiment's file, where it is not where it was: a run of each paradigm is driven again");
+  auto* point = command->add_option("--point", options->point, "Of which point (default: the first)");
+  auto* none = command->add_flag("--no-drives", options->no_drives, "Drive nothing again: no timing diagrams");
+  none->excludes(file)->excludes(point);
+  command->add_option("-o,--out", options->out, "The page to write, .html")->required()->check(kNamed);
+  command->callback([options, &action] { action = [options] { return run_report(*options); }; });
+}
+
+}  // namespace ttf::cli

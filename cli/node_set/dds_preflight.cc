@@ -1,0 +1,77 @@
+#include "cli/node_set/dds_preflight.h"
+
+#include <fmt/format.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <stdexcept>
+#include <string>
+
+#include "bus/dds/common/participant.h"
+#include "cli/supervision/descriptor.h"
+#include "core/errors.h"
+
+namespace ttf::cli {
+namespace {
+
+[[noreturn]] void fail(const char* what) {
+  throw std::runtime_error(fmt::format("DDS: cannot be tried: {}: {}", what, std::strerror(errno)));
+}
+
+// Its exit code is 0 where it can join.
+[[noreturn]] void try_to_join(int words) {
+  dup2(words, STDERR_FILENO);
+  try {
+    const dds::Participant there(0, std::chrono::seconds(10));
+  } catch (const std::exception&) {
+    _exit(1);
+  }
+  _exit(0);
+}
+
+// "1795322955.674948 [0]   ttfusion: can't open configuration file x" without what comes before the words. The first
+// line tells why, what follows is of no more help.
+std::string words_of(std::string text) {
+  text.resize(std::min(text.find('\n'), text.size()));
+  const std::size_t program = text.find("]");
+  const std::size_t colon = text.find(": ", program == std::string::npos ? 0 : program);
+  if (program != std::string::npos && colon != std::string::npos) text.erase(0, colon + 2);
+  return text;
+}
+
+}  // namespace
+
+void check_dds_configuration() {
+  const char* const uri = std::getenv("CYCLONEDDS_URI");
+  if (uri == nullptr) return;
+  std::array<int, 2> ends{};
+  if (pipe(ends.data()) != 0) fail("pipe");
+  launch::Descriptor heard(ends[0]), words(ends[1]);
+  const pid_t child = fork();
+  if (child < 0) fail("fork");
+  if (child == 0) try_to_join(words.get());
+  words.close();
+  std::string said;
+  std::array<char, 4096> bytes{};
+  for (ssize_t size = 0; (size = read(heard.get(), bytes.data(), bytes.size())) != 0;) {
+    if (size < 0 && errno != EINTR) fail("read");
+    if (size > 0 && said.size() < bytes.size()) said.append(bytes.data(), static_cast<std::size_t>(size));
+  }
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0)
+    if (errno != EINTR) fail("waitpid");
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
+  throw InputError({"environment", 0, "CYCLONEDDS_URI", uri,
+                    fmt::format("must be a configuration that Cyclone DDS can run with here (bus/dds/loopback.xml is "
+                                "one), but it says: {}",
+                                said.empty() ? "nothing" : words_of(std::move(said)))});
+}
+
+}  // namespace ttf::cli

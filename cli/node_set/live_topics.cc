@@ -1,0 +1,98 @@
+#include "cli/node_set/live_topics.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <chrono>
+
+namespace ttf::cli {
+namespace {
+
+constexpr Duration kHealthPeriod = Duration::milliseconds(1000);
+
+// Of the first task with that step, in real time; zero where it is not the schedule that says when it runs.
+Duration period_of(const NodeSet& set, std::string_view step, const runner::DriveClock& clock) {
+  for (const schedules::Node& node : set.cluster.nodes)
+    for (const schedules::Task& task : node.tasks)
+      if (task.step == step && task.activation.kind == schedules::ActivationKind::kTime)
+        return clock.in_real(set.cluster.cycle() * task.activation.at.repetition);
+  return {};
+}
+
+Duration period_of(const NodeSet& set, const schedules::Sensor& sensor, const runner::DriveClock& clock) {
+  return clock.in_real(sensor.scheduled ? set.cluster.cycle() * sensor.at.repetition : sensor.longest_period());
+}
+
+std::int64_t utc_ns(bus::HostTime at) {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(now).count() + (at - bus::host_now()).ns;
+}
+
+ros::RosOptions options_of(const NodeSet& set, const runner::DriveClock& clock, bool tells_truth) {
+  ros::RosOptions options;
+  options.domain = ros::domain_of_environment();
+  options.origin_realtime_ns = utc_ns(clock.origin());
+  options.time_scale_ppm = clock.scale_ppm();
+  options.image_period = period_of(set, "image_output", clock);
+  options.step_period = period_of(set, "fusion", clock);
+  options.health_period = kHealthPeriod;
+  if (tells_truth && !set.cluster.sensors.empty()) {
+    options.truth_objects = static_cast<std::uint16_t>(set.scenario.world.objects.size());
+    options.truth_period = period_of(set, set.cluster.sensors.front(), clock);
+  }
+  return options;
+}
+
+bool tells_truth(const NodeSet& set, NodeId node) {
+  return !set.cluster.sensors.empty() && set.cluster.sensors.front().device == node;
+}
+
+std::string us(Duration duration) { return fmt::format("{:.1f}", in_us(duration)); }
+
+}  // namespace
+
+void check_topics(const NodeSet& set) {
+  const runner::DriveClock any({}, set.time_scale_ppm);
+  for (const bool with_truth : {false, true}) ros::validate(options_of(set, any, with_truth));
+}
+
+void try_topics(const NodeSet& set) {
+  ros::try_domain(options_of(set, runner::DriveClock({}, set.time_scale_ppm), false));
+}
+
+LiveTopics::LiveTopics(const NodeSet& set, NodeId node, const runner::DriveClock& clock,
+                       const sim::Surroundings& around)
+    : name_(set.cluster.node(node).name), publisher_(options_of(set, clock, tells_truth(set, node))) {
+  if (tells_truth(set, node)) truth_.emplace(*around.scene, set.cluster.nodes.size(), publisher_);
+}
+
+std::vector<records::Sink*> LiveTopics::sinks() {
+  std::vector<records::Sink*> sinks{&publisher_};
+  if (truth_) sinks.push_back(&*truth_);
+  return sinks;
+}
+
+void LiveTopics::health(const runner::Health& health, TrueTime at) {
+  const std::array values{fmt::format("{}", health.timing.late_wakeups),
+                          fmt::format("{}", health.timing.slots_missed),
+                          fmt::format("{}", health.timing.late_frames),
+                          fmt::format("{}", health.timing.frames_lost),
+                          us(health.wakeup_p50),
+                          us(health.wakeup_p99),
+                          us(health.wakeup_longest),
+                          us(health.largest_offset)};
+  const std::array<ros::HealthValue, 8> told{{{"late wake-ups", values[0]},
+                                              {"slots missed", values[1]},
+                                              {"late frames", values[2]},
+                                              {"frames lost", values[3]},
+                                              {"wake-up lateness p50 [us]", values[4]},
+                                              {"wake-up lateness p99 [us]", values[5]},
+                                              {"wake-up lateness max [us]", values[6]},
+                                              {"largest offset correction [us]", values[7]}}};
+  const bool off_flexray = health.state.empty();
+  const bool good = off_flexray || health.state == "normal active";
+  publisher_.health({at, good ? ros::HealthLevel::kOk : ros::HealthLevel::kWarn, name_,
+                     off_flexray ? "running" : health.state, told});
+}
+
+}  // namespace ttf::cli

@@ -1,0 +1,232 @@
+#include "cli/node_set/node_set.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "bus/dds/common/session.h"
+#include "cli/node_set/can_interfaces.h"
+#include "cli/decimal_option.h"
+#include "cli/drive/drive_setup.h"
+#include "core/decimal.h"
+#include "core/errors.h"
+#include "core/strict_yaml.h"
+#include "drives/step_catalog.h"
+#include "schedules/check/real_time_rules.h"
+#include "drives/drive.h"
+
+namespace ttf::cli {
+namespace {
+
+constexpr std::int64_t kNsPerSecond = 1'000'000'000;
+constexpr Range<std::int64_t> kDurations_ns{kNsPerSecond / 10, 3600 * kNsPerSecond};  // as a scenario's
+constexpr std::size_t kLongestHost = 255;
+constexpr Range<std::int64_t> kStarts_ns{0, 4'102'444'800 * kNsPerSecond};  // to the end of 2099
+
+// The drive of a cluster that is given without one: the paper's first, on this cluster whatever the strategy.
+nodes::Scenario default_scene(const schedules::Cluster& cluster) {
+  const auto quoted = [](const std::string& text) { return nlohmann::json(text).dump(); };
+  const std::string file = quoted(std::filesystem::absolute(cluster.file).string());
+  return nodes::parse_scenario(fmt::format(R"(name: {}
+description: "The default scene: a car ahead accelerates along the sensor vehicle's axis, from 30 m to 40 m within 1.5 s"
+seed: 1
+duration: 3 s
+evaluate_from: 1500 ms
+clusters: {{buff: {}, adva: {}, tt: {}}}
+world:
+  acceleration_noise: 2.0
+  yaw_rate_noise: 0.05
+  objects:
+    - name: car
+      x: 25.5
+      y: 0.0
+      speed: 1.5
+      reference: true
+      segments:
+        - {{duration: 1500 ms, acceleration: 2.0}}
+        - {{duration: 1500 ms, acceleration: 2.89}}
+reference: {{}}
+)",
+                                           quoted(cluster.name), file, file, file),
+                               "default_scene.yaml");
+}
+
+// A cluster file has FlexRay parameters, a scenario names clusters.
+bool is_cluster_file(const std::string& file) {
+  const StrictYaml yaml = StrictYaml::load(file);
+  Findings ignored;
+  const YamlMap root = yaml.root(ignored);
+  return root.has("flexray") && !root.has("clusters");
+}
+
+void set_duration(nodes::Scenario& scenario, const std::string& name, const std::string& text) {
+  const std::string unit =
+      fmt::format(" s ({} is evaluated from {} s on)", name, scaled_text(scenario.evaluate_from.ns, kNsPerSecond));
+  const Range<std::int64_t> allowed{std::max(kDurations_ns.low, scenario.evaluate_from.ns), kDurations_ns.high};
+  scenario.duration = scenario.world.duration =
+      Duration{decimal_option("--duration", text, kNsPerSecond, allowed, unit)};
+}
+
+// As a session on DDS is named, whatever the bus.
+std::string session_option(const std::string& name) {
+  dds::Session session;
+  session.name = name;
+  session.members = {NodeId{0}};
+  try {
+    return dds::validate(session).name;
+  } catch (const InputError& error) {
+    throw InputError({"command line", 0, "--session", name, error.findings().front().expected});
+  }
+}
+
+fusion::StrategyKind strategy_of(const std::string& name) {
+  for (const auto kind : {fusion::StrategyKind::kBuff, fusion::StrategyKind::kAdva})
+    if (nodes::name_of(kind) == name) return kind;
+  return fusion::StrategyKind::kTt;
+}
+
+// As its name is known to the system.
+std::string this_host() {
+  std::array<char, 256> name{};
+  return gethostname(name.data(), name.size() - 1) == 0 && name[0] != '\0' ? name.data() : "unknown";
+}
+
+std::string host_option(const std::string& host) {
+  const auto printable = [](unsigned char c) { return c > 0x20 && c < 0x7f; };
+  if (host.empty() || host.size() > kLongestHost || !std::all_of(host.begin(), host.end(), printable))
+    throw InputError({"command line", 0, "--host", host,
+                      fmt::format("must be 1..{} letters, digits or signs, without blanks", kLongestHost)});
+  return host;
+}
+
+// What is for virtual time only, or for real time only.
+void refuse_other_time(const NodeSetArguments& arguments) {
+  const auto refuse = [](const char* option, const std::string& value, const char* why) {
+    throw InputError({"command line", 0, option, value, fmt::format("must {}", why)});
+  };
+  if (!arguments.virtual_time) return;
+  if (arguments.time_scale)
+    refuse("--time-scale", *arguments.time_scale, "not be given with --virtual-time, which has no pace");
+  if (arguments.start_at)
+    refuse("--start-at", *arguments.start_at, "not be given with --virtual-time, which begins when all are there");
+  if (arguments.rejoin)
+    refuse("--rejoin", "", "not be given with --virtual-time: nobody would wait for the node to catch up");
+  if (arguments.host)
+    refuse("--host", *arguments.host, "not be given with --virtual-time, where no host's clock counts");
+  if (arguments.bus != "dds")
+    refuse("--bus", arguments.bus,
+           "be dds with --virtual-time: on CAN nobody can promise to be silent until an instant");
+}
+
+void check_fit_for_real_time(const NodeSet& set) {
+  if (auto findings = schedules::check_real_time(set.cluster, set.time_scale_ppm); !findings.empty())
+    throw InputError(std::move(findings));
+  if (!set.scenario.faults.empty())
+    throw InputError({set.scenario.file, set.scenario.faults.faults.front().line, "faults", "",
+                      "must be run in virtual time: only there faults can be injected"});
+  const bool a_alone = set.bus.kind == launch::BusKind::kSocketCan && set.bus.interfaces.size() == 1;
+  for (const schedules::FrameSlot& frame : set.cluster.frames)
+    if (a_alone && frame.channels == schedules::Channels::kB)
+      throw InputError({"command line", 0, "--bus", set.bus.text(),
+                        fmt::format("must name an interface for channel B, too: slot {} of {} is sent on B alone",
+                                    frame.slot, set.cluster.file)});
+}
+
+}  // namespace
+
+void add_node_set_options(CLI::App& command, NodeSetArguments& arguments) {
+  command.add_option("scenario", arguments.scenario, "Scenario file, or a cluster file for the default scene")
+      ->required();
+  command
+      .add_option("--strategy", arguments.strategy, "Fusion strategy, and with it the scenario's cluster (default: tt)")
+      ->check(CLI::IsMember({"buff", "adva", "tt"}));
+  command.add_option("--seed", arguments.seed, "Seed of every random stream, instead of the scenario's");
+  command.add_option("--bus", arguments.bus,
+                     "dds (default), or socketcan:IF[,IF] with the interfaces of channels A and B");
+  command
+      .add_option("--can", arguments.cans,
+                  "NAME=IF: the interface of a private CAN on socketcan, for each once (default: IF is its NAME)")
+      ->allow_extra_args(false);
+  command.add_option(
+      "--session", arguments.session,
+      "Name that all nodes of one drive share on dds, and no others (default: ttfusion; launch: its own)");
+  command.add_flag("--virtual-time", arguments.virtual_time, "As fast as the processes can, instead of in real time");
+  command.add_flag("--no-topics", arguments.no_topics, "Publish nothing for ROS 2 (docs/ros.md) in real time");
+  command.add_option("--time-scale", arguments.time_scale, "Stretch the schedule in real time, 0.1..1000");
+  command.add_option("--duration", arguments.duration, "Seconds to drive, instead of the scenario's");
+}
+
+NodeSet read_node_set(const NodeSetArguments& arguments) {
+  NodeSet set;
+  set.file = arguments.scenario;
+  set.strategy = strategy_of(arguments.strategy);
+  set.bus = launch::Bus::parse(arguments.bus);
+  set.session = session_option(arguments.session);
+  set.virtual_time = arguments.virtual_time;
+  set.topics = !arguments.no_topics && !arguments.virtual_time;
+  if (arguments.time_scale) set.time_scale_ppm = time_scale_option(*arguments.time_scale);
+  refuse_other_time(arguments);
+  if (arguments.start_at)
+    set.start_at_ns = decimal_option("--start-at", *arguments.start_at, kNsPerSecond, kStarts_ns, " s");
+  set.rejoin = arguments.rejoin;
+  set.host = arguments.host ? host_option(*arguments.host) : this_host();
+
+  std::string drive = set.file;  // as messages call it
+  if (is_cluster_file(set.file)) {
+    set.cluster = checked_cluster(set.file);
+    set.scenario = default_scene(set.cluster);
+    drive = "the default scene";
+  } else {
+    set.scenario = nodes::load_scenario(set.file);
+    set.cluster = checked_cluster(set.scenario, set.strategy);
+  }
+  if (nodes::is_recorded(set.cluster))
+    throw InputError(
+        {set.file, 0, "clusters", set.cluster.file,
+         "must be a cluster with sensors: a recording is played by `ttfusion run --input`, in one process"});
+  set.seed = arguments.seed ? seed_of(*arguments.seed) : set.scenario.seed;
+  if (arguments.duration) set_duration(set.scenario, drive, *arguments.duration);
+  sim::check_fits(set.scenario, set.cluster, set.strategy, false);
+  set.can_interfaces = can_interfaces(set.cluster, set.bus, arguments.cans);
+  if (!set.virtual_time) check_fit_for_real_time(set);
+  set.folder = arguments.out.empty() ? folder_of(set.scenario) + "/launch" : arguments.out;
+  return set;
+}
+
+std::vector<std::string> NodeSet::options() const {
+  std::vector<std::string> list{file,
+                                "--strategy",
+                                std::string(nodes::name_of(strategy)),
+                                "--seed",
+                                fmt::to_string(seed),
+                                "--bus",
+                                bus.text(),
+                                "--session",
+                                session,
+                                "--duration",
+                                scaled_text(scenario.duration.ns, kNsPerSecond)};
+  for (std::string& option : can_options(cluster, can_interfaces)) list.push_back(std::move(option));
+  if (start_at_ns) list.insert(list.end(), {"--start-at", scaled_text(*start_at_ns, kNsPerSecond)});
+  if (rejoin) list.emplace_back("--rejoin");
+  if (virtual_time)
+    list.emplace_back("--virtual-time");
+  else
+    list.insert(list.end(), {"--time-scale", schedules::time_scale_text(time_scale_ppm)});
+  if (!virtual_time && !topics) list.emplace_back("--no-topics");
+  list.insert(list.end(), {"--out", folder});
+  return list;
+}
+
+NodeId node_of(const schedules::Cluster& cluster, const std::string& name) {
+  if (const auto node = cluster.find_node(name)) return *node;
+  std::vector<std::string> names;
+  for (const schedules::Node& node : cluster.nodes) names.push_back(node.name);
+  throw InputError(
+      {"command line", 0, "NAME", name, fmt::format("must be a node of {}: {}", cluster.file, fmt::join(names, ", "))});
+}
+
+}  // namespace ttf::cli

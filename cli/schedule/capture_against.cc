@@ -1,0 +1,96 @@
+#include "cli/schedule/capture_against.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "cli/output.h"
+#include "cli/time_window.h"
+#include "core/counted.h"
+#include "recording/capture/check.h"
+
+namespace ttf::cli {
+namespace {
+
+using recording::CaptureFinding;
+using recording::CaptureVerdict;
+
+schedules::Channels channels_of(const std::string& text) {
+  return text == "A" ? schedules::Channels::kA : text == "B" ? schedules::Channels::kB : schedules::Channels::kAB;
+}
+
+std::string_view name_of(recording::Contradiction kind) {
+  return recording::kContradictionNames[static_cast<std::size_t>(kind)];
+}
+
+void print_json(const schedules::Cluster& cluster, const CaptureArguments& arguments, const CaptureVerdict& verdict) {
+  nlohmann::ordered_json json{{"cluster", cluster.name},
+                              {"capture", arguments.file},
+                              {"channels", arguments.channels},
+                              {"frames", verdict.frames},
+                              {"cycles", verdict.cycles},
+                              {"symbols", verdict.symbols},
+                              {"consistent", verdict.contradictions() == 0}};
+  for (std::size_t kind = 0; kind < recording::kContradictions; ++kind)
+    json["contradictions"][std::string(recording::kContradictionNames[kind])] = verdict.counts[kind];
+  json["findings"] = nlohmann::ordered_json::array();
+  for (const CaptureFinding& finding : verdict.findings)
+    json["findings"].push_back({{"packet", finding.packet}, {"kind", name_of(finding.kind)}, {"text", finding.text}});
+  fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+}
+
+void print_text(const schedules::Cluster& cluster, const CaptureArguments& arguments, const CaptureVerdict& verdict) {
+  for (const CaptureFinding& finding : verdict.findings)
+    fmt::print("{}: {} packet {}: {}: {}\n", arguments.file,
+               finding.kind == recording::Contradiction::kMissing ? "after" : "at", finding.packet,
+               name_of(finding.kind), finding.text);
+  if (verdict.findings.size() == recording::kMostFindings)
+    fmt::print("...: the first {} are listed\n", recording::kMostFindings);
+  fmt::print("{} against {}: {} on {} in {}: ", arguments.file, cluster.name, counted(verdict.frames, "frame"),
+             arguments.channels, counted(static_cast<std::uint64_t>(verdict.cycles), "cycle"));
+  if (verdict.contradictions() == 0) {
+    fmt::print("as scheduled\n");
+    return;
+  }
+  fmt::print("{}\n", counted(verdict.contradictions(), "contradiction"));
+  for (std::size_t kind = 0; kind < recording::kContradictions; ++kind)
+    if (verdict.counts[kind] > 0)
+      fmt::print("  {:24} {}\n", recording::kContradictionNames[kind], verdict.counts[kind]);
+}
+
+}  // namespace
+
+void add_capture_arguments(CLI::App& command, CaptureArguments& arguments) {
+  CLI::Option* against = command.add_option(
+      "--against", arguments.file, "Capture (pcap or pcapng with FlexRay frames) to hold against the schedule");
+  command.add_option("--channels", arguments.channels, "Channels that were captured: A, B or AB")
+      ->check(CLI::IsMember({"A", "B", "AB"}))
+      ->capture_default_str()
+      ->needs(against);
+  command
+      .add_option("--from", arguments.from_s, "Begin so many seconds after the first FlexRay packet (after a start-up)")
+      ->check(CLI::NonNegativeNumber)
+      ->needs(against);
+  command.add_option("--to", arguments.to_s, "End so many seconds after the first FlexRay packet")
+      ->check(CLI::NonNegativeNumber)
+      ->needs(against);
+}
+
+int check_against_capture(const schedules::Cluster& cluster, const CaptureArguments& arguments, bool json) {
+  const TimeWindow window = time_window(arguments.from_s, arguments.to_s);
+  recording::CaptureCheckOptions options;
+  options.channels = channels_of(arguments.channels);
+  options.from_ns = window.from.ns;
+  if (window.to) options.to_ns = window.to->ns;
+  const recording::Capture capture = recording::read_capture(arguments.file);
+  print_warnings(capture.warning);
+  const CaptureVerdict verdict = recording::check_capture(capture, arguments.file, cluster, options);
+  if (json)
+    print_json(cluster, arguments, verdict);
+  else
+    print_text(cluster, arguments, verdict);
+  return verdict.contradictions() == 0 ? 0 : 1;
+}
+
+}  // namespace ttf::cli

@@ -1,0 +1,21 @@
+// `schedule check --against CAPTURE`: does what was captured on the bus obey the schedule?
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "schedules/model/cluster.h"
+
+namespace ttf::cli {
+
+struct CaptureArguments {
+  std::string file;  // empty: not asked for
+  std::string channels = "AB";
+  double from_s = -1.0, to_s = -1.0;
+};
+void add_capture_arguments(CLI::App& command, CaptureArguments& arguments);
+
+// Prints every contradiction and a summary; returns the exit code. Throws InputError for a capture that cannot be read.
+int check_against_capture(const schedules::Cluster& cluster, const CaptureArguments& arguments, bool json);
+
+}  // namespace ttf::cli

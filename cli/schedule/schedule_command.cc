@@ -1,0 +1,184 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/schedule/capture_against.h"
+#include "cli/commands.h"
+#include "cli/schedule/medium_check.h"
+#include "cli/output.h"
+#include "core/errors.h"
+#include "drives/step_catalog.h"
+#include "report/drawing/render.h"
+#include "report/plots/schedule_picture.h"
+#include "schedules/analysis/ages.h"
+#include "schedules/check/checker.h"
+#include "schedules/exchange/dbc.h"
+#include "schedules/analysis/dynamic_load.h"
+#include "schedules/exchange/fibex/export.h"
+#include "schedules/exchange/fibex/import.h"
+#include "schedules/file/loader.h"
+#include "schedules/model/ports.h"
+#include "schedules/exchange/text.h"
+
+namespace ttf::cli {
+namespace {
+
+struct ScheduleOptions {
+  std::string file;
+  std::string out;
+  std::string format;
+  std::string can;
+  bool json = false;
+  CaptureArguments capture;
+  MediumArguments medium;
+};
+
+// Null where nothing is sent in the dynamic segment.
+nlohmann::ordered_json dynamic_json(const schedules::Cluster& cluster) {
+  nlohmann::ordered_json json;
+  for (const schedules::DynamicList& list : schedules::dynamic_lists(cluster))
+    json["lists"].push_back({{"pdu", cluster.pdu(list.pdu).name},
+                             {"sender", cluster.node(list.sender).name},
+                             {"slots", {list.first_slot, list.last_slot}},
+                             {"channels", schedules::channels_text(list.channels)},
+                             {"minislots_each", list.minislots_each},
+                             {"turn", {list.earliest_turn, list.latest_turn}},
+                             {"always_in_time", list.always_in_time}});
+  if (json.is_null()) return json;
+  json["minislots"] = cluster.flexray.gNumberOfMinislots;
+  for (const schedules::DynamicLoad& load : schedules::dynamic_load(cluster))
+    json["worst_minislots"][load.channel == schedules::Channel::kA ? "A" : "B"] = load.minislots;
+  return json;
+}
+
+// What is wrong with a cluster goes to standard output, too, where a script reads it.
+void print_findings(const InputError& error) {
+  nlohmann::ordered_json json{{"consistent", false}, {"findings", nlohmann::ordered_json::array()}};
+  for (const Finding& finding : error.findings())
+    json["findings"].push_back({{"file", finding.file},
+                                {"line", finding.line},
+                                {"key", finding.key},
+                                {"value", finding.value},
+                                {"expected", finding.expected},
+                                {"text", finding.sentence()}});
+  fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+}
+
+schedules::Cluster checked_schedule(const ScheduleOptions& options) {
+  try {
+    schedules::Cluster cluster = schedules::load_checked_cluster(options.file);
+    schedules::bind_ports(cluster, nodes::step_ports());
+    return cluster;
+  } catch (const InputError& error) {
+    if (options.json) print_findings(error);
+    throw;
+  }
+}
+
+int check(const ScheduleOptions& options) {
+  const schedules::Cluster cluster = checked_schedule(options);
+  if (!options.capture.file.empty()) return check_against_capture(cluster, options.capture, options.json);
+  if (options.medium.medium) return check_on_medium(cluster, options.medium, options.json);
+  if (!options.json) {
+    fmt::print("{}: consistent\n{}{}", cluster.name, schedules::dynamic_text(cluster), schedules::ages_text(cluster));
+    return 0;
+  }
+  nlohmann::ordered_json json;
+  json["cluster"] = cluster.name;
+  json["consistent"] = true;
+  if (auto dynamic = dynamic_json(cluster); !dynamic.is_null()) json["dynamic_segment"] = std::move(dynamic);
+  for (const schedules::AgePath& path : schedules::measurement_ages(cluster)) {
+    nlohmann::ordered_json one{{"sensor", cluster.sensor(path.sensor).name},
+                               {"available_ms", {in_ms(path.fusion_best), in_ms(path.fusion_worst)}},
+                               {"fused_ms", {in_ms(path.fused_best), in_ms(path.fused_worst)}},
+                               {"first_use_ms", {in_ms(path.use_best), in_ms(path.use_worst)}},
+                               {"newest_at_any_use_worst_ms", in_ms(path.newest_worst)},
+                               {"buffered_use_worst_ms", in_ms(path.buffered_use_worst)}};
+    for (const schedules::Contribution& contribution : path.to_use)
+      one["contributions"].push_back({{"name", contribution.name},
+                                      {"best_ms", in_ms(contribution.best)},
+                                      {"worst_ms", in_ms(contribution.worst)}});
+    json["ages"].push_back(std::move(one));
+  }
+  fmt::print("{}\n", json.dump(2));
+  return 0;
+}
+
+int show(const ScheduleOptions& options) {
+  if (!options.out.empty()) report::check_picture_path(options.out);
+  const schedules::Cluster cluster = schedules::load_checked_cluster(options.file);
+  if (options.out.empty())
+    fmt::print("{}", schedules::show_text(cluster));
+  else
+    report::write_picture(report::schedule_svg(cluster), options.out);
+  return 0;
+}
+
+void write_text(const std::string& text, const std::string& path) {
+  if (path.empty())
+    fmt::print("{}", text);
+  else
+    write_file(path, text);
+}
+
+int export_cluster(const ScheduleOptions& options) {
+  if (!options.out.empty()) refuse_overwriting(options.file, options.out, "--out");
+  if (!options.can.empty() && options.format != "dbc")
+    throw InputError(Finding{"command line", 0, "--can", options.can, "goes with --format dbc only"});
+  if (options.format == "dbc") {
+    write_text(schedules::dbc_text(schedules::load_checked_cluster(options.file), options.can), options.out);
+    return 0;
+  }
+  if (options.format == "fibex") {
+    write_text(schedules::fibex_text(schedules::load_checked_cluster(options.file)), options.out);
+    return 0;
+  }
+  const schedules::FibexImport import = schedules::import_fibex(options.file);
+  for (const Finding& finding : import.left_out) fmt::print(stderr, "note: {}\n", finding.sentence());
+  const std::string yaml = schedules::skeleton_yaml(import);
+  schedules::parse_cluster(yaml, options.out.empty() ? "cluster.yaml" : options.out);  // what is written can be read
+  write_text(yaml, options.out);
+  return 0;
+}
+
+}  // namespace
+
+void add_schedule(CLI::App& app, Action& action) {
+  CLI::App* command = app.add_subcommand("schedule", "Validate, draw and exchange schedules");
+  command->require_subcommand(1);
+  auto options = std::make_shared<ScheduleOptions>();
+  CLI::App* checking = command->add_subcommand("check", "Prove a cluster consistent and bound its measurements' ages");
+  checking->footer(
+      "Example: ttfusion schedule check schedules/paper_synchronised.yaml\n"
+      "         ttfusion schedule check schedules/paper_synchronised.yaml --against drive.pcapng\n"
+      "         ttfusion schedule check schedules/paper_synchronised.yaml --medium can-fd:1M/5M --time-scale 3");
+  checking->add_option("file", options->file, "Cluster file")->required();
+  checking->add_flag("--json", options->json, "Result as JSON on standard output");
+  add_capture_arguments(*checking, options->capture);
+  add_medium_arguments(*checking, options->medium);
+  checking->get_option("--medium")->excludes("--against");
+  checking->callback([options, &action] { action = [options] { return check(*options); }; });
+  CLI::App* showing = command->add_subcommand("show", "Draw one communication cycle as text, or as a picture with -o");
+  showing->footer("Example: ttfusion schedule show schedules/paper_synchronised.yaml -o schedule.svg");
+  showing->add_option("file", options->file, "Cluster file")->required();
+  showing->add_option("-o,--out", options->out, "Picture to write: .svg, .png or .pdf");
+  showing->callback([options, &action] { action = [options] { return show(*options); }; });
+  CLI::App* exporting = command->add_subcommand("export",
+                                                "Write a cluster as FIBEX 3.1, its CANs as DBC, or a FIBEX file's "
+                                                "FlexRay cluster as the beginning of a cluster file");
+  exporting->footer(
+      "Examples: ttfusion schedule export schedules/paper_synchronised.yaml --format fibex -o cluster.xml\n"
+      "          ttfusion schedule export schedules/paper_synchronised.yaml --format dbc -o cluster.dbc\n"
+      "          ttfusion schedule export cluster.xml --format yaml -o cluster.yaml");
+  exporting->add_option("file", options->file, "Cluster file (fibex, dbc), or FIBEX file (yaml)")->required();
+  exporting->add_option("--format", options->format, "fibex, dbc: out of a cluster file; yaml: out of a FIBEX file")
+      ->required()
+      ->check(CLI::IsMember({"fibex", "dbc", "yaml"}));
+  exporting->add_option("--can", options->can, "dbc: only this CAN of the cluster's");
+  exporting->add_option("-o,--out", options->out, "File to write; else standard output");
+  exporting->callback([options, &action] { action = [options] { return export_cluster(*options); }; });
+}
+
+}  // namespace ttf::cli

@@ -1,0 +1,137 @@
+#include "cli/supervision/health_table.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "cli/supervision/lines.h"
+#include "report/drawing/tables.h"
+
+namespace ttf::launch {
+namespace {
+
+using Json = nlohmann::json;
+
+// The first thing that is wrong with a message, in words.
+class Reader {
+ public:
+  explicit Reader(const Json& object, std::string where) : object_(object), where_(std::move(where)) {
+    if (!object_.is_object()) complain("", "must be an object");
+  }
+
+  void count(const char* key, std::optional<std::uint64_t>& value) {
+    const Json* const given = find(key);
+    if (given == nullptr) return;
+    if (!given->is_number_integer() || (!given->is_number_unsigned() && given->get<std::int64_t>() < 0))
+      return complain(key, "must be a whole number from 0");
+    value = given->get<std::uint64_t>();
+  }
+  void number(const char* key, std::optional<double>& value) {
+    const Json* const given = find(key);
+    if (given == nullptr) return;
+    if (!given->is_number() || !(given->get<double>() >= 0)) return complain(key, "must be a number from 0");
+    value = given->get<double>();
+  }
+  void word(const char* key, std::string& value) {
+    const Json* const given = find(key);
+    if (given == nullptr) return;
+    if (!given->is_string()) return complain(key, "must be text");
+    value = given->get<std::string>();
+  }
+  const Json* find(const char* key) const {
+    if (!object_.is_object()) return nullptr;
+    const auto found = object_.find(key);
+    return found == object_.end() ? nullptr : &*found;
+  }
+  const std::optional<std::string>& wrong() const { return wrong_; }
+
+ private:
+  void complain(std::string_view key, std::string_view expected) {
+    if (!wrong_) wrong_ = fmt::format("{}{}{}: {}", where_, key.empty() ? "" : ".", key, expected);
+  }
+
+  const Json& object_;
+  std::string where_;
+  std::optional<std::string> wrong_;
+};
+
+std::string count_cell(const std::optional<std::uint64_t>& value) { return value ? fmt::to_string(*value) : "-"; }
+std::string us_cell(const std::optional<double>& value) { return value ? report::cell(*value, 1) : "-"; }
+
+nlohmann::ordered_json or_null(const auto& value) {
+  return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
+}
+
+}  // namespace
+
+HealthTable::HealthTable(const std::vector<std::string>& nodes) {
+  for (const std::string& name : nodes) rows_.emplace_back().name = name;
+}
+
+std::optional<std::string> HealthTable::update(std::size_t node, const Json& health) {
+  NodeHealth next = rows_[node].health;
+  Reader reader(health, "health");
+  reader.count("missed_slots", next.missed_slots);
+  reader.count("late_wakeups", next.late_wakeups);
+  reader.number("sync_precision_us", next.sync_precision_us);
+  reader.count("drops", next.drops);
+  reader.word("state", next.state);
+  if (reader.wrong()) return reader.wrong();
+  if (const Json* const given = reader.find("lateness_us")) {
+    Reader lateness(*given, "health.lateness_us");
+    lateness.number("p50", next.lateness_p50_us);
+    lateness.number("p99", next.lateness_p99_us);
+    lateness.number("max", next.lateness_max_us);
+    if (lateness.wrong()) return lateness.wrong();
+  }
+  rows_[node].health = std::move(next);
+  rows_[node].said.update(health);
+  return std::nullopt;
+}
+
+void HealthTable::set_process(std::size_t node, std::string state) { rows_[node].process = std::move(state); }
+
+void HealthTable::forget(std::size_t node) {
+  rows_[node].health = {};
+  rows_[node].said = Json::object();
+}
+
+bool HealthTable::anything_said() const {
+  for (const Row& row : rows_)
+    if (!row.said.empty()) return true;
+  return false;
+}
+
+std::string HealthTable::text() const {
+  report::Table table({"node", "missed slots", "late wake-ups", "late p50 [us]", "p99 [us]", "max [us]",
+                       "sync precision [us]", "drops", "state"});
+  for (const Row& row : rows_) {
+    const NodeHealth& h = row.health;
+    table.add({printable(row.name), count_cell(h.missed_slots), count_cell(h.late_wakeups), us_cell(h.lateness_p50_us),
+               us_cell(h.lateness_p99_us), us_cell(h.lateness_max_us), us_cell(h.sync_precision_us),
+               count_cell(h.drops),
+               h.state.empty() ? row.process : fmt::format("{}, {}", row.process, printable(h.state))});
+  }
+  return table.text();
+}
+
+nlohmann::ordered_json HealthTable::json() const {
+  auto list = nlohmann::ordered_json::array();
+  for (const Row& row : rows_) {
+    const NodeHealth& h = row.health;
+    nlohmann::ordered_json one{{"node", row.name}, {"process", row.process}};
+    one["state"] = h.state.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(h.state);
+    one["missed_slots"] = or_null(h.missed_slots);
+    one["late_wakeups"] = or_null(h.late_wakeups);
+    one["lateness_us"] = {
+        {"p50", or_null(h.lateness_p50_us)}, {"p99", or_null(h.lateness_p99_us)}, {"max", or_null(h.lateness_max_us)}};
+    one["sync_precision_us"] = or_null(h.sync_precision_us);
+    one["drops"] = or_null(h.drops);
+    one["said"] = row.said;
+    list.push_back(std::move(one));
+  }
+  return list;
+}
+
+}  // namespace ttf::launch

@@ -1,0 +1,139 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/commands.h"
+#include "cli/drive/drive_setup.h"
+#include "cli/output.h"
+#include "cli/track/track_options.h"
+#include "cli/track/track_outputs.h"
+#include "core/errors.h"
+#include "replay/recorded_lists.h"
+#include "replay/config.h"
+#include "replay/sensor_timing.h"
+#include "replay/replay.h"
+#include "nodes/sensing/recorded.h"
+#include "drives/scenario.h"
+#include "recording/rows/observation_rows.h"
+#include "recording/rows/laser_radar_file.h"
+#include "recording/rows/track_rows.h"
+
+namespace ttf::cli {
+namespace {
+
+// Findings are all told; rows that have none go on. Where none has, there is nothing to go on with.
+void tell_damage(const Findings& findings, bool skip, std::size_t rows_left) {
+  if (!skip || rows_left == 0) findings.throw_if_any();
+  for (const Finding& finding : findings.list()) print_warnings(finding.sentence());
+}
+
+experiments::SensorSetup usual_sensor(bool laser_radar) {
+  experiments::SensorSetup setup;
+  if (!laser_radar) return setup;
+  const nodes::RecordedNoise documented;
+  setup.noise.position = documented.position_m;
+  setup.noise.range = documented.range_m;
+  setup.noise.bearing = documented.bearing_rad;
+  setup.noise.range_rate = documented.range_rate_mps;
+  return setup;
+}
+
+std::vector<recording::ObservationRow> read_rows(const TrackOptions& options, Findings& findings) {
+  if (options.format == "csv") return recording::read_observation_rows(options.observations, findings);
+  return recording::observation_rows_of(recording::read_laser_radar(options.observations), options.observations);
+}
+
+int run_track(const TrackOptions& options) {
+  if (options.json && options.out.empty())
+    throw InputError({"command line", 0, "--json", "", "needs --out: the tracks would go to standard output, too"});
+  if (!options.out.empty()) refuse_overwriting(options.observations, options.out, "--out");
+  if (!options.out.empty() && !options.config.empty()) refuse_overwriting(options.config, options.out, "--out");
+
+  const experiments::SensorSetup usual = usual_sensor(options.format == "laser_radar");
+  experiments::ReplayConfig config;
+  if (!options.config.empty()) config = experiments::load_replay_config(options.config, usual);
+  if (!options.strategy.empty()) config.strategy = chosen(options.strategy).front();
+  Findings findings;
+  const std::vector<recording::ObservationRow> rows = read_rows(options, findings);
+  experiments::list_sensors(config, rows, usual, options.observations);
+  experiments::SimulatedArrivals simulated;
+  try {
+    apply_sensor_options(options, config);
+    simulated = simulated_arrivals(options, config);
+  } catch (const InputError&) {
+    // A sensor that is missed may be missing for its rows are damaged: that is told first.
+    if (!options.skip_damaged) findings.throw_if_any();
+    throw;
+  }
+  experiments::Arrivals arrivals = experiments::arrivals_of(rows, config, options.observations, findings);
+  tell_damage(findings, options.skip_damaged, arrivals.lists.size());
+  experiments::simulate(arrivals, simulated);
+
+  TrackResult result{std::string(nodes::name_of(config.strategy)), arrivals.sensors, {}, findings.size()};
+  const experiments::ReplaySetup setup{config.strategy, config.tracker,
+                                       experiments::sensor_timings(arrivals, config, config.strategy), options.predict};
+  std::string tracks(recording::track_heading());
+  result.account =
+      experiments::replay(arrivals, setup, [&](GlobalTime known, std::span<const fusion::TrackView> views) {
+        for (const fusion::TrackView& view : views)
+          tracks += recording::track_line(experiments::track_row_of(view, known, arrivals.classes));
+      });
+
+  if (options.out.empty()) {
+    fmt::print("{}", tracks);
+    std::fflush(stdout);  // both may go to one file
+    fmt::print(stderr, "{}", track_table(result));
+    return 0;
+  }
+  write_file(options.out, tracks);
+  fmt::print("{}", options.json ? to_json(result).dump(2) + '\n' : track_table(result));
+  std::fflush(stdout);
+  fmt::print(stderr, "written to {}\n", options.out);
+  return 0;
+}
+
+void add_sensor_options(CLI::App& command, TrackOptions& options) {
+  const auto each_takes_one = [](CLI::Option* option) { option->allow_extra_args(false); };
+  each_takes_one(
+      command.add_option("--noise", options.noise,
+                         "SENSOR:WHAT=SIGMA: noise of what has no covariance of its own, as in radar:range=0.3; "
+                         "may be repeated, as the next three"));
+  each_takes_one(command.add_option("--worst-delay", options.worst_delay,
+                                    "SENSOR=DURATION: what buff and tt rely on; else the longest that is seen"));
+  each_takes_one(command.add_option(
+      "--period", options.period, "SENSOR=DURATION: the schedule tt relies on; else as the sensor is seen to measure"));
+  each_takes_one(
+      command.add_option("--delay", options.delay,
+                         "SENSOR=LEAST..MOST: delays drawn in place of the recorded ones, as in radar=20ms..70ms"));
+}
+
+}  // namespace
+
+void add_track(CLI::App& app, Action& action) {
+  auto options = std::make_shared<TrackOptions>();
+  CLI::App* command = app.add_subcommand("track", "Recorded observations through the tracker: tracks as CSV");
+  command->footer(
+      "Columns, in and out, and the configuration: docs/track.md.\n"
+      "Example: ttfusion track observations.csv --strategy buff --delay radar=20ms..70ms --seed 7 -o tracks.csv");
+  command->add_option("observations", options->observations, "Recorded observations")->required()->check(kNamed);
+  command->add_option("--config", options->config, "Tracker, strategy and sensors (YAML)")->check(kNamed);
+  command
+      ->add_option("--format", options->format, "csv (docs/track.md; the default) or laser_radar (docs/recordings.md)")
+      ->check(CLI::IsMember({"csv", "laser_radar"}));
+  command->add_option("--strategy", options->strategy, "Instead of the configuration's; adva where there is none")
+      ->check(CLI::IsMember({"buff", "adva", "tt"}));
+  add_sensor_options(*command, *options);
+  command->add_option("--shuffle", options->shuffle, "Each so many lists arrive together, in drawn order")
+      ->check(CLI::Range(1, 1000));
+  command->add_option("--seed", options->seed, "Seed of what is drawn (default: 1)");
+  command->add_flag("--predict", options->predict, "Tracks predicted to the instant of each fusion");
+  command->add_flag("--skip-damaged", options->skip_damaged, "Leave damaged rows out, each with a warning");
+  command->add_option("-o,--out", options->out, "File for the tracks (default: standard output)")->check(kNamed);
+  command->add_flag("--json", options->json, "Summary as JSON on standard output; needs --out");
+  command->callback([options, &action] { action = [options] { return run_track(*options); }; });
+}
+
+}  // namespace ttf::cli

@@ -1,0 +1,29 @@
+// The options of `track` that name a sensor: SENSOR=VALUE.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "replay/recorded_lists.h"
+#include "replay/config.h"
+
+namespace ttf::cli {
+
+struct TrackOptions {
+  std::string observations, config, format = "csv", strategy, seed = "1", out;
+  std::vector<std::string> noise;        // SENSOR:WHAT=SIGMA
+  std::vector<std::string> worst_delay;  // SENSOR=DURATION
+  std::vector<std::string> period;       // SENSOR=DURATION
+  std::vector<std::string> delay;        // SENSOR=DURATION or SENSOR=LEAST..MOST
+  std::size_t shuffle = 1;
+  bool predict = false, skip_damaged = false, json = false;
+};
+
+// What the options say of sensors, over what the configuration says. Throws InputError that names the option, the value
+// and what is allowed; so for a sensor that is not in the configuration. Of --worst-delay, --period and --noise the
+// last counts.
+void apply_sensor_options(const TrackOptions& options, experiments::ReplayConfig& config);
+experiments::SimulatedArrivals simulated_arrivals(const TrackOptions& options, const experiments::ReplayConfig& config);
+
+}  // namespace ttf::cli

@@ -1,0 +1,10 @@
+# ttf_protobuf(<name> <file.proto>): the library <name> of what protoc makes of it, in the folder it lies in. Generated code is
+# not ours to keep free of warnings; everything else is.
+function(ttf_protobuf name file)
+  protobuf_generate_cpp(sources headers ${file})
+  add_library(${name} STATIC ${sources} ${headers})
+  set_target_properties(${name} PROPERTIES UNITY_BUILD OFF)
+  target_compile_options(${name} PRIVATE -w)
+  target_include_directories(${name} SYSTEM PUBLIC ${PROJECT_BINARY_DIR})
+  target_link_libraries(${name} PUBLIC protobuf::libprotobuf)
+endfunction()

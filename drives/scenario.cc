@@ -1,0 +1,102 @@
+#include "drives/scenario.h"
+
+#include <filesystem>
+#include <utility>
+
+namespace ttf::nodes {
+
+std::string_view name_of(fusion::StrategyKind strategy) {
+  switch (strategy) {
+    case fusion::StrategyKind::kBuff: return "buff";
+    case fusion::StrategyKind::kAdva: return "adva";
+    case fusion::StrategyKind::kTt: return "tt";
+  }
+  return "";
+}
+
+namespace {
+
+Scenario read_scenario(const StrictYaml& yaml) {
+  const std::string& path = yaml.name();
+  Findings findings;
+  YamlMap root = yaml.root(findings);
+  Scenario scenario;
+  scenario.file = path;
+  scenario.text = yaml.text();
+  scenario.name = root.text("name");
+  scenario.description = root.text("description");
+  scenario.seed = static_cast<std::uint64_t>(root.integer("seed", {0, std::int64_t{1} << 62}));
+  constexpr Duration kLongest = Duration::milliseconds(3'600'000);
+  const std::size_t mistakes = findings.size();
+  scenario.duration = root.duration("duration", {Duration::milliseconds(100), kLongest});
+  // What must be within a duration that is none is not judged by what stands in for it.
+  const Duration latest = findings.size() == mistakes ? scenario.duration : kLongest;
+  scenario.evaluate_from = root.duration_or("evaluate_from", Duration{}, {Duration{}, latest});
+
+  scenario.startup = load_startup(root, latest);
+
+  YamlMap clusters = root.map("clusters");
+  for (const auto strategy : {fusion::StrategyKind::kBuff, fusion::StrategyKind::kAdva, fusion::StrategyKind::kTt}) {
+    const std::string file = clusters.text(name_of(strategy));
+    scenario.cluster_files[static_cast<std::size_t>(strategy)] =
+        (std::filesystem::path(path).parent_path() / file).lexically_normal().string();
+  }
+  clusters.finish();
+
+  YamlMap world = root.map("world");
+  scenario.world = world::load_world(world);
+  scenario.world.duration = scenario.duration;
+  world.finish();
+  if (auto sensors = root.map_if("sensors")) {
+    if (auto laser = sensors->map_if("laser")) {
+      scenario.laser = world::load_laser(*laser);
+      laser->finish();
+    }
+    if (auto camera = sensors->map_if("camera")) {
+      scenario.camera = world::load_camera(*camera);
+      camera->finish();
+    }
+    sensors->finish();
+  }
+  if (auto reference = root.map_if("reference")) {
+    scenario.reference = world::load_reference(*reference);
+    reference->finish();
+  }
+  if (auto preprocessing = root.map_if("preprocessing")) {
+    if (auto laser = preprocessing->map_if("laser")) {
+      scenario.laser_preprocessing = load_laser_preprocessing(*laser);
+      laser->finish();
+    }
+    if (auto camera = preprocessing->map_if("camera")) {
+      scenario.camera_calibration = load_camera_calibration(*camera);
+      camera->finish();
+    }
+    preprocessing->finish();
+  }
+  if (auto tracker = root.map_if("tracker")) {
+    scenario.tracker = fusion::load_tracker(*tracker);
+    tracker->finish();
+  }
+  if (auto recorded = root.map_if("recorded")) {
+    scenario.recorded_noise = load_recorded_noise(*recorded);
+    recorded->finish();
+  }
+  if (auto feature = root.map_if("feature_service")) {
+    scenario.feature = load_feature(*feature);
+    feature->finish();
+  }
+  scenario.faults = load_fault_plan(root, latest);
+  root.finish();
+  findings.throw_if_any();
+  return scenario;
+}
+
+}  // namespace
+
+Scenario load_scenario(const std::string& path) { return read_scenario(StrictYaml::load(path)); }
+
+Scenario parse_scenario(std::string text, std::string name) {
+  return read_scenario(StrictYaml::parse(std::move(text), std::move(name)));
+}
+
+}  // namespace ttf::nodes

@@ -1,0 +1,57 @@
+// A drive: what the world does, what the sensors are like, which cluster each strategy runs on, and the seed. One YAML
+// file under scenarios/; everything it leaves open has a documented default in the room that uses it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/strict_yaml.h"
+#include "core/time.h"
+#include "fusion/strategies/strategy.h"
+#include "fusion/config/tracker_config.h"
+#include "nodes/camera/triangulation.h"
+#include "faults/plan.h"
+#include "nodes/service/feature_service.h"
+#include "nodes/laser/laser_preprocessor.h"
+#include "nodes/sensing/recorded.h"
+#include "nodes/host/cold_start.h"
+#include "schedules/model/cluster.h"
+#include "sim/world/camera.h"
+#include "sim/world/laser.h"
+#include "sim/world/reference.h"
+#include "sim/world/world.h"
+
+namespace ttf::nodes {
+
+struct Scenario {
+  std::string name;
+  std::string description;
+  std::string file;
+  std::string text;  // the YAML as read, attached to logs
+  std::uint64_t seed = 1;
+  Duration duration{};       // of the drive, from its start (drives/drive.h)
+  Duration evaluate_from{};  // likewise; measures and pictures start here, before it the tracker warms up
+  Startup startup;
+  std::string cluster_files[3];  // by StrategyKind, as paths that can be opened
+  world::WorldConfig world;
+  world::LaserConfig laser;
+  world::CameraConfig camera;
+  world::ReferenceConfig reference;
+  LaserPreprocessingConfig laser_preprocessing;
+  CameraCalibration camera_calibration;
+  fusion::TrackerConfig tracker;
+  RecordedNoise recorded_noise;
+  FeatureConfig feature;
+  FaultPlan faults;  // names as written: resolve() looks them up in the cluster of the drive
+};
+
+// Throws InputError with every finding in the file. The clusters it names are not opened here.
+Scenario load_scenario(const std::string& path);
+// The same of a text; `name` is what errors call it, and clusters are looked for in its folder.
+Scenario parse_scenario(std::string text, std::string name);
+
+// "buff", "adva", "tt".
+std::string_view name_of(fusion::StrategyKind strategy);
+
+}  // namespace ttf::nodes

@@ -1,0 +1,82 @@
+#include "drives/step_catalog.h"
+
+#include <algorithm>
+
+#include "core/check.h"
+#include "nodes/sensing/emulators.h"
+#include "nodes/service/feature_service.h"
+#include "nodes/fusion/fusion_host.h"
+#include "nodes/sensing/preprocessing.h"
+#include "nodes/sensing/recorded.h"
+
+namespace ttf::nodes {
+
+std::span<const schedules::StepPorts> step_ports() {
+  static const std::vector<schedules::StepPorts> kPorts{
+      {"laser_emulator", {}, {"raw"}, false},
+      {"camera_emulator", {}, {"raw"}, false},
+      {"recorded_source", {}, {"raw"}, false},
+      {"laser_preprocessing", {"raw"}, {"objects"}, false},
+      {"camera_preprocessing", {"raw"}, {"objects"}, false},
+      {"recorded_preprocessing", {"raw"}, {"objects"}, false},
+      {"gateway", {"in"}, {"out"}, false},
+      {"fusion", {}, {}, true},
+      {"image_output", {}, {"image"}, false},
+      {"feature_service", {"image"}, {}, false},
+  };
+  return kPorts;
+}
+
+bool is_recorded(const schedules::Cluster& cluster) {
+  for (const schedules::Node& node : cluster.nodes)
+    for (const schedules::Task& task : node.tasks)
+      if (task.step == "recorded_source") return true;
+  return false;
+}
+
+std::vector<std::shared_ptr<Step>> make_steps(const NodeSetConfig& config, NodeId id) {
+  const schedules::Cluster& cluster = *config.cluster;
+  const Scenario& scenario = *config.scenario;
+  const schedules::Node& node = cluster.node(id);
+  std::shared_ptr<FusionHost> host;
+  const auto fusion_host = [&] {
+    if (!host)
+      host =
+          std::make_shared<FusionHost>(cluster, config.strategy, tracker_in(cluster, scenario.tracker, scenario.file));
+    return host;
+  };
+  std::vector<std::shared_ptr<Step>> steps;
+  for (const schedules::Task& task : node.tasks) {
+    const EmulatorConfig emulator{&cluster,     &task,       task.activation.sensor,
+                                  config.scene, config.seed, config.replication};
+    if (task.step == "laser_emulator") {
+      steps.push_back(std::make_shared<LaserEmulator>(emulator, scenario.laser));
+    } else if (task.step == "camera_emulator") {
+      steps.push_back(std::make_shared<CameraEmulator>(emulator, scenario.camera));
+    } else if (task.step == "recorded_source") {
+      if (!config.recorded)
+        throw InputError({cluster.file, task.line, "nodes." + node.name + "." + task.name, task.step,
+                          "needs a recording: give one with --input"});
+      steps.push_back(std::make_shared<RecordedSource>(cluster, task, task.activation.sensor, config.recorded));
+    } else if (task.step == "laser_preprocessing") {
+      steps.push_back(std::make_shared<LaserPreprocessing>(cluster, task, scenario.laser_preprocessing));
+    } else if (task.step == "camera_preprocessing") {
+      steps.push_back(std::make_shared<CameraPreprocessing>(cluster, task, scenario.camera_calibration));
+    } else if (task.step == "recorded_preprocessing") {
+      steps.push_back(std::make_shared<RecordedPreprocessing>(cluster, task, scenario.recorded_noise));
+    } else if (task.step == "gateway") {
+      steps.push_back(std::make_shared<Gateway>());
+    } else if (task.step == "fusion") {
+      steps.push_back(std::make_shared<FusionStep>(cluster, task, fusion_host()));
+    } else if (task.step == "image_output") {
+      steps.push_back(std::make_shared<ImageOutput>(cluster, task, fusion_host()));
+    } else if (task.step == "feature_service") {
+      steps.push_back(std::make_shared<FeatureService>(cluster, task, scenario.feature));
+    } else {
+      TTF_CHECK(false, "step {} of {} is not in the catalog; names are checked before", task.step, node.name);
+    }
+  }
+  return steps;
+}
+
+}  // namespace ttf::nodes

@@ -1,0 +1,35 @@
+// How much of each bus a drive took, from the records of those who sent: what a simulation's media know of themselves,
+// and the records of a drive on real media still tell.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/time.h"
+#include "recording/records/records.h"
+#include "schedules/model/cluster.h"
+
+namespace ttf::experiments {
+
+class BusUse final : public records::Sink {
+ public:
+  explicit BusUse(const schedules::Cluster& cluster) : cluster_(cluster), cans_(cluster.can_buses.size()) {}
+
+  using records::Sink::on;
+  void on(const records::SlotFrameSent& frame) override;
+  void on(const records::CanFrameSent& frame) override;
+
+  std::uint64_t frames_sent() const { return frames_sent_; }  // on FlexRay, each channel's
+  // Of the busier channel, and of each CAN.
+  double flexray_load(Duration elapsed) const;
+  std::vector<double> can_load(Duration elapsed) const;
+
+ private:
+  const schedules::Cluster& cluster_;
+  std::array<Duration, 2> channels_{};
+  std::vector<Duration> cans_;
+  std::uint64_t frames_sent_ = 0;
+};
+
+}  // namespace ttf::experiments

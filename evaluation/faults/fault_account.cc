@@ -1,0 +1,306 @@
+#include "evaluation/faults/fault_account.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "bus/controller/controller.h"
+#include "bus/poc/poc.h"
+#include "bus/wire/flexray_frame.h"
+#include "schedules/check/checker.h"
+
+namespace ttf::experiments {
+namespace {
+
+Duration macroticks(const schedules::GlobalParameters& g, std::int64_t count) {
+  return {count * g.gdMacrotick_ps / 1000};
+}
+
+schedules::Channels only(std::uint8_t channel) {
+  return channel == 0 ? schedules::Channels::kA : schedules::Channels::kB;
+}
+
+// Of the named nodes: a lone coldstart node takes the others'.
+bool takes_supply(const nodes::Fault& fault, NodeId node) {
+  return fault.kind == nodes::FaultKind::kCrash ||
+         (fault.kind == nodes::FaultKind::kLoneColdstart && fault.node != node);
+}
+
+// From start-up, to where it begins or ends without success.
+bool falls_back(const records::StateChanged& change) {
+  using bus::PocKind;
+  const auto from = static_cast<PocKind>(change.from);
+  switch (static_cast<PocKind>(change.to)) {
+    case PocKind::kHalt:
+    case PocKind::kWakeupDetect:  // somebody else is on the channel
+    case PocKind::kColdstartGap: return true;
+    case PocKind::kColdstartListen:
+    case PocKind::kIntegrationListen:
+      return from != PocKind::kReady && from != PocKind::kColdstartListen && from != PocKind::kIntegrationListen;
+    case PocKind::kReady:
+      return from != PocKind::kConfig && from != PocKind::kWakeupListen && from != PocKind::kWakeupSend &&
+             from != PocKind::kWakeupDetect;
+    case PocKind::kDefaultConfig:
+    case PocKind::kConfig:
+    case PocKind::kWakeupListen:
+    case PocKind::kWakeupSend:
+    case PocKind::kColdstartCollisionResolution:
+    case PocKind::kColdstartConsistencyCheck:
+    case PocKind::kInitialiseSchedule:
+    case PocKind::kIntegrationColdstartCheck:
+    case PocKind::kColdstartJoin:
+    case PocKind::kIntegrationConsistencyCheck:
+    case PocKind::kNormalActive:
+    case PocKind::kNormalPassive: return false;
+  }
+  return false;
+}
+
+}  // namespace
+
+bool FaultEffects::harmed() const {
+  return std::any_of(harms.begin(), harms.end(), [](const auto& nodes) { return !nodes.empty(); });
+}
+
+bool FaultEffects::nothing() const {
+  const auto seen = [](const CheckSeen& check) { return check.cycles > 0; };
+  return !harmed() && states.empty() && guardians.empty() && std::none_of(by_others.begin(), by_others.end(), seen) &&
+         std::none_of(by_faulty.begin(), by_faulty.end(), seen);
+}
+
+bool FaultFindings::harmed() const {
+  return unattributed.harmed() ||
+         std::any_of(faults.begin(), faults.end(), [](const FaultSeen& fault) { return fault.harmed(); });
+}
+
+FaultReport::FaultReport(const schedules::Cluster& cluster, nodes::FaultPlan plan, bool begins_integrated)
+    : cluster_(cluster), plan_(std::move(plan)), cycle_(cluster.cycle()),
+      slot_(macroticks(cluster.flexray, cluster.flexray.gdStaticSlot)),
+      action_point_(macroticks(cluster.flexray, cluster.flexray.gdActionPointOffset)),
+      assumed_precision_(schedules::assumed_precision(cluster.flexray)), nodes_(cluster.nodes.size()),
+      causes_(plan_, cluster), clocks_(cluster),
+      ledger_(
+          cluster, [this](NodeId node) { return counts(node); }, [this](const SlotLoss& loss) { lost(loss); }),
+      place_(plan_.faults.size()), counted_(plan_.faults.size() + 1) {
+  for (std::size_t n = 0; n < nodes_.size(); ++n)
+    (begins_integrated ? nodes_[n].active : nodes_[n].has_to_start) = cluster.nodes[n].flexray.has_value();
+}
+
+void FaultReport::finish(TrueTime at) {
+  ledger_.finish(at);
+  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+    const auto node = static_cast<NodeId>(n);
+    if (nodes_[n].has_to_start && !nodes_[n].faulty) harm(causes_.of_node(node, at), Harm::kNotStarted, at, node);
+  }
+}
+
+FaultEffects& FaultReport::effects(Cause cause) {
+  return cause ? static_cast<FaultEffects&>(findings_.faults[*place_[*cause]]) : findings_.unattributed;
+}
+
+// The running cycle, by the newest that is known.
+std::int64_t FaultReport::cycle_at(TrueTime at) const {
+  const auto [began, cycle] = cycle_began_.value_or(std::pair(TrueTime{}, std::int64_t{0}));
+  return cycle + std::max<std::int64_t>(0, (at - began).ns / cycle_.ns);
+}
+
+void FaultReport::on(const records::FaultActivity& activity) {
+  if (activity.fault >= place_.size()) return;  // of another plan
+  const nodes::Fault& fault = plan_.faults[activity.fault];
+  auto& place = place_[activity.fault];
+  if (!place) {
+    place = findings_.faults.size();
+    FaultSeen& seen = findings_.faults.emplace_back();
+    seen.fault = activity.fault;
+    seen.kind = activity.kind;
+    seen.node = activity.node;
+    seen.begins = activity.at;
+    causes_.begins(activity.fault, activity.at);
+    const std::vector<bool> named = named_by(fault, cluster_);
+    for (std::size_t n = 0; n < nodes_.size(); ++n) {
+      if (!named[n]) continue;
+      nodes_[n].faulty = true;
+      nodes_[n].cut_off |= takes_supply(fault, static_cast<NodeId>(n));
+      clocks_.forget(static_cast<NodeId>(n));
+    }
+  }
+  FaultSeen& seen = findings_.faults[*place];
+  switch (activity.what) {
+    case records::kFaultActs:
+      causes_.acts(activity.fault, activity.at);
+      ++seen.acts;
+      if (seen.first_act) break;
+      seen.first_act = activity.at;
+      seen.text = activity.text;
+      break;
+    case records::kFaultEnds:
+      causes_.ends(activity.fault, activity.at);
+      seen.ends = activity.at;
+      break;
+    default: break;
+  }
+}
+
+void FaultReport::on(const records::StateChanged& change) {
+  constexpr auto kActive = static_cast<std::uint8_t>(bus::PocKind::kNormalActive);
+  const NodeId node = change.stamp.node;
+  const TrueTime at = change.stamp.true_time;
+  if (index_of(node) >= nodes_.size()) return;
+  const Cause cause = causes_.of_node(node, at);
+  if (!starts_as_planned(node) || falls_back(change))
+    changed(cause, node, change.from_name, change.to_name, change.why, at);
+  if (change.to == static_cast<std::uint8_t>(bus::PocKind::kNormalPassive))
+    notice(cause, Check::kPassive, node, cycle_at(at), at);
+  if (change.to == static_cast<std::uint8_t>(bus::PocKind::kHalt)) notice(cause, Check::kHalt, node, cycle_at(at), at);
+  if (change.to != kActive) {
+    left_active(cause, node, at);
+    return;
+  }
+  nodes_[index_of(node)].active = true;
+  nodes_[index_of(node)].has_to_start = false;
+  causes_.is_back(node);
+}
+
+void FaultReport::on(const records::PowerChanged& power) {
+  const NodeId node = power.stamp.node;
+  const TrueTime at = power.stamp.true_time;
+  if (index_of(node) >= nodes_.size()) return;
+  const Cause cause = causes_.of_node(node, at);
+  const std::string_view off = "without supply", on = "with supply";
+  if (!power.on || !starts_as_planned(node)) changed(cause, node, power.on ? off : on, power.on ? on : off, "", at);
+  if (power.on) return;
+  if (cause) causes_.left(node, *cause);
+  left_active(cause, node, at);
+}
+
+void FaultReport::left_active(Cause cause, NodeId node, TrueTime at) {
+  clocks_.forget(node);
+  if (counts(node)) harm(cause, Harm::kLeftActive, at, node);
+  if (nodes_[index_of(node)].active && cause) causes_.left(node, *cause);
+  nodes_[index_of(node)].active = false;
+}
+
+void FaultReport::on(const records::SlotProblem& problem) {
+  const NodeId node = problem.stamp.node;
+  const TrueTime at = problem.stamp.true_time;
+  if (index_of(node) >= nodes_.size()) return;
+  ledger_.on(problem);
+  const schedules::GlobalParameters& g = cluster_.flexray;
+  FaultCauses::Signal signal;
+  signal.receiver = node;
+  signal.channels = only(problem.channel);
+  signal.owner = owner_of(cluster_, problem.slot, static_cast<schedules::Channel>(problem.channel & 1), problem.cycle);
+  if (problem.slot >= 1 && problem.slot <= g.gNumberOfStaticSlots) {
+    // Told when the static segment is over. Frames begin an action point offset into their slots: clocks are less apart
+    // than that.
+    signal.until = at - slot_ * (g.gNumberOfStaticSlots - problem.slot);
+    signal.from = signal.until - slot_;
+  } else {
+    signal.until = at;
+    signal.from = at - wire::frame_duration(g, static_cast<int>(wire::kMaxPayloadBytes / 2));
+  }
+  const auto seen = [&](bus::SlotStatus bit, Check check) {
+    if ((problem.status & bit) == 0) return;
+    signal.silence = bit == bus::kNoFrame;
+    notice(causes_.of_signal(signal), check, node, problem.cycle, at);
+  };
+  seen(bus::kSyntaxError, Check::kSyntax);
+  seen(bus::kContentError, Check::kContent);
+  seen(bus::kBoundaryViolation, Check::kBoundary);
+  seen(bus::kTransmissionConflict, Check::kConflict);
+  seen(bus::kNoFrame, Check::kNoFrame);
+}
+
+void FaultReport::on(const records::ClockCorrected& corrected) {
+  const NodeId node = corrected.stamp.node;
+  const TrueTime at = corrected.stamp.true_time;
+  if (index_of(node) >= nodes_.size()) return;
+  const auto seen = [&](bool yes, Check check) {
+    if (yes) notice(causes_.of_node(node, at), check, node, corrected.cycle, at);
+  };
+  seen(corrected.offset_missing || corrected.rate_missing, Check::kMissingTerm);
+  seen(corrected.offset_limited || corrected.rate_limited, Check::kLimit);
+}
+
+void FaultReport::on(const records::SlotFrameSent& frame) {
+  if (index_of(frame.stamp.node) >= nodes_.size()) return;
+  ledger_.on(frame);
+  if (!counts(frame.stamp.node)) return;
+  const TrueTime at = frame.stamp.true_time;
+  cycle_began_ = std::pair(at - Duration{(frame.stamp.global - GlobalTime{}).ns % cycle_.ns}, frame.cycle);
+  const auto apart = clocks_.sent(frame);
+  if (apart && *apart > assumed_precision_) harm(causes_.of_node(kNoNode, at), Harm::kPrecision, at, kNoNode);
+}
+
+void FaultReport::on(const records::GuardianIntervention& kept) {
+  if (!causes_.any_begun(kept.at)) return;
+  const Cause cause = causes_.of_signal({kept.branch, kNoNode, only(kept.channel), kept.at, kept.at, false});
+  const std::int64_t cycle = cycle_at(kept.at);
+  notice(cause, Check::kGuardian, false, cycle, kept.at).guardians[kept.channel & 1] = true;
+  std::vector<GuardianSeen>& guardians = effects(cause).guardians;
+  const auto known = std::find_if(guardians.begin(), guardians.end(), [&](const GuardianSeen& seen) {
+    return seen.cut == kept.cut && seen.why == kept.why;
+  });
+  if (known != guardians.end())
+    ++known->signals;
+  else
+    guardians.push_back({kept.cut, std::string(kept.why), 1, cycle, kept.at});
+}
+
+CheckSeen& FaultReport::notice(Cause cause, Check check, bool faulty, std::int64_t cycle, TrueTime at) {
+  const auto c = static_cast<std::size_t>(check);
+  FaultEffects& effects = this->effects(cause);
+  CheckSeen& seen = (faulty ? effects.by_faulty : effects.by_others)[c];
+  if (seen.cycles == 0) seen.first = at;
+  auto& counted =
+      counted_[cause.value_or(place_.size())][2 * c + (faulty ? 1 : 0)][static_cast<std::size_t>(cycle & 63)];
+  if (!counted || at - *counted > cycle_ * 32) ++seen.cycles;
+  counted = at;
+  return seen;
+}
+
+void FaultReport::notice(Cause cause, Check check, NodeId node, std::int64_t cycle, TrueTime at) {
+  if (!causes_.any_begun(at)) return;
+  CheckSeen& seen = notice(cause, check, nodes_[index_of(node)].faulty, cycle, at);
+  if (std::find(seen.nodes.begin(), seen.nodes.end(), node) == seen.nodes.end()) seen.nodes.push_back(node);
+}
+
+void FaultReport::changed(Cause cause, NodeId node, std::string_view from, std::string_view to, std::string_view why,
+                          TrueTime at) {
+  if (!causes_.any_begun(at)) return;
+  std::vector<StateSeen>& states = effects(cause).states;
+  const auto known = std::find_if(states.begin(), states.end(), [&](const StateSeen& state) {
+    return state.node == node && state.from == from && state.to == to;
+  });
+  if (known != states.end())
+    ++known->times;
+  else
+    states.push_back({node, std::string(from), std::string(to), std::string(why), at, 1});
+}
+
+// On none of the channels that receiver and sender share: whatever acts on one of them may be why.
+void FaultReport::lost(const SlotLoss& loss) {
+  unsigned channels = 0;
+  for (const auto channel : {schedules::Channel::kA, schedules::Channel::kB})
+    if (owner_of(cluster_, loss.slot, channel, loss.cycle) == loss.sender) channels |= 1u << index_of(channel);
+  const FaultCauses::Signal signal{loss.sender,
+                                   loss.receiver,
+                                   static_cast<schedules::Channels>(channels),
+                                   loss.at - action_point_,
+                                   loss.at - action_point_ + slot_,
+                                   false};
+  harm(causes_.of_signal(signal), loss.forged ? Harm::kFrameForged : Harm::kFrameLost, loss.at, loss.receiver,
+       loss.sender, loss.slot);
+}
+
+void FaultReport::harm(Cause cause, Harm harm, TrueTime at, NodeId node, NodeId sender, int slot) {
+  // A frame that was under way when the first fault began may be lost by it.
+  if (!causes_.any_begun(at + slot_)) return;
+  std::vector<HarmSeen>& harms = effects(cause).harms[static_cast<std::size_t>(harm)];
+  const auto known = std::find_if(harms.begin(), harms.end(), [&](const HarmSeen& seen) { return seen.node == node; });
+  if (known != harms.end())
+    ++known->times;
+  else
+    harms.push_back({node, at, sender, slot, 1});
+}
+
+}  // namespace ttf::experiments

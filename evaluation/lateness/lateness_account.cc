@@ -1,0 +1,106 @@
+#include "evaluation/lateness/lateness_account.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <limits>
+#include <utility>
+
+#include "core/int128.h"
+
+namespace ttf::experiments {
+namespace {
+
+std::uint64_t* counter_of(NodeTiming& timing, std::uint8_t what) {
+  switch (what) {
+    case records::kLateWakeUp: return &timing.late_wake_ups;
+    case records::kSlotMissed: return &timing.slots_missed;
+    case records::kLateFrame: return &timing.late_frames;
+    case records::kEarlyFrame: return &timing.early_frames;
+    case records::kFramesLost: return &timing.frames_lost;
+  }
+  return nullptr;  // of a later version
+}
+
+std::uint64_t sum_over(const std::map<NodeId, NodeTiming>& timing, std::uint64_t NodeTiming::*count) {
+  std::uint64_t sum = 0;
+  for (const auto& [node, one] : timing) sum += one.*count;
+  return sum;
+}
+
+}  // namespace
+
+RealTimeRun real_time_run(const recording::MergedLogs& logs) {
+  RealTimeRun run;
+  run.time_scale_ppm = logs.manifest().time_scale_ppm;
+  for (const recording::StoredLog& log : logs.logs())
+    for (const recording::SyncStamp& stamp : log.sync_stamps()) run.hosts[stamp.node] = log.info().manifest.host;
+  return run;
+}
+
+Duration in_real_time(Duration of_the_drive, std::int64_t time_scale_ppm) {
+  using Limits = std::numeric_limits<std::int64_t>;
+  const Int128 ns = Int128{of_the_drive.ns} * time_scale_ppm / 1'000'000;
+  return {static_cast<std::int64_t>(std::clamp<Int128>(ns, Limits::min(), Limits::max()))};
+}
+
+std::uint64_t RealTimeFindings::frames_lost() const { return sum_over(timing, &NodeTiming::frames_lost); }
+std::uint64_t RealTimeFindings::late_frames() const { return sum_over(timing, &NodeTiming::late_frames); }
+
+LatenessAccount::LatenessAccount(const schedules::Cluster& cluster, RealTimeRun run)
+    : cluster_(cluster), run_(std::move(run)), missing_(cluster, run_.time_scale_ppm) {
+  for (const auto& [node, host] : run_.hosts) by_host_.try_emplace(host, cluster.cycle());
+}
+
+// A log may be of another cluster.
+bool LatenessAccount::is_ours(NodeId node) const { return index_of(node) < cluster_.nodes.size(); }
+
+void LatenessAccount::on(const records::TimingProblem& problem) {
+  if (!is_ours(problem.stamp.node)) return;
+  any_ = true;
+  if (std::uint64_t* count = counter_of(timing_[problem.stamp.node], problem.what)) *count += problem.count;
+  missing_.add(problem);
+}
+
+void LatenessAccount::on(const records::SlotFrameSent& frame) {
+  if (is_ours(frame.stamp.node)) missing_.add(frame);
+}
+
+void LatenessAccount::on(const records::LatenessHistogram& histogram) {
+  if (!is_ours(histogram.stamp.node)) return;
+  any_ = true;
+  timing_.try_emplace(histogram.stamp.node);
+  sums_.on(histogram);
+}
+
+void LatenessAccount::on(const records::MediumCounts& counts) {
+  if (!is_ours(counts.stamp.node)) return;
+  any_ = true;
+  timing_.try_emplace(counts.stamp.node);
+  medium_.on(counts);
+}
+
+void LatenessAccount::on(const records::ClockCorrected& corrected) {
+  const NodeId node = corrected.stamp.node;
+  if (!is_ours(node)) return;
+  const std::int64_t microtick_ps = cluster_.node(node).microtick_ps;
+  const std::int64_t microticks = std::abs(std::int64_t{corrected.offset_microticks});
+  const Duration by = in_real_time(Duration{microticks * microtick_ps / 1000}, run_.time_scale_ppm);
+  std::optional<Duration>& largest = timing_[node].largest_offset_correction;
+  largest = largest ? std::max(*largest, by) : by;
+  if (const auto host = run_.hosts.find(node); host != run_.hosts.end()) by_host_.at(host->second).add(corrected.stamp);
+}
+
+std::optional<RealTimeFindings> LatenessAccount::finish() {
+  if (!any_) return std::nullopt;
+  RealTimeFindings findings;
+  findings.time_scale_ppm = run_.time_scale_ppm;
+  findings.lateness = sums_.nodes();
+  findings.timing = timing_;
+  for (const auto& [node, count] : missing_.by_receiver()) findings.timing[node].missing = count;
+  findings.medium = medium_.nodes();
+  for (auto& [host, precision] : by_host_)
+    if (const auto apart = precision.finish(); !apart.empty()) findings.precision.push_back({host, apart});
+  return findings;
+}
+
+}  // namespace ttf::experiments

@@ -1,0 +1,42 @@
+#include "evaluation/lateness/medium_sums.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+namespace ttf::experiments {
+namespace {
+
+using records::MediumCounts;
+
+constexpr std::array<std::uint64_t MediumCounts::*, 7> kCounts{
+    &MediumCounts::sent,    &MediumCounts::received,  &MediumCounts::not_sent, &MediumCounts::lost,
+    &MediumCounts::foreign, &MediumCounts::malformed, &MediumCounts::dropped};
+
+bool is_of_another_process(const MediumCounts& newer, const MediumCounts& older) {
+  return newer.stamp.local < older.stamp.local ||
+         std::any_of(kCounts.begin(), kCounts.end(), [&](const auto count) { return newer.*count < older.*count; });
+}
+
+void add(MediumCounts& sum, const MediumCounts& more) {
+  for (const auto count : kCounts) sum.*count += more.*count;
+}
+
+}  // namespace
+
+void MediumSums::on(const MediumCounts& record) {
+  Told& told = told_.try_emplace(record.stamp.node, Told{{}, record}).first->second;
+  if (is_of_another_process(record, told.newest)) add(told.before, told.newest);
+  told.newest = record;
+}
+
+std::map<NodeId, MediumCounts> MediumSums::nodes() const {
+  std::map<NodeId, MediumCounts> nodes;
+  for (const auto& [node, told] : told_) {
+    MediumCounts& sum = nodes[node] = told.newest;
+    add(sum, told.before);
+  }
+  return nodes;
+}
+
+}  // namespace ttf::experiments

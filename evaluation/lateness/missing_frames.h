@@ -1,0 +1,86 @@
+// Why frames never came. A receiver cannot tell those that went astray from those that were not sent; the senders'
+// logs can.
+//
+// A record of `count` lost frames is of the last `count` turns of its slot before its cycle. Of these turns
+//
+//   withheld   a sender recorded the slot it missed: it woke up too late
+//   away       a sender recorded no frame in the turn, though some before and behind it: it was not in operation
+//   neither    it was lost on the way
+//
+// Two records are of one turn where slot, channel and cycle counter are the same, and the instants are less than half a
+// round of that counter apart: nodes number their rounds each for itself, and anew when they restart, so that running
+// cycles and global times do not compare. True times do, on one scale (recording/merge/common_time.h): a record's less what
+// it says it was late by is near enough to when the turn was due.
+#pragma once
+
+#include <bitset>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <tuple>
+#include <vector>
+
+#include "core/ids.h"
+#include "core/time.h"
+#include "recording/records/records.h"
+#include "schedules/model/cluster.h"
+#include "schedules/model/round.h"
+
+namespace ttf::experiments {
+
+// How many of the frames that never came to a node.
+struct MissingFramesCount {
+  std::uint64_t withheld = 0, away = 0;
+};
+
+class MissingFrames {
+ public:
+  MissingFrames(const schedules::Cluster& cluster, std::int64_t time_scale_ppm)
+      : cluster_(cluster), time_scale_ppm_(time_scale_ppm) {}
+
+  // Of the two kinds that matter; in any order.
+  void add(const records::TimingProblem& problem);
+  // Each node's in the order of their instants.
+  void add(const records::SlotFrameSent& frame);
+
+  // None of a node that lacks none.
+  std::map<NodeId, MissingFramesCount> by_receiver() const;
+
+ private:
+  // A turn of a slot: when, in the drive's time, and in which cycle, by the node's own count.
+  struct Turn {
+    std::int64_t due_ns = 0;
+    std::int64_t cycle = 0;
+  };
+  struct Silence {
+    Turn before, behind;  // the last frame before it, and the first behind it
+  };
+  // What is known of a sender in a slot of a channel.
+  struct Sender {
+    std::bitset<schedules::kCycles> turns;  // by cycle counter
+    std::vector<Turn> missed;
+    std::vector<Silence> silences;  // in the order of their instants
+    std::optional<Turn> last;       // that it sent
+    std::int64_t turns_before(std::int64_t cycle, std::int64_t first_back, std::int64_t last_back) const;
+  };
+  using Place = std::tuple<std::uint16_t, std::uint8_t, NodeId>;  // slot, channel, sender
+  struct Lost {
+    Turn came;  // the frame that showed it
+    NodeId receiver{};
+    std::uint16_t slot = 0;
+    std::uint8_t channel = 0;
+    std::uint32_t count = 0;
+  };
+  std::int64_t due_ns(const records::TimingProblem& problem) const;
+  Sender& sender_at(const Place& place);
+  std::optional<std::int64_t> cycles_from(const Turn& earlier, const Turn& later) const;
+  std::int64_t reach_of(const Lost& lost) const;
+  MissingFramesCount count(const Lost& lost, std::int64_t reach, const Sender& sender) const;
+
+  const schedules::Cluster& cluster_;
+  const std::int64_t time_scale_ppm_;
+  std::map<Place, Sender> senders_;
+  std::vector<Lost> lost_;
+};
+
+}  // namespace ttf::experiments

@@ -1,0 +1,79 @@
+#include "experiments/campaign/campaign.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+#include "schedules/file/loader.h"
+
+namespace ttf::experiments {
+namespace {
+
+constexpr std::size_t kFaultsAtATime = 16;  // faults a worker takes
+constexpr std::chrono::milliseconds kProgressInterval{500};
+
+}  // namespace
+
+CampaignClusters::CampaignClusters(const CampaignFile& campaign) : base(cluster_of(campaign, {})) {
+  for (const Variant& variant : campaign.variants) variants.push_back(cluster_of(campaign, variant));
+}
+
+unsigned workers_here() { return std::max(1u, std::thread::hardware_concurrency()); }
+
+std::vector<FaultResult> run_campaign(const CampaignFile& campaign, const CampaignClusters& clusters, Shard shard,
+                                      unsigned workers, const std::function<void(std::uint64_t)>& progress) {
+  std::vector<FaultResult> results;
+  for (std::uint64_t i = shard.part; i < static_cast<std::uint64_t>(campaign.faults); i += shard.count)
+    results.push_back({static_cast<std::uint32_t>(i), {}, {}});
+
+  std::atomic<std::size_t> next{0};  // every result is written by the one worker that took it
+  std::mutex mutex;
+  std::condition_variable done;
+  std::size_t finished = 0;  // guarded by mutex, as the two below
+  unsigned running = std::max(1u, workers);
+  std::exception_ptr failure;
+
+  const auto work = [&] {
+    try {
+      for (std::size_t first = next.fetch_add(kFaultsAtATime); first < results.size();
+           first = next.fetch_add(kFaultsAtATime)) {
+        const std::size_t end = std::min(first + kFaultsAtATime, results.size());
+        for (std::size_t r = first; r < end; ++r) {
+          FaultResult& result = results[r];
+          result.drawn = draw_fault(campaign, clusters.base, result.index);
+          for (const schedules::Cluster& cluster : clusters.variants)
+            result.outcomes.push_back(run_trial(campaign, cluster, result.drawn, result.index));
+        }
+        const std::lock_guard lock(mutex);
+        finished += end - first;
+      }
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      if (!failure) failure = std::current_exception();
+      next = results.size();
+    }
+    const std::lock_guard lock(mutex);
+    if (--running == 0) done.notify_one();
+  };
+
+  std::vector<std::thread> threads;
+  for (unsigned w = 0; w < std::max(1u, workers); ++w) threads.emplace_back(work);
+  {
+    std::unique_lock lock(mutex);
+    while (!done.wait_for(lock, kProgressInterval, [&] { return running == 0; })) {
+      const std::size_t count = finished;
+      lock.unlock();
+      if (progress) progress(count);
+      lock.lock();
+    }
+  }
+  for (std::thread& thread : threads) thread.join();
+  if (failure) std::rethrow_exception(failure);
+  return results;
+}
+
+}  // namespace ttf::experiments

@@ -1,0 +1,59 @@
+// What a campaign shows, class by class: how many faults did something, who noticed them, whom they harmed, and how
+// long it took.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "experiments/campaign/campaign.h"
+
+namespace ttf::experiments {
+
+// Median and worst; nothing where there is nothing.
+struct Spread {
+  std::uint64_t count = 0;
+  std::int64_t median_ns = 0, worst_ns = 0;
+};
+// The lower one of two medians.
+Spread spread_of(std::vector<std::int64_t> values);
+
+// As the table names a class: "noise", and "noise A+B *" outside of the hypothesis.
+std::string class_text(nodes::FaultKind kind, bool in_hypothesis);
+
+// The faults of one class that are of the hypothesis, or those that are not.
+struct ClassCoverage {
+  nodes::FaultKind kind{};
+  bool in_hypothesis = true;
+  std::uint64_t injected = 0, activated = 0;
+  std::uint64_t detected = 0;                               // of the activated, by another node or a guardian
+  std::array<std::uint64_t, kAllChecks.size()> by_check{};  // one fault may count for several
+  std::uint64_t by_itself = 0;                              // its own controller noticed something
+  std::uint64_t harmed = 0;
+  std::array<std::uint64_t, kAllHarms.size()> by_harm{};
+  std::uint64_t without = 0;  // start-ups that fail without the fault, too
+  Spread detect, passive, halt, reintegrate;
+};
+
+struct Coverage {
+  std::string variant;
+  bool guarded = false;                // with guardians and two channels
+  std::vector<ClassCoverage> classes;  // in the order of the kinds; those with faults only
+  std::uint64_t harmed_in_hypothesis = 0;
+};
+
+// `variant`: index in the campaign.
+Coverage coverage_of(const CampaignFile& campaign, std::span<const FaultResult> results, std::size_t variant);
+
+// As it is printed; times in cycles.
+std::string coverage_text(const Coverage& coverage, Duration cycle);
+
+// "frame_lost: feature did not receive fusion's slot 3, 1.2 cycles after the fault's first act"
+std::string harm_text(const FaultOutcome& outcome, const schedules::Cluster& cluster);
+// "masquerading of fusion, in a running cluster: from=..."
+std::string fault_text(const DrawnFault& drawn, const schedules::Cluster& cluster);
+
+}  // namespace ttf::experiments

@@ -1,0 +1,231 @@
+#include "experiments/campaign/draw.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/check.h"
+#include "core/random.h"
+#include "schedules/model/limits.h"
+
+namespace ttf::experiments {
+namespace {
+
+using nodes::Fault;
+using nodes::FaultKind;
+using schedules::Channels;
+
+constexpr int kMostPayloadWords = schedules::kMostFragmentBytes / 2;  // cPayloadLengthMax
+
+class Drawing {
+ public:
+  Drawing(const CampaignFile& campaign, const schedules::Cluster& cluster, std::uint32_t index)
+      : campaign_(campaign), cluster_(cluster), g_(cluster.flexray), cycle_(cluster.cycle()),
+        draw_({campaign.seed, index, Purpose::kCampaign, 0, 0}) {}
+
+  DrawnFault fault() {
+    Fault fault;
+    fault.kind = kind();
+    const bool starts_up = draw_.uniform() < campaign_.startup_share || fault.kind == FaultKind::kLoneColdstart;
+    if (nodes::has_node(fault.kind)) fault.node = node(needs_coldstart(fault.kind));
+    when(fault, starts_up);
+    parameters(fault);
+    return {fault, starts_up};
+  }
+
+ private:
+  static bool needs_coldstart(FaultKind kind) {
+    return kind == FaultKind::kLoneColdstart || kind == FaultKind::kDuplicateColdstart;
+  }
+  FaultKind kind() {
+    std::int64_t sum = 0;
+    for (const std::int64_t weight : campaign_.weights) sum += weight;
+    std::int64_t left = draw_.integer(0, sum - 1);
+    for (std::size_t k = 0; k < campaign_.weights.size(); ++k) {
+      if (left < campaign_.weights[k]) return nodes::kAllFaultKinds[k];
+      left -= campaign_.weights[k];
+    }
+    TTF_CHECK(false, "{} beyond all weights", left);
+  }
+  NodeId node(bool coldstart) {
+    std::vector<NodeId> candidates;
+    for (std::size_t n = 0; n < cluster_.nodes.size(); ++n)
+      if (!coldstart || cluster_.nodes[n].flexray->pKeySlotUsedForStartup) candidates.push_back(static_cast<NodeId>(n));
+    TTF_CHECK(!candidates.empty(), "no coldstart node in {}", cluster_.name);
+    return one_of(candidates);
+  }
+  // A running cluster has had cycles without a fault, a start-up none. One in three stays to the end.
+  void when(Fault& fault, bool starts_up) {
+    fault.from = starts_up ? between(Duration{}, cycle_ * 12) : between(cycle_ * 4, cycle_ * 8);
+    if (fault.kind == FaultKind::kLoneColdstart) fault.from = Duration{};
+    if (draw_.uniform() < 2.0 / 3.0) fault.duration = between(Duration{cycle_.ns / 5}, cycle_ * 10);
+    if (fault.kind == FaultKind::kDrift) fault.duration = Fault::kToTheEnd;
+    if (fault.kind == FaultKind::kTransient && fault.duration == Fault::kToTheEnd)
+      fault.duration = between(Duration::microseconds(1), cycle_);
+  }
+
+  void parameters(Fault& fault) {
+    switch (fault.kind) {
+      case FaultKind::kCrash: return;
+      case FaultKind::kOmission:
+        fault.direction = one_of(
+            std::vector{nodes::FaultDirection::kSend, nodes::FaultDirection::kReceive, nodes::FaultDirection::kBoth});
+        return occasions(fault);
+      case FaultKind::kBabblingIdiot:
+        fault.signal = one_of(std::vector{nodes::FaultSignal::kNoise, nodes::FaultSignal::kFrame});
+        return bursts(fault);
+      case FaultKind::kMasquerading:
+        fault.masquerade = one_of(std::vector{nodes::MasqueradeMode::kInSlot, nodes::MasqueradeMode::kOwnSlot});
+        fault.slot = one_of(slots_of_others(fault.node, false));
+        return occasions(fault);
+      case FaultKind::kSosTiming:
+        // Up to twice the room before the action point: what leaves the slot, and what just does not.
+        fault.shift = signed_up_to(Duration{2 * g_.gdActionPointOffset * g_.gdMacrotick_ps / 1000});
+        receivers(fault);
+        return occasions(fault);
+      case FaultKind::kSosValue: receivers(fault); return occasions(fault);
+      case FaultKind::kBitFlipHeader:
+      case FaultKind::kBitFlipPayload:
+      case FaultKind::kBitFlipTrailer:
+        // The frame CRC finds up to five in any frame; more it misses once in 2^24.
+        fault.flips = static_cast<int>(draw_.uniform() < 0.75 ? draw_.integer(1, 5) : draw_.integer(6, 24));
+        receivers(fault);
+        return occasions(fault);
+      case FaultKind::kChannelSwap: return chosen(fault);
+      case FaultKind::kByzantineClock:
+        fault.shift = between(Duration{100}, Duration{g_.gdActionPointOffset * g_.gdMacrotick_ps / 1000});
+        fault.pattern = one_of(std::vector{nodes::ByzantinePattern::kRandom, nodes::ByzantinePattern::kPullApart,
+                                           nodes::ByzantinePattern::kPullRates});
+        return;
+      case FaultKind::kDrift: {
+        // From what no clock notices to what none can follow: 10 ppm to 50000 ppm, evenly in the logarithm.
+        const double ppb = 1e4 * std::pow(5'000.0, draw_.uniform());
+        fault.drift_ppb = static_cast<std::int64_t>(ppb) * (draw_.uniform() < 0.5 ? -1 : 1);
+        return;
+      }
+      case FaultKind::kLoneColdstart: fault.all_others = draw_.uniform() < 0.5; return;
+      case FaultKind::kDuplicateColdstart:
+        fault.duplicate = one_of(duplicates(fault.node));
+        if (fault.duplicate == nodes::DuplicateMode::kSameKeySlot) {
+          fault.slot = one_of(slots_of_others(fault.node, true));
+          return always(fault);
+        }
+        fault.channels = channels();
+        if (fault.duplicate == nodes::DuplicateMode::kCas) bursts(fault);
+        return;
+      case FaultKind::kWrongSchedule: wrong_schedule(fault); return always(fault);
+      case FaultKind::kNoise: return bursts(fault);
+      case FaultKind::kTransient: fault.channels = channels(); return;
+    }
+  }
+  // What a node believes in, it believes in from the beginning to the end.
+  static void always(Fault& fault) {
+    fault.from = Duration{};
+    fault.duration = Fault::kToTheEnd;
+  }
+  // Macroticks that every static slot may be longer by in the same cycle, at most.
+  int room_in_slots() const {
+    return std::min(g_.gdNIT - 2, g_.gOffsetCorrectionStart - (g_.gMacroPerCycle - g_.gdNIT)) / g_.gNumberOfStaticSlots;
+  }
+  // What the cluster leaves room for; a wrong length of the cycle is always possible.
+  std::vector<nodes::WrongSchedule> wrong_schedules(NodeId node) const {
+    std::vector<nodes::WrongSchedule> possible;
+    if (g_.gNumberOfStaticSlots > 1) possible.push_back(nodes::WrongSchedule::kShiftedSlots);
+    possible.push_back(nodes::WrongSchedule::kCycleLength);
+    if (room_in_slots() > 0) possible.push_back(nodes::WrongSchedule::kStaticSlot);
+    if (g_.gPayloadLengthStatic < kMostPayloadWords) possible.push_back(nodes::WrongSchedule::kPayloadLength);
+    if (!slots_of_others(node, false).empty()) possible.push_back(nodes::WrongSchedule::kKeySlot);
+    return possible;
+  }
+  std::vector<nodes::DuplicateMode> duplicates(NodeId node) const {
+    std::vector possible{nodes::DuplicateMode::kCas, nodes::DuplicateMode::kStartupFrames};
+    if (!slots_of_others(node, true).empty()) possible.push_back(nodes::DuplicateMode::kSameKeySlot);
+    return possible;
+  }
+  void wrong_schedule(Fault& fault) {
+    fault.wrong = one_of(wrong_schedules(fault.node));
+    switch (fault.wrong) {
+      case nodes::WrongSchedule::kShiftedSlots: fault.by = number(1, g_.gNumberOfStaticSlots - 1); return;
+      case nodes::WrongSchedule::kCycleLength: fault.by = number(1, 100); return;
+      case nodes::WrongSchedule::kStaticSlot: fault.by = number(1, room_in_slots()); return;
+      case nodes::WrongSchedule::kPayloadLength:
+        fault.by = number(1, kMostPayloadWords - g_.gPayloadLengthStatic);
+        return;
+      case nodes::WrongSchedule::kKeySlot: fault.slot = one_of(slots_of_others(fault.node, false)); return;
+    }
+  }
+  void chosen(Fault& fault) {
+    if (draw_.uniform() < 0.5) fault.probability = draw_.uniform(0.05, 1.0);
+    if (draw_.uniform() < 0.25) fault.every = number(2, 8);
+  }
+  void occasions(Fault& fault) {
+    chosen(fault);
+    fault.channels = channels();
+  }
+  void bursts(Fault& fault) {
+    const Duration length = between(Duration::microseconds(1), Duration::microseconds(300));
+    const bool noise = fault.kind == FaultKind::kNoise ||
+                       (fault.kind == FaultKind::kBabblingIdiot && fault.signal == nodes::FaultSignal::kNoise);
+    if (noise) fault.length = length;  // frames and symbols are as long as they are
+    // From back to back to once in some cycles, evenly in the logarithm.
+    const double ns = 1e4 * std::pow(static_cast<double>(cycle_.ns) * 3e-4, draw_.uniform());
+    fault.interval = Duration{static_cast<std::int64_t>(ns)};
+    fault.jitter = draw_.uniform() < 0.5 ? Duration{} : between(Duration{}, fault.interval);
+    fault.channels = channels();
+  }
+  void receivers(Fault& fault) {
+    if (draw_.uniform() < 0.5) return;
+    for (std::size_t n = 0; n < cluster_.nodes.size(); ++n)
+      if (static_cast<NodeId>(n) != fault.node && draw_.uniform() < 0.5)
+        fault.receivers.push_back(static_cast<NodeId>(n));
+  }
+  std::vector<int> slots_of_others(NodeId node, bool coldstart) const {
+    std::vector<int> slots;
+    for (const schedules::FrameSlot& frame : cluster_.frames) {
+      const schedules::NodeParameters& p = *cluster_.node(frame.sender).flexray;
+      if (frame.sender == node || frame.slot > g_.gNumberOfStaticSlots) continue;
+      if (!coldstart || (p.pKeySlotUsedForStartup && p.pKeySlotId == frame.slot)) slots.push_back(frame.slot);
+    }
+    return slots;
+  }
+  Channels channels() { return one_of(std::vector{Channels::kAB, Channels::kAB, Channels::kA, Channels::kB}); }
+
+  Duration between(Duration low, Duration high) { return {draw_.integer(low.ns, high.ns)}; }
+  Duration signed_up_to(Duration most) { return draw_.uniform() < 0.5 ? between({100}, most) : -between({100}, most); }
+  int number(int low, int high) { return static_cast<int>(draw_.integer(low, high)); }
+  template <class T> T one_of(const std::vector<T>& choices) {
+    return choices[static_cast<std::size_t>(draw_.integer(0, static_cast<std::int64_t>(choices.size()) - 1))];
+  }
+
+  const CampaignFile& campaign_;
+  const schedules::Cluster& cluster_;
+  const schedules::GlobalParameters& g_;
+  Duration cycle_;
+  RandomStream draw_;
+};
+
+}  // namespace
+
+bool in_hypothesis(const Fault& fault) {
+  if (fault.kind == FaultKind::kLoneColdstart) return false;
+  return nodes::has_node(fault.kind) || fault.channels != Channels::kAB;
+}
+
+DrawnFault draw_fault(const CampaignFile& campaign, const schedules::Cluster& cluster, std::uint32_t index) {
+  return Drawing(campaign, cluster, index).fault();
+}
+
+std::string parameters_text(const Fault& fault, const schedules::Cluster& cluster) {
+  std::string out;
+  for (const auto& [key, value] : nodes::keys_of(fault, cluster)) {
+    if (!out.empty()) out += "; ";
+    std::string cell = value;  // a list's commas would be the table's
+    for (std::size_t at = 0; (at = cell.find(", ", at)) != std::string::npos;) cell.replace(at, 2, 1, '+');
+    out += fmt::format("{}: {}", key, cell);
+  }
+  return out;
+}
+
+}  // namespace ttf::experiments

@@ -1,0 +1,59 @@
+// A fault campaign as one file says it:
+//
+//   kind: fault_campaign
+//   name: fault_campaign
+//   cluster: ../schedules/flexray_demo.yaml       from this file's folder
+//   faults: 100000                                each injected alone, once in every variant
+//   seed: 1
+//   start_up: 0.25                                share of the faults that meet a start-up; the others a running
+//   cluster cycles: {steady_state: 60, start_up: 90}      how long a run lasts restart_halted_after: 2 cycles after
+//   which its host restarts a halted controller; 0: never classes: {crash: 1, drift: 2, ...}            weights, 0
+//   where not named; all alike without `classes` variants:
+//     guardian: {topology: star, guardian: true, channels: AB}
+//     bus: {topology: bus, guardian: false, channels: AB}
+//   expect: {harmed_with_guardian: 0}             at most so many faults of the hypothesis; optional
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "faults/plan.h"
+#include "schedules/model/cluster.h"
+
+namespace ttf::experiments {
+
+// How the campaign's cluster is wired.
+struct Variant {
+  std::string name;
+  schedules::Topology topology = schedules::Topology::kBus;
+  bool guardian = false;
+  schedules::Channels channels = schedules::Channels::kAB;  // kA: everything on channel A alone
+
+  bool guarded() const { return guardian && channels == schedules::Channels::kAB; }
+};
+
+struct CampaignFile {
+  std::string name;
+  std::string file;  // for messages
+  std::string cluster_file;
+  std::int64_t faults = 0;
+  std::uint64_t seed = 0;
+  double startup_share = 0.0;
+  int steady_cycles = 0, startup_cycles = 0;
+  int restart_halted_after = 0;                                      // [cycles]
+  std::array<std::int64_t, nodes::kAllFaultKinds.size()> weights{};  // in their order
+  std::vector<Variant> variants;
+  std::optional<std::int64_t> expected_harmed;  // with guardian and two channels, of the hypothesis
+};
+
+// Both throw InputError.
+CampaignFile load_campaign(const std::string& path);
+CampaignFile parse_campaign(std::string text, std::string name);
+
+// The campaign's cluster, proved consistent as it stands in a variant; all its nodes are on FlexRay. Throws InputError.
+schedules::Cluster cluster_of(const CampaignFile& campaign, const Variant& variant);
+
+}  // namespace ttf::experiments

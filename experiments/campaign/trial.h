@@ -1,0 +1,50 @@
+// One fault in one cluster: an own simulation of controllers on clocks of their own, the fault, and the judge.
+//
+// Every node's host writes its lists anew in every cycle, so that no two frames are alike, and restarts a halted
+// controller when the campaign says so. A trial is a pure function of campaign, wiring and index: clocks, times of
+// power-on and what the fault draws come from streams of that index.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "experiments/campaign/draw.h"
+#include "evaluation/faults/judge.h"
+#include "recording/records/records.h"
+#include "sim/medium/star_coupler.h"
+
+namespace ttf::experiments {
+
+// What came of one fault; times in nanoseconds.
+struct FaultOutcome {
+  bool activated = false;            // the fault did something
+  bool starts_without = true;        // a start-up: without the fault all nodes became active
+  std::uint16_t seen_by_others = 0;  // bits by Check
+  std::uint16_t seen_by_itself = 0;
+  std::uint8_t harms = 0;                     // bits by Harm
+  NodeId harmed = kNoNode, sender = kNoNode;  // of the first harm, as in Judgement
+  int slot = 0;
+  std::int16_t still_out = 0;  // nodes that lost normal active and did not come back
+  std::optional<std::int64_t> detected_after, passive_after, halt_after;  // the fault's first act
+  std::optional<std::int64_t> harmed_after;
+  std::optional<std::int64_t> reintegrated_after;  // Judgement::reintegration
+
+  bool operator==(const FaultOutcome&) const = default;
+};
+
+// Told what happens in a trial, for a replay.
+class TrialStory {
+ public:
+  virtual ~TrialStory() = default;
+  virtual void state_changed(NodeId node, bus::PocKind from, const bus::PocStep& step, TrueTime at) = 0;
+  virtual void fault_acts(const records::FaultActivity& activity) = 0;
+  virtual void guardian_intervened(const sim::StarCoupler::Intervention& intervention) = 0;
+  virtual void judged(const Judgement& judgement) = 0;
+};
+
+// `cluster`: as wired (cluster_of()). `story` may be null. `bit_true`: on a medium that encodes and decodes every
+// frame; the outcome is the same.
+FaultOutcome run_trial(const CampaignFile& campaign, const schedules::Cluster& cluster, const DrawnFault& drawn,
+                       std::uint32_t index, TrialStory* story = nullptr, bool bit_true = false);
+
+}  // namespace ttf::experiments

@@ -1,0 +1,182 @@
+#include "experiments/sweep/answer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/counted.h"
+
+namespace ttf::experiments {
+namespace {
+
+using results::Interval;
+using results::Moments;
+using results::Run;
+
+// Adds up a point's runs, which come replication by replication.
+class Sums {
+ public:
+  explicit Sums(const SweepFile& sweep, std::size_t other_than_baseline)
+      : sweep_(sweep), against_(other_than_baseline), first_(sweep.drawn().size()),
+        means_(sweep.paradigms.size(), std::vector<Moments>(sweep.measures.size())), differences_(means_),
+        of_replication_(sweep.paradigms.size(), nullptr) {}
+
+  void add(const Run& run) {
+    if (run.key.replication != replication_) end_replication();
+    replication_ = run.key.replication;
+    if (run.status != results::kDone) return;
+    kept_.push_back(run);
+    for (std::size_t m = 0; m < sweep_.measures.size(); ++m) means_[run.key.paradigm][m].add(run.values[first_ + m]);
+  }
+  PointAnswer finish(std::uint32_t point) {
+    end_replication();
+    PointAnswer answer{point, {}, {}};
+    for (std::size_t p = 0; p < means_.size(); ++p) {
+      answer.means.push_back(intervals(means_[p]));
+      answer.differences.push_back(intervals(differences_[p]));
+    }
+    return answer;
+  }
+
+ private:
+  void end_replication() {
+    std::fill(of_replication_.begin(), of_replication_.end(), nullptr);
+    for (const Run& run : kept_) of_replication_[run.key.paradigm] = &run;
+    const Run* baseline = of_replication_[against_];
+    for (std::size_t p = 0; p < differences_.size() && baseline != nullptr; ++p)
+      if (const Run* run = of_replication_[p]; run != nullptr && p != against_)
+        for (std::size_t m = 0; m < sweep_.measures.size(); ++m)
+          differences_[p][m].add(run->values[first_ + m] - baseline->values[first_ + m]);
+    kept_.clear();
+  }
+  std::vector<Interval> intervals(const std::vector<Moments>& moments) const {
+    std::vector<Interval> all;
+    for (const Moments& one : moments) all.push_back(interval_of(one, sweep_.confidence));
+    return all;
+  }
+
+  const SweepFile& sweep_;
+  std::size_t against_, first_;
+  std::vector<std::vector<Moments>> means_, differences_;
+  std::vector<const Run*> of_replication_;
+  std::vector<Run> kept_;
+  std::uint32_t replication_ = 0;
+};
+
+std::size_t index_of(const SweepFile& sweep, const std::string& paradigm) {
+  const auto found = std::find_if(sweep.paradigms.begin(), sweep.paradigms.end(),
+                                  [&](const Paradigm& one) { return one.name == paradigm; });
+  return static_cast<std::size_t>(found - sweep.paradigms.begin());
+}
+
+void add_points(const SweepFile& sweep, const results::Store& store, SweepAnswer& answer) {
+  for (std::uint32_t point = 0; point < sweep.points(); ++point) {
+    Sums sums(sweep, sweep.baseline);
+    for (const Run& run : store.of_point(point)) {
+      sums.add(run);
+      ++answer.runs;
+      answer.failed += run.status != results::kDone;
+    }
+    answer.points.push_back(sums.finish(point));
+  }
+}
+
+// Along one axis, from every point whose neighbour on it there is.
+void find_crossings(const SweepFile& sweep, std::size_t paradigm, std::size_t a, SweepAnswer& answer) {
+  const std::vector<const Axis*> grid = sweep.grid();
+  const Axis& axis = *grid[a];
+  std::uint32_t stride = 1;
+  for (std::size_t later = a + 1; later < grid.size(); ++later)
+    stride *= static_cast<std::uint32_t>(grid[later]->settings.size());
+  for (std::uint32_t point = 0; point + stride < answer.points.size(); ++point) {
+    const std::vector<const Setting*> settings = sweep.settings_of(point), next = sweep.settings_of(point + stride);
+    if (settings[a] + 1 != next[a] || !settings[a]->number || !next[a]->number) continue;
+    const Interval before = answer.points[point].differences[paradigm].front();
+    // Where there is no difference at all, the other side is behind it.
+    std::uint32_t behind = point + stride;
+    const Setting* const last = &axis.settings.back();
+    while (answer.points[behind].differences[paradigm].front().mean == 0.0 && sweep.settings_of(behind)[a] != last)
+      behind += stride;
+    const Interval after = answer.points[behind].differences[paradigm].front();
+    if (!(before.mean * after.mean < 0.0)) continue;
+    const double to = answer.points[point + stride].differences[paradigm].front().mean;
+    const double part = before.mean / (before.mean - to), x = *settings[a]->number, y = *next[a]->number;
+    std::vector<std::string> others;
+    for (std::size_t other = 0; other < grid.size(); ++other)
+      if (other != a && grid[other]->settings.size() > 1)
+        others.push_back(grid[other]->name + " " + settings[other]->label);
+    const auto certain = [](const Interval& interval) { return interval.below(0.0) || interval.above(0.0); };
+    answer.crossings.push_back({paradigm, axis.name, joined(others), point, behind,
+                                axis.logarithmic ? x * std::pow(y / x, part) : x + part * (y - x),
+                                certain(before) && certain(after)});
+  }
+}
+
+std::size_t measure_index(const SweepFile& sweep, const std::string& name) {
+  const auto found = std::find(sweep.measures.begin(), sweep.measures.end(), name);
+  return static_cast<std::size_t>(found - sweep.measures.begin());
+}
+
+// At one point: run by run, one measure less the other.
+bool agree(const SweepFile& sweep, const Expectation& expectation, const std::vector<Run>& runs) {
+  const std::size_t paradigm = index_of(sweep, expectation.less), first = sweep.drawn().size();
+  const std::size_t one = measure_index(sweep, expectation.measure), other = measure_index(sweep, expectation.agrees);
+  Moments difference;
+  for (const Run& run : runs)
+    if (run.key.paradigm == paradigm && run.status == results::kDone)
+      difference.add(run.values[first + one] - run.values[first + other]);
+  const Interval interval = interval_of(difference, sweep.confidence);
+  return interval.low() <= 0.0 && interval.high() >= 0.0;  // not where it is no number
+}
+
+bool less(const SweepFile& sweep, const Expectation& expectation, const std::vector<Run>& runs) {
+  Sums sums(sweep, index_of(sweep, expectation.than));
+  for (const Run& run : runs) sums.add(run);
+  const PointAnswer answer = sums.finish(0);
+  return answer.differences[index_of(sweep, expectation.less)][measure_index(sweep, expectation.measure)].below(0.0);
+}
+
+ExpectationAnswer judge(const SweepFile& sweep, const Expectation& expectation, const results::Store& store) {
+  ExpectationAnswer answer{expectation.text, true, {}};
+  const std::vector<const Axis*> grid = sweep.grid();
+  for (std::uint32_t point = 0; point < sweep.points(); ++point) {
+    const std::vector<const Setting*> settings = sweep.settings_of(point);
+    bool meant = true;
+    for (std::size_t a = 0; a < grid.size(); ++a)
+      if (const auto label = expectation.where.find(grid[a]->name); label != expectation.where.end())
+        meant = meant && label->second == settings[a]->label;
+    if (!meant) continue;
+    const std::vector<Run> runs = store.of_point(point);
+    if (expectation.agrees.empty() ? less(sweep, expectation, runs) : agree(sweep, expectation, runs)) continue;
+    answer.holds = false;
+    answer.where_not.push_back(sweep.label_of(point));
+  }
+  return answer;
+}
+
+}  // namespace
+
+bool SweepAnswer::holds() const {
+  return std::all_of(expectations.begin(), expectations.end(), [](const ExpectationAnswer& one) { return one.holds; });
+}
+
+SweepAnswer answer_of(const SweepFile& sweep, const results::Store& store) {
+  SweepAnswer answer;
+  add_points(sweep, store, answer);
+  for (std::size_t p = 0; p < sweep.paradigms.size(); ++p)
+    for (std::size_t a = 0; a < sweep.grid().size() && p != sweep.baseline; ++a) find_crossings(sweep, p, a, answer);
+  for (const Expectation& expectation : sweep.expectations)
+    answer.expectations.push_back(judge(sweep, expectation, store));
+  return answer;
+}
+
+bool sure_enough(const SweepFile& sweep, const std::vector<Run>& runs, std::uint32_t to) {
+  Sums sums(sweep, sweep.baseline);
+  for (const Run& run : runs)
+    if (run.key.replication < to) sums.add(run);
+  const PointAnswer answer = sums.finish(0);
+  for (std::size_t p = 0; p < sweep.paradigms.size(); ++p)
+    if (p != sweep.baseline && !(answer.differences[p].front().half_width <= sweep.stop->half_width)) return false;
+  return true;
+}
+
+}  // namespace ttf::experiments

@@ -1,0 +1,211 @@
+#include "experiments/sweep/engine.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <optional>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+#include "experiments/sweep/answer.h"
+
+namespace ttf::experiments {
+namespace {
+
+using results::Run;
+using results::RunKey;
+
+constexpr std::uint32_t kRunsAtATime = 8;           // for a worker
+constexpr std::chrono::milliseconds kWritten{500};  // how long a run waits at most to be written down
+constexpr std::chrono::milliseconds kTurn{2};       // between two looks at what is driven elsewhere
+constexpr std::size_t kMostWaiting = 100'000;       // runs
+
+// Which runs there are, a bit each.
+class Ledger {
+ public:
+  Ledger(const SweepFile& sweep, const results::Store& store)
+      : replications_(sweep.replications), paradigms_(sweep.paradigms.size()),
+        there_(sweep.points() * replications_ * paradigms_, false) {
+    for (const RunKey& key : store.keys()) there_[index_of(key)] = true;
+  }
+  bool has(const RunKey& key) const { return there_[index_of(key)]; }
+  void add(const RunKey& key) { there_[index_of(key)] = true; }
+
+ private:
+  std::size_t index_of(const RunKey& key) const {
+    return (std::size_t{key.point} * replications_ + key.replication) * paradigms_ + key.paradigm;
+  }
+  std::size_t replications_, paradigms_;
+  std::vector<bool> there_;
+};
+
+// Nothing where it cannot be: run() says why.
+std::optional<PreparedDrive> try_prepare(const SweepDrives& drives, const RunKey& key) {
+  try {
+    return drives.prepare(key);
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+}
+
+// Drives `wanted` on all workers, and elsewhere; `take` gets what is there now and then, on the calling thread.
+class Workers {
+ public:
+  Workers(const SweepDrives& drives, const std::vector<RunKey>& wanted, Elsewhere* elsewhere)
+      : drives_(drives), wanted_(wanted), elsewhere_(elsewhere) {}
+
+  void work(unsigned workers, const std::function<void(std::vector<Run>)>& take) {
+    std::vector<std::thread> threads;
+    threads.reserve(workers);
+    std::exception_ptr failure;
+    try {
+      for (unsigned w = 0; w < workers; ++w) {
+        threads.emplace_back([this] { drive(); });
+        const std::lock_guard lock(mutex_);
+        ++running_;
+      }
+    } catch (const std::system_error&) {  // with fewer, then
+      if (threads.empty()) throw;
+    }
+    for (bool last = false; !last;) {
+      const bool all_back = await_runs();
+      std::vector<Run> runs;
+      {
+        const std::lock_guard lock(mutex_);
+        last = all_back && running_ == 0;
+        runs.swap(waiting_);
+      }
+      changed_.notify_all();
+      try {
+        if (!failure) take(std::move(runs));
+      } catch (...) {
+        failure = std::current_exception();
+        next_ = wanted_.size();
+      }
+    }
+    for (std::thread& thread : threads) thread.join();
+    if (failure) std::rethrow_exception(failure);
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+ private:
+  void drive() {
+    std::exception_ptr failure;
+    try {
+      drive_all();
+    } catch (...) {
+      failure = std::current_exception();
+      next_ = wanted_.size();
+    }
+    const std::lock_guard lock(mutex_);
+    if (failure) failure_ = failure;
+    --running_;
+    changed_.notify_all();
+  }
+
+  // The next few runs for who asks.
+  std::span<const RunKey> grab() {
+    const std::size_t first = next_.fetch_add(kRunsAtATime);
+    if (first >= wanted_.size()) return {};
+    return std::span(wanted_).subspan(first, std::min<std::size_t>(kRunsAtATime, wanted_.size() - first));
+  }
+
+  void drive_all() {
+    Driver driver(drives_);
+    for (std::span<const RunKey> some = grab(); !some.empty(); some = grab())
+      driver.drive(some, [this](Run run) {
+        std::unique_lock lock(mutex_);
+        changed_.wait(lock, [&] { return waiting_.size() < kMostWaiting; });
+        waiting_.push_back(std::move(run));
+      });
+  }
+
+  bool nobody_runs() {
+    const std::lock_guard lock(mutex_);
+    return running_ == 0;
+  }
+
+  // Until it is time to write down what is there, or all is. Whether nothing is to be expected from elsewhere.
+  bool await_runs() {
+    if (elsewhere_ == nullptr) {
+      std::unique_lock lock(mutex_);
+      changed_.wait_for(lock, kWritten, [&] { return running_ == 0; });
+      return true;
+    }
+    const auto until = std::chrono::steady_clock::now() + kWritten;
+    while (true) {
+      const bool all_here = nobody_runs();
+      const std::size_t away = elsewhere_->turn([this] { return grab(); },
+                                                [this](std::vector<Run> runs) {
+                                                  const std::lock_guard lock(mutex_);
+                                                  for (Run& run : runs) waiting_.push_back(std::move(run));
+                                                });
+      if (away == 0 && all_here) return true;
+      if (std::chrono::steady_clock::now() >= until) return away == 0;
+      std::this_thread::sleep_for(kTurn);
+    }
+  }
+
+  const SweepDrives& drives_;
+  const std::vector<RunKey>& wanted_;
+  Elsewhere* const elsewhere_;
+  std::atomic<std::size_t> next_{0};
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<Run> waiting_;  // guarded, as the next two
+  int running_ = 0;           // may be below 0 for a moment: who is done before it is counted
+  std::exception_ptr failure_;
+};
+
+}  // namespace
+
+void Driver::drive(std::span<const RunKey> wanted, const std::function<void(Run)>& take) {
+  const bool shared = drives_.sweep().drawn().empty();
+  for (const RunKey& key : wanted) {
+    const bool same = newest_ && key.point == newest_->point && key.paradigm == newest_->paradigm;
+    if (!same) prepared_.reset();
+    newest_ = key;
+    if (shared && !prepared_) prepared_ = try_prepare(drives_, key);
+    take(prepared_ ? drives_.run(key, *prepared_) : drives_.run(key));
+  }
+}
+
+void run_sweep(const SweepDrives& drives, results::Store& store, Shard shard, unsigned workers,
+               const std::function<void(const SweepProgress&)>& progress, Elsewhere* elsewhere) {
+  const SweepFile& sweep = drives.sweep();
+  const auto points = static_cast<std::uint32_t>(sweep.points());
+  const auto paradigms = static_cast<std::uint32_t>(sweep.paradigms.size());
+  Ledger ledger(sweep, store);
+  SweepProgress now;
+  now.done = store.count();
+  for (std::uint32_t r = 0; r < sweep.replications; ++r)
+    if (shard.has(r)) now.all += std::uint64_t{points} * paradigms;
+
+  std::vector<bool> enough(points, false);
+  const std::uint32_t batch = sweep.stop ? sweep.stop->batch : sweep.replications;
+  for (std::uint32_t from = 0; from < sweep.replications; from += batch) {
+    const std::uint32_t to = std::min(sweep.replications, from + batch);
+    std::vector<RunKey> wanted;
+    for (std::uint32_t point = 0; point < points; ++point)
+      for (std::uint32_t paradigm = 0; paradigm < paradigms && !enough[point]; ++paradigm)
+        for (std::uint32_t r = from; r < to; ++r)
+          if (const RunKey key{point, r, paradigm}; shard.has(r) && !ledger.has(key)) wanted.push_back(key);
+    Workers(drives, wanted, elsewhere).work(workers, [&](std::vector<Run> runs) {
+      store.add(runs);
+      for (const Run& run : runs) ledger.add(run.key);
+      now.done += runs.size();
+      now.driven += runs.size();
+      progress(now);
+    });
+    if (!sweep.stop) continue;
+    for (std::uint32_t point = 0; point < points; ++point)
+      if (!enough[point]) enough[point] = sure_enough(sweep, store.of_point(point), to);
+    if (std::find(enough.begin(), enough.end(), false) == enough.end()) return;
+  }
+}
+
+}  // namespace ttf::experiments

@@ -1,0 +1,241 @@
+#include "experiments/sweep/run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <new>
+#include <optional>
+#include <string>
+
+#include "core/file_bytes.h"
+#include "core/hash.h"
+#include "core/random.h"
+#include "core/strict_yaml.h"
+#include "core/yaml_edit.h"
+#include "experiments/sweep/expected_drive.h"
+#include "evaluation/accuracy/drive_measures.h"
+#include "experiments/sweep/measures.h"
+#include "drives/step_catalog.h"
+#include "faults/plan.h"
+#include "recording/records/tee.h"
+#include "schedules/check/checker.h"
+#include "schedules/file/loader.h"
+#include "schedules/model/ports.h"
+#include "drives/drive.h"
+
+namespace ttf::experiments {
+namespace {
+
+constexpr std::string_view kOfCluster = "cluster.";
+constexpr std::size_t kAllPrepared = 1000;  // drives of a grid that are prepared, every one, before it begins
+
+// The last one's, if there is one.
+const std::string* file_of(const std::vector<Edit>& edits, std::string_view key) {
+  const auto last = std::find_if(edits.rbegin(), edits.rend(), [&](const Edit& edit) { return edit.key == key; });
+  return last == edits.rend() ? nullptr : &last->value;
+}
+
+}  // namespace
+
+SweepDrives::SweepDrives(const SweepFile& sweep) : sweep_(sweep) {
+  read_files();
+  const std::size_t points = sweep.points();
+  const auto each_paradigm = [&](std::uint32_t point) {
+    for (std::uint32_t p = 0; p < sweep.paradigms.size(); ++p) prepare_at({point, 0, p});
+  };
+  if (points * sweep.paradigms.size() <= kAllPrepared) {
+    for (std::uint32_t point = 0; point < points; ++point) each_paradigm(point);
+  } else {
+    each_paradigm(0);
+    std::size_t step = points;
+    for (const Axis* axis : sweep.grid()) {
+      step /= axis->settings.size();
+      for (std::size_t s = 1; s < axis->settings.size(); ++s) each_paradigm(static_cast<std::uint32_t>(s * step));
+    }
+  }
+  // The same from whichever folder it is looked at.
+  std::vector<std::string> others;
+  for (const auto& [path, text] : texts_)
+    if (path != sweep.scenario_file) others.push_back(std::filesystem::path(path).filename().string() + '\0' + text);
+  std::sort(others.begin(), others.end());
+  std::string all = sweep.text + '\0' + texts_.at(sweep.scenario_file);
+  for (const std::string& other : others) all += '\0' + other;
+  identity_ = hex_hash(all);
+}
+
+// All that any drive may ask for: the clusters that the scenarios have, too.
+void SweepDrives::read_files() {
+  std::vector<std::string> scenarios{sweep_.scenario_file};
+  const auto read = [&](const std::string& file) {
+    if (!texts_.contains(file)) texts_[file] = read_file(file);
+  };
+  const auto read_named = [&](const Edit& edit) {
+    if (!is_file(edit)) return;
+    read(edit.value);
+    if (edit.key == kScenarioFile) scenarios.push_back(edit.value);
+  };
+  read(sweep_.scenario_file);
+  for (const Axis& axis : sweep_.axes)
+    for (const Setting& setting : axis.settings)
+      for (const Edit& edit : setting.edits) read_named(edit);
+  for (const Paradigm& paradigm : sweep_.paradigms)
+    for (const Edit& edit : paradigm.edits) read_named(edit);
+  for (const Paradigm& paradigm : sweep_.paradigms) {
+    if (paradigm.cluster_file) read(*paradigm.cluster_file);
+    for (std::size_t s = 0; s < scenarios.size() && !paradigm.cluster_file; ++s)
+      read(nodes::parse_scenario(texts_.at(scenarios[s]), scenarios[s])
+               .cluster_files[static_cast<std::size_t>(paradigm.strategy)]);
+  }
+}
+
+// Says at which point something is wrong.
+void SweepDrives::prepare_at(const results::RunKey& key) const {
+  try {
+    std::vector<double> low, high;
+    for (const Axis* axis : sweep_.drawn()) {
+      low.push_back(axis->low);
+      high.push_back(axis->high);
+    }
+    (void)prepare(key, low);
+    if (!high.empty()) (void)prepare(key, high);
+  } catch (const InputError& error) {
+    Findings findings;
+    for (Finding finding : error.findings()) {
+      finding.expected +=
+          fmt::format(" (with {}, {})", sweep_.paradigms[key.paradigm].name, sweep_.label_of(key.point));
+      findings.add(std::move(finding));
+    }
+    findings.throw_if_any();
+  }
+}
+
+std::vector<double> SweepDrives::drawn(std::uint32_t replication) const {
+  std::vector<double> values;
+  for (const Axis* axis : sweep_.drawn()) {
+    RandomStream stream({sweep_.seed, replication, Purpose::kSweep, static_cast<std::uint16_t>(values.size()), 0});
+    values.push_back(std::stod(fmt::format("{:.6g}", stream.uniform(axis->low, axis->high))));
+  }
+  return values;
+}
+
+PreparedDrive SweepDrives::prepare(const results::RunKey& key) const { return prepare(key, drawn(key.replication)); }
+
+// The paradigm's own, the point's, and what is drawn, in this order.
+std::vector<Edit> SweepDrives::edits_of(const results::RunKey& key, const std::vector<double>& drawn) const {
+  const Paradigm& paradigm = sweep_.paradigms[key.paradigm];
+  std::vector<Edit> edits = paradigm.edits;
+  const auto add = [&](const Edit& edit, const std::string& value) {
+    if (edit.paradigm.empty() || edit.paradigm == paradigm.name)
+      edits.push_back({edit.key, value, edit.paradigm, edit.line});
+  };
+  for (const Setting* setting : sweep_.settings_of(key.point))
+    for (const Edit& edit : setting->edits) add(edit, edit.value);
+  const std::vector<const Axis*> axes = sweep_.drawn();
+  for (std::size_t a = 0; a < axes.size(); ++a)
+    for (const Edit& edit : axes[a]->keys)
+      add(edit, fmt::format("{}{}{}", drawn[a], axes[a]->unit.empty() ? "" : " ", axes[a]->unit));
+  return edits;
+}
+
+std::string SweepDrives::edited(const std::vector<Edit>& edits, bool of_cluster, const std::string& name) const {
+  std::string text = texts_.at(name);
+  for (const Edit& edit : edits) {
+    const bool is = edit.key.starts_with(kOfCluster);
+    if (is != of_cluster || is_file(edit)) continue;
+    try {
+      text = with_value(text, name, std::string_view(edit.key).substr(is ? kOfCluster.size() : 0), edit.value);
+    } catch (const InputError& error) {
+      if (error.findings().front().line != 0) throw;
+      // It stands nowhere: who asks for it does.
+      throw InputError({sweep_.file, edit.line, edit.key, "",
+                        fmt::format("must be in the file {}: only what is written there can be varied", name)});
+    }
+  }
+  return text;
+}
+
+// As if it had been written in the scenario.
+void SweepDrives::plan_faults(const std::string& file, nodes::Scenario& scenario) const {
+  if (!scenario.faults.empty())
+    throw InputError({scenario.file, 0, "faults", "", "must not be there where " + file + " says what goes wrong"});
+  const std::string& text = texts_.at(file);
+  const StrictYaml yaml = StrictYaml::parse(text, file);
+  Findings findings;
+  YamlMap root = yaml.root(findings);
+  scenario.faults = nodes::load_fault_plan(root, scenario.duration);
+  root.finish();
+  findings.throw_if_any();
+  scenario.text += "\n" + text;
+}
+
+PreparedDrive SweepDrives::prepare(const results::RunKey& key, const std::vector<double>& values) const {
+  const Paradigm& paradigm = sweep_.paradigms[key.paradigm];
+  const std::vector<Edit> edits = edits_of(key, values);
+  const std::string* scenario = file_of(edits, kScenarioFile);
+  const std::string& scenario_file = scenario != nullptr ? *scenario : sweep_.scenario_file;
+  PreparedDrive drive;
+  drive.scenario = nodes::parse_scenario(edited(edits, false, scenario_file), scenario_file);
+  if (const std::string* faults = file_of(edits, kFaultsFile)) plan_faults(*faults, drive.scenario);
+  drive.strategy = paradigm.strategy;
+  std::string& file = drive.scenario.cluster_files[static_cast<std::size_t>(paradigm.strategy)];
+  if (paradigm.cluster_file) file = *paradigm.cluster_file;
+  if (const std::string* cluster = file_of(edits, kClusterFile)) file = *cluster;
+  drive.cluster = schedules::parse_cluster(edited(edits, true, file), file);
+  if (auto findings = schedules::check(drive.cluster); !findings.empty()) throw InputError(std::move(findings));
+  schedules::bind_ports(drive.cluster, nodes::step_ports());
+  sim::check_fits(drive.scenario, drive.cluster, drive.strategy, false);
+  return drive;
+}
+
+results::Run SweepDrives::run(const results::RunKey& key) const {
+  try {
+    return run(key, prepare(key));
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    results::Run failed{key, error.what(), drawn(key.replication)};
+    failed.values.resize(columns().size(), kNotMeasured);
+    return failed;
+  }
+}
+
+results::Run SweepDrives::run(const results::RunKey& key, const PreparedDrive& drive, records::Sink* listener) const {
+  results::Run run{key, results::kDone, drawn(key.replication)};
+  try {
+    const auto asked_for = [this](std::string_view measure) {
+      return std::find(sweep_.measures.begin(), sweep_.measures.end(), measure) != sweep_.measures.end();
+    };
+    DriveMeasures measures(sim::evaluation_start(drive.scenario));
+    std::vector<records::Sink*> sinks{&measures};
+    std::optional<ExpectedError> expected;
+    if (asked_for("position_mse_expected") && ExpectedError::is_defined(drive.scenario))
+      sinks.push_back(&expected.emplace(drive.scenario));
+    if (listener != nullptr) sinks.push_back(listener);
+    records::Tee tee(sinks);
+    const sim::DriveConfig config{
+        &drive.scenario, &drive.cluster, drive.strategy, sweep_.seed,
+        key.replication, nullptr,        nullptr,        listener != nullptr || asked_for("precision")};
+    const sim::DriveOutcome outcome = sim::run_drive(config, tee);
+    DriveSummary summary = measures.finish();
+    summary.position_mse_reference_corrected = summary.position_rmse_reference * summary.position_rmse_reference -
+                                               expected_square(drive.scenario.reference, summary.reference_weights);
+    if (expected) summary.position_mse_expected = expected->position_mse();
+    for (const std::string& name : sweep_.measures) run.values.push_back(find_measure(name)->of(summary, outcome));
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    run.status = error.what();
+    run.values.resize(columns().size(), kNotMeasured);
+  }
+  return run;
+}
+
+std::vector<std::string> SweepDrives::columns() const {
+  std::vector<std::string> names;
+  for (const Axis* axis : sweep_.drawn()) names.push_back(axis->name);
+  names.insert(names.end(), sweep_.measures.begin(), sweep_.measures.end());
+  return names;
+}
+
+}  // namespace ttf::experiments

@@ -1,0 +1,142 @@
+#include "faults/plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "core/check.h"
+#include "faults/believed_schedule.h"
+
+namespace ttf::nodes {
+namespace {
+
+using schedules::Cluster;
+
+// What is wrong with a plan in this cluster.
+class Resolver {
+ public:
+  Resolver(const Cluster& cluster, const std::string& file, Findings& findings)
+      : cluster_(cluster), file_(file), findings_(findings) {}
+
+  void resolve(Fault& fault, std::size_t index) {
+    fault_ = &fault;
+    index_ = index;
+    if (has_node(fault.kind) && fault.node == kNoNode) fault.node = find("node", fault.node_name);
+    if (fault.receivers.empty())
+      for (const std::string& name : fault.receiver_names) fault.receivers.push_back(find("receivers", name));
+    check_receivers();
+    check_slot();
+    check_bits();
+    check_coldstart();
+    check_wires();
+    check_belief();
+  }
+
+ private:
+  NodeId find(std::string_view key, const std::string& name) {
+    const auto node = cluster_.find_node(name);
+    if (!node)
+      fail(key, name, "must be a node", ": " + names_on_flexray());
+    else if (!cluster_.node(*node).flexray)
+      fail(key, name, "must be on FlexRay");
+    return node.value_or(kNoNode);
+  }
+  void check_receivers() {
+    for (const NodeId receiver : fault_->receivers)
+      if (receiver != kNoNode && receiver == fault_->node)
+        fail("receivers", cluster_.node(receiver).name, "must be another node");
+  }
+  void check_slot() {
+    const int slots = cluster_.flexray.gNumberOfStaticSlots;
+    const bool shifts = fault_->kind == FaultKind::kWrongSchedule && fault_->wrong == WrongSchedule::kShiftedSlots;
+    if (fault_->slot > slots) fail_number("slot", fault_->slot, fmt::format("must be 1..{}", slots));
+    for (const schedules::FrameSlot& frame : cluster_.frames)
+      if (fault_->kind == FaultKind::kMasquerading && frame.slot == fault_->slot && frame.sender == fault_->node)
+        return fail_number("slot", fault_->slot, "must be another's slot");
+    if (shifts && fault_->by >= slots) fail_number("by", fault_->by, fmt::format("must be 1..{}", slots - 1));
+  }
+  void check_bits() {
+    const int bits = 16 * cluster_.flexray.gPayloadLengthStatic;
+    if (fault_->kind != FaultKind::kBitFlipPayload) return;
+    for (const int bit : fault_->bits)
+      if (bit >= bits) fail_number("bits", bit, fmt::format("must be 0..{} in a static frame", bits - 1));
+  }
+  void check_coldstart() {
+    const bool starts = fault_->kind == FaultKind::kLoneColdstart || fault_->kind == FaultKind::kDuplicateColdstart;
+    if (!starts || fault_->node == kNoNode || !cluster_.node(fault_->node).flexray) return;
+    if (!cluster_.node(fault_->node).flexray->pKeySlotUsedForStartup)
+      fail("node", cluster_.node(fault_->node).name, "must be a coldstart node");
+  }
+  void check_wires() {
+    if (fault_->kind != FaultKind::kChannelSwap || fault_->node == kNoNode) return;
+    const auto& parameters = cluster_.node(fault_->node).flexray;
+    if (parameters && parameters->pChannels != schedules::Channels::kAB)
+      fail("node", cluster_.node(fault_->node).name, "must be on both channels");
+  }
+  void check_belief() {
+    if (!changes_schedule(*fault_) || !findings_.empty()) return;
+    const std::string objection = believe(*fault_, believed_.try_emplace(fault_->node, cluster_).first->second);
+    if (objection.empty()) return;
+    const bool by = fault_->by != 0;
+    findings_.add({file_, fault_->line, fmt::format("faults[{}].{}", index_, by ? "by" : "slot"),
+                   by ? fmt::to_string(fault_->by) : "", objection});
+  }
+  std::string names_on_flexray() const {
+    std::string names;
+    for (const schedules::Node& node : cluster_.nodes)
+      if (node.flexray) names += (names.empty() ? "" : ", ") + node.name;
+    return names;
+  }
+  void fail(std::string_view key, std::string value, std::string_view expected, std::string_view more = {}) {
+    findings_.add({file_, fault_->line, fmt::format("faults[{}].{}", index_, key), std::move(value),
+                   fmt::format("{} of {}{}", expected, cluster_.name, more)});
+  }
+  void fail_number(std::string_view key, int value, std::string_view expected) {
+    fail(key, fmt::to_string(value), expected);
+  }
+
+  const Cluster& cluster_;
+  const std::string& file_;
+  Findings& findings_;
+  std::map<NodeId, Cluster> believed_;  // by those who err
+  const Fault* fault_ = nullptr;
+  std::size_t index_ = 0;
+};
+
+}  // namespace
+
+std::string_view name_of(FaultKind kind) {
+  switch (kind) {
+    case FaultKind::kCrash: return "crash";
+    case FaultKind::kOmission: return "omission";
+    case FaultKind::kBabblingIdiot: return "babbling_idiot";
+    case FaultKind::kMasquerading: return "masquerading";
+    case FaultKind::kSosTiming: return "sos_timing";
+    case FaultKind::kSosValue: return "sos_value";
+    case FaultKind::kBitFlipHeader: return "bit_flip_header";
+    case FaultKind::kBitFlipPayload: return "bit_flip_payload";
+    case FaultKind::kBitFlipTrailer: return "bit_flip_trailer";
+    case FaultKind::kChannelSwap: return "channel_swap";
+    case FaultKind::kByzantineClock: return "byzantine_clock";
+    case FaultKind::kDrift: return "drift";
+    case FaultKind::kLoneColdstart: return "lone_coldstart";
+    case FaultKind::kDuplicateColdstart: return "duplicate_coldstart";
+    case FaultKind::kWrongSchedule: return "wrong_schedule";
+    case FaultKind::kNoise: return "noise";
+    case FaultKind::kTransient: return "transient";
+  }
+  TTF_CHECK(false, "fault kind {}", static_cast<int>(kind));
+}
+
+bool has_node(FaultKind kind) { return kind != FaultKind::kNoise && kind != FaultKind::kTransient; }
+
+FaultPlan resolve(FaultPlan plan, const Cluster& cluster) {
+  Findings findings;
+  Resolver resolver(cluster, plan.file, findings);
+  for (std::size_t i = 0; i < plan.faults.size(); ++i) resolver.resolve(plan.faults[i], i);
+  findings.throw_if_any();
+  return plan;
+}
+
+}  // namespace ttf::nodes

@@ -1,0 +1,84 @@
+// How probable it is that an observation is of a track, over all joint events: every way in which each observation is
+// of one track or of none, and each track has one observation or none (joint probabilistic data association: Fortmann,
+// Bar-Shalom, Scheffe: "Sonar tracking of multiple targets using joint probabilistic data association", IEEE J. Oceanic
+// Eng. 8(3), 1983; Bar-Shalom, Fortmann: "Tracking and Data Association", 1988, 9.3).
+//
+// An event's probability is proportional to the product of the weights of its pairs, w > 0 being how much more probable
+// the pair is than both alone, observation as clutter and track unseen:
+//   P(event) = prod w / sum over all events of prod w.
+// Pairs share an event only where they share gates: observations and tracks fall into clusters that are computed one by
+// one.
+//
+// Exact, in a cluster of s tracks and l >= s observations, or the other way round, as long as (l + 1) 2^s <= 65536: the
+// sum over the events, of which there may be s! or more, is built up one of the l at a time over the subsets of the s
+// that are taken (forward, backward), all terms positive. Beyond that, "cheap JPDA" (Fitzgerald: "Development of
+// practical PDA logic for multitarget tracking by microprocessor", ACC 1986): with S the sums of weights over a row and
+// a column,
+//   P(pair) = w / (S_row + S_column - w + 1),
+// which is exact for a track or an observation that has no rival, and counted in approximated().
+//
+// Storage is taken at construction; solving allocates nothing.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "fusion/association/components.h"
+
+namespace ttf::fusion {
+
+// Row: observation; column: track. Weight above 0, at most kLargestWeight.
+struct Pair {
+  int row = 0;
+  int column = 0;
+  double weight = 0.0;
+};
+
+class JointAssociation {
+ public:
+  // So that no sum overflows.
+  static constexpr double kLargestWeight = 1e20;
+  static constexpr std::size_t kLargestTable = 65536;
+
+  JointAssociation(std::size_t max_rows, std::size_t max_columns);
+
+  // Each pair at most once, in any order.
+  void solve(std::span<const Pair> pairs, std::size_t rows, std::size_t columns);
+
+  struct Shared {
+    int row = 0;
+    double probability = 0.0;
+  };
+  // Of the last solve(): the observations a track may have, in their order, and that it has none of them.
+  std::span<const Shared> of_column(std::size_t column) const {
+    return {shared_.data() + begin_[column], shared_.data() + begin_[column + 1]};
+  }
+  double none_of_column(std::size_t column) const { return none_[column]; }
+
+  // Clusters since construction that were too large to be exact.
+  std::uint64_t approximated() const { return approximated_; }
+
+ private:
+  struct Sorted {
+    Pair pair;
+    int cluster = 0;
+    double probability = 0.0;
+  };
+  void solve_cluster(std::span<Sorted> cluster);
+  void solve_exactly(std::span<Sorted> cluster, bool columns_are_bits);
+  void solve_cheaply(std::span<Sorted> cluster);
+
+  std::size_t rows_ = 0;
+  Components components_;
+  std::vector<Sorted> sorted_;
+  std::vector<int> cluster_rows_, cluster_columns_, local_;  // local_: of rows, then of columns
+  std::vector<double> weights_, forward_, backward_;
+  std::vector<double> row_sums_, column_sums_, none_;
+  std::vector<Shared> shared_;
+  std::vector<std::size_t> begin_;
+  std::uint64_t approximated_ = 0;
+};
+
+}  // namespace ttf::fusion

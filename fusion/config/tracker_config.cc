@@ -1,0 +1,124 @@
+#include "fusion/config/tracker_config.h"
+
+#include <utility>
+
+namespace ttf::fusion {
+namespace {
+
+// There all is linear but a radar's measurement: what carries more than the estimate, errors of sensors or a past, is
+// for these alone.
+bool is_straight_and_extended(const TrackerConfig& c) {
+  return (c.motion == MotionModel::kConstantVelocity || c.motion == MotionModel::kConstantAcceleration) &&
+         c.filter == FilterKind::kExtended;
+}
+
+void load_systematic(YamlMap& yaml, TrackerConfig& c) {
+  c.systematic = yaml.choice_or<SystematicErrorsAre>(
+      "systematic", c.systematic,
+      {{"ignore", SystematicErrorsAre::kIgnored}, {"consider", SystematicErrorsAre::kConsidered}});
+  if (c.systematic == SystematicErrorsAre::kConsidered && !is_straight_and_extended(c))
+    yaml.fail("systematic",
+              "must be ignore but where motion is constant_velocity or constant_acceleration and filter "
+              "is extended");
+  if (!yaml.has("sensors")) return;
+  for (auto& [name, map] : yaml.named_maps("sensors")) {
+    KnownSensor sensor = load_known_sensor(map);
+    sensor.name = name;
+    sensor.line = map.line();
+    map.finish();
+    c.sensors.push_back(std::move(sensor));
+  }
+  check_biases(c.sensors, yaml, "sensors");
+}
+
+void load_association(YamlMap& yaml, TrackerConfig& c) {
+  c.association = yaml.choice_or<Association>("association", c.association,
+                                              {{"nearest", Association::kNearest}, {"jpda", Association::kJpda}});
+  c.birth = yaml.choice_or<Birth>("birth", c.birth, {{"m_of_n", Birth::kMOfN}, {"existence", Birth::kExistence}});
+  c.detection_probability = yaml.number_or("detection_probability", c.detection_probability, {0.01, 0.999999});
+  c.clutter_density = yaml.number_or("clutter_density", c.clutter_density, {1e-9, 100.0}, "1/m^2");
+  c.survival_seconds = yaml.number_or("survival_seconds", c.survival_seconds, {0.01, 1e6}, "s");
+  c.initial_existence = yaml.number_or("initial_existence", c.initial_existence, {1e-6, 0.999});
+  c.confirm_existence = yaml.number_or("confirm_existence", c.confirm_existence, {1e-5, 0.999999});
+  c.delete_existence = yaml.number_or("delete_existence", c.delete_existence, {1e-9, 0.99});
+  if (c.delete_existence >= c.initial_existence)
+    yaml.fail("delete_existence", "must be below initial_existence: a track would end as it begins");
+  if (c.delete_existence >= c.confirm_existence) yaml.fail("delete_existence", "must be below confirm_existence");
+  c.merge_probability = yaml.number_or("merge_probability", c.merge_probability, {0.0, 0.999999});
+  c.merge_scans = static_cast<int>(yaml.integer_or("merge_scans", c.merge_scans, {1, 255}, "scans"));
+}
+
+// Last: what it may be depends on the others.
+void load_late(YamlMap& yaml, TrackerConfig& c) {
+  Choices<oosm::Kind> methods;
+  for (const oosm::NamedKind& named : oosm::kKinds) methods.emplace_back(named.name, named.kind);
+  c.late = yaml.choice_or<oosm::Kind>("late", c.late, methods);
+  if (c.late == oosm::Kind::kRewind) return;
+  if (!is_straight_and_extended(c))
+    yaml.fail("late",
+              "must be rewind, but with motion constant_velocity or constant_acceleration and filter extended: "
+              "of the others' estimates the methods know nothing");
+  if (c.systematic == SystematicErrorsAre::kConsidered)
+    yaml.fail("late", "must be rewind where systematic is consider: the other methods carry no errors of sensors");
+  if (c.association != Association::kNearest || c.birth != Birth::kMOfN || c.merge_probability != 0.0)
+    yaml.fail("late",
+              "must be rewind, but with association nearest, birth m_of_n and merge_probability 0: the other "
+              "methods do not go back to what was decided since");
+}
+
+}  // namespace
+
+TrackerConfig load_tracker(YamlMap& yaml) {
+  TrackerConfig c;
+  c.motion = yaml.choice_or<MotionModel>("motion", c.motion,
+                                         {{"constant_velocity", MotionModel::kConstantVelocity},
+                                          {"constant_acceleration", MotionModel::kConstantAcceleration},
+                                          {"ctrv", MotionModel::kCtrv},
+                                          {"ctra", MotionModel::kCtra},
+                                          {"interacting", MotionModel::kInteracting}});
+  c.filter = yaml.choice_or<FilterKind>("filter", c.filter,
+                                        {{"extended", FilterKind::kExtended}, {"unscented", FilterKind::kUnscented}});
+  c.process_noise = yaml.number_or("process_noise", c.process_noise, {1e-6, 1e4});
+  c.turn_noise = yaml.number_or("turn_noise", c.turn_noise, {1e-6, 100.0}, "rad^2/s^3");
+  c.mode_seconds = yaml.number_or("mode_seconds", c.mode_seconds, {0.01, 1e4}, "s");
+  c.initial_velocity_sigma = yaml.number_or("initial_velocity_sigma", c.initial_velocity_sigma, {0.01, 100.0}, "m/s");
+  c.initial_acceleration_sigma =
+      yaml.number_or("initial_acceleration_sigma", c.initial_acceleration_sigma, {0.01, 100.0}, "m/s^2");
+  c.initial_turn_rate_sigma =
+      yaml.number_or("initial_turn_rate_sigma", c.initial_turn_rate_sigma, {0.001, 10.0}, "rad/s");
+  c.gate_probability = yaml.number_or("gate_probability", c.gate_probability, {0.5, 0.999999});
+  c.confirm_window = static_cast<int>(yaml.integer_or("confirm_window", c.confirm_window, {1, 32}, "scans"));
+  c.confirm_hits = static_cast<int>(yaml.integer_or("confirm_hits", c.confirm_hits, {1, c.confirm_window}, "scans"));
+  c.coast_misses = static_cast<int>(yaml.integer_or("coast_misses", c.coast_misses, {1, 1000}, "scans"));
+  c.delete_misses = static_cast<int>(yaml.integer_or("delete_misses", c.delete_misses, {1, 1000}, "scans"));
+  c.delete_position_sigma = yaml.number_or("delete_position_sigma", c.delete_position_sigma, {0.1, 100.0}, "m");
+  constexpr Range<Duration> kSilence{Duration::milliseconds(1), Duration::milliseconds(100'000)};
+  c.coast_after = yaml.duration_or("coast_after", c.coast_after, kSilence);
+  c.delete_after = yaml.duration_or("delete_after", c.delete_after, kSilence);
+  if (c.coast_after > c.delete_after) yaml.fail("coast_after", "must not be longer than delete_after");
+  c.max_objects = static_cast<int>(yaml.integer_or("max_objects", c.max_objects, {1, 1000}));
+  c.buff_waits = yaml.choice_or<BuffWaiting>("buff_waits", c.buff_waits,
+                                             {{"schedule", BuffWaiting::kSchedule},
+                                              {"measured", BuffWaiting::kMeasured},
+                                              {"fixed_lag", BuffWaiting::kFixedLag}});
+  c.fixed_lag = yaml.duration_or("fixed_lag", c.fixed_lag, {Duration{}, Duration::milliseconds(10'000)});
+  c.max_observations = static_cast<std::size_t>(
+      yaml.integer_or("max_observations", static_cast<std::int64_t>(c.max_observations), {1, 4096}));
+  c.history_scans = static_cast<std::size_t>(
+      yaml.integer_or("history_scans", static_cast<std::int64_t>(c.history_scans), {2, 4096}, "scans"));
+  // What is remembered is taken beforehand: scans times the tracks that each may have, confirmed and tentative.
+  constexpr std::size_t kMostRemembered = 1'000'000;
+  const std::size_t tracks = static_cast<std::size_t>(c.max_objects) + 3 * c.max_observations;
+  if ((c.history_scans + 1) * tracks > kMostRemembered)
+    yaml.fail("history_scans",
+              "is too much to remember: (history_scans + 1) x (max_objects + 3 max_observations) "
+              "must be at most 1000000");
+  c.heading_noise = yaml.number_or("heading_noise", c.heading_noise, {0.0, 100.0}, "rad^2/s");
+  c.extent_noise = yaml.number_or("extent_noise", c.extent_noise, {0.0, 100.0}, "m^2/s");
+  load_systematic(yaml, c);
+  load_association(yaml, c);
+  load_late(yaml, c);
+  return c;
+}
+
+}  // namespace ttf::fusion

@@ -1,0 +1,48 @@
+#include "fusion/strategies/late/announcements.h"
+
+#include <algorithm>
+
+namespace ttf::fusion::late {
+
+Announcements::Announcements(std::span<const SensorTiming> sensors) {
+  for (const SensorTiming& timing : sensors)
+    if (timing.scheduled)
+      sensors_.push_back({.sensor = timing.sensor, .instants = {.first = timing.first, .period = timing.period}});
+  due_.reserve(sensors_.size() * static_cast<std::size_t>(kClones));
+}
+
+std::optional<GlobalTime> Announcements::instant_of(const Scan& scan) const {
+  for (const Sensor& own : sensors_)
+    if (own.sensor == scan.id.sensor) return own.instants.of(scan.measured);
+  return std::nullopt;
+}
+
+When Announcements::when(const Scan& scan) const {
+  if (const std::optional<GlobalTime> instant = instant_of(scan))
+    for (const Sensor& own : sensors_)
+      if (own.sensor == scan.id.sensor && own.next && *instant < *own.next)
+        return {.stamp = stamp_of(own.sensor, *instant), .after = scan.measured - *instant};
+  return {.stamp = {scan.measured, scan.id}, .after = {}};
+}
+
+std::span<const oosm::Stamp> Announcements::pass(const Scan& scan) {
+  due_.clear();
+  const std::optional<GlobalTime> mine = instant_of(scan);
+  const GlobalTime until = mine.value_or(scan.measured);
+  for (Sensor& other : sensors_) {
+    const ScheduledInstants& instants = other.instants;
+    if (until >= instants.first) {
+      const GlobalTime newest = instants.newest_at(until);
+      GlobalTime due =
+          other.next ? std::max(*other.next, newest - instants.period * (kClones - 1)) : newest + instants.period;
+      for (; due <= newest; due += instants.period)
+        if (other.sensor != scan.id.sensor || due != mine) due_.push_back(stamp_of(other.sensor, due));
+      other.next = due;
+    } else {
+      other.next = instants.first;
+    }
+  }
+  return due_;
+}
+
+}  // namespace ttf::fusion::late

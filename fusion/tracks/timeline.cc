@@ -1,0 +1,61 @@
+#include "fusion/tracks/timeline.h"
+
+#include <algorithm>
+
+namespace ttf::fusion {
+
+Timeline::Timeline(const TrackerConfig& config, std::size_t max_observations)
+    : tracker_(config, max_observations), identities_(tracker_.max_tracks()), base_(tracker_.max_tracks()) {
+  const std::size_t entries = config.history_scans + 1;
+  entries_.reserve(entries);
+  for (std::size_t i = 0; i < entries; ++i) {
+    entries_.emplace_back(max_observations, tracker_.max_tracks());
+    free_.push_back(entries - 1 - i);
+  }
+  order_.reserve(entries);
+}
+
+const TrackSet& Timeline::current() const { return order_.empty() ? base_ : entries_[order_.back()].after; }
+
+bool Timeline::contains(const MeasurementId& id, GlobalTime measured) const {
+  return std::any_of(
+             order_.begin(), order_.end(),
+             [&](std::size_t e) { return entries_[e].scan.id == id && entries_[e].scan.measured == measured; }) ||
+         (base_is_scan_ && base_id_ == id && base_time_ == measured);
+}
+
+Timeline::Insertion Timeline::insert(const Scan& scan) {
+  if (base_is_scan_ && before(scan.id, scan.measured, base_id_, base_time_)) return Insertion::kTooOld;
+  // From the end: late scans are rarely very late.
+  std::size_t position = order_.size();
+  while (position > 0) {
+    const StoredScan& previous = entries_[order_[position - 1]].scan;
+    if (!before(scan.id, scan.measured, previous.id, previous.measured)) break;
+    --position;
+  }
+  const bool late = position < order_.size();
+  const std::size_t slot = free_.back();
+  free_.pop_back();
+  entries_[slot].scan.assign(scan);
+  order_.insert(order_.begin() + static_cast<std::ptrdiff_t>(position), slot);
+  for (std::size_t i = position; i < order_.size(); ++i) process(i);
+  identities_.name(entries_[order_.back()].after, entries_[order_.front()].scan.measured);
+  if (free_.empty()) {
+    const Entry& oldest = entries_[order_.front()];
+    base_.assign(oldest.after);
+    base_id_ = oldest.scan.id;
+    base_time_ = oldest.scan.measured;
+    base_is_scan_ = true;
+    free_.push_back(order_.front());
+    order_.erase(order_.begin());
+  }
+  return late ? Insertion::kLate : Insertion::kInOrder;
+}
+
+void Timeline::process(std::size_t position) {
+  Entry& entry = entries_[order_[position]];
+  entry.after.assign(position == 0 ? base_ : entries_[order_[position - 1]].after);
+  tracker_.step(entry.after, entry.scan.view());
+}
+
+}  // namespace ttf::fusion

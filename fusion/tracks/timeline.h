@@ -1,0 +1,64 @@
+// The tracker's past, so that it can be gone back to: recent scans in chronological order and the tracks
+// after each.
+//
+//      base | scan 0 | scan 1 | ... | scan n-1
+//   tracks  ^        ^        ^               ^  current
+//
+// Inserting at the end is a step of the tracker; inserting before goes back to the tracks before the gap and
+// takes in again all scans from there, so the result is bit-identical to in-order processing for every order
+// of arrival; only the names of the tracks (fusion/tracks/identities.h) are kept from what was before. The oldest
+// scan is dropped into the base when the history is full; older scans than the base cannot be taken in.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "fusion/tracks/identities.h"
+#include "fusion/tracks/track_history.h"
+
+namespace ttf::fusion {
+
+// A scan with its own copy of the observations.
+struct StoredScan {
+  MeasurementId id;
+  GlobalTime measured{};
+  std::vector<Observation> observations;
+
+  explicit StoredScan(std::size_t most_observations) { observations.reserve(most_observations); }
+  void assign(const Scan& scan) {
+    id = scan.id;
+    measured = scan.measured;
+    observations.assign(scan.observations.begin(), scan.observations.end());
+  }
+  Scan view() const { return {id, measured, observations}; }
+};
+
+class Timeline final : public TrackHistory {
+ public:
+  Timeline(const TrackerConfig& config, std::size_t max_observations);
+
+  Insertion insert(const Scan& scan) override;
+  const TrackSet& current() const override;
+  const Estimator& estimator() const override { return tracker_.estimator(); }
+  bool contains(const MeasurementId& id, GlobalTime measured) const override;
+
+ private:
+  struct Entry {
+    StoredScan scan;
+    TrackSet after;
+    Entry(std::size_t most_observations, std::size_t most_tracks) : scan(most_observations), after(most_tracks) {}
+  };
+  void process(std::size_t position);
+
+  Tracker tracker_;
+  Identities identities_;
+  std::vector<Entry> entries_;      // storage, used in any order
+  std::vector<std::size_t> order_;  // chronological
+  std::vector<std::size_t> free_;
+  TrackSet base_;
+  MeasurementId base_id_{};
+  GlobalTime base_time_{};
+  bool base_is_scan_ = false;  // something was dropped into the base
+};
+
+}  // namespace ttf::fusion

@@ -1,0 +1,97 @@
+#include "fusion/tracks/track.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "fusion/motion/angles.h"
+
+namespace ttf::fusion {
+
+Scalar predicted(const Scalar& scalar, double noise, double dt) {
+  Scalar later = scalar;
+  if (later.known) later.variance += noise * dt;
+  return later;
+}
+
+double nearest_half_turn(double axis, double expected) {
+  constexpr double kPi = std::numbers::pi;
+  const double difference = to_half_turn(axis - expected);
+  return std::abs(difference) <= 0.5 * kPi ? axis : to_half_turn(axis + kPi);
+}
+
+Facing facing_of(const Cartesian& estimate, const Scalar& axis) {
+  // Variance of an angle of which nothing is known.
+  constexpr double kUnknown = std::numbers::pi * std::numbers::pi / 3.0;
+  const double vx = estimate.x(2), vy = estimate.x(3), speed = std::hypot(vx, vy);
+  const Eigen::Vector2d along = speed > 1e-9 ? Eigen::Vector2d(vx / speed, vy / speed) : Eigen::Vector2d(1.0, 0.0);
+  const Eigen::Vector2d across(-along(1), along(0));
+  // The direction of motion tells the heading the better, the faster the object is.
+  const double course = std::atan2(along(1), along(0));
+  const double course_variance = across.dot(estimate.p.block<2, 2>(2, 2) * across) / std::max(1e-6, speed * speed);
+  const bool moving = course_variance < kUnknown / 4.0;
+  if (moving && axis.known) {
+    const double difference = to_half_turn(nearest_half_turn(axis.value, course) - course);
+    const double weight = course_variance / (course_variance + axis.variance);
+    return {to_half_turn(course + weight * difference),
+            std::sqrt(course_variance * axis.variance / (course_variance + axis.variance))};
+  }
+  if (moving) return {course, std::sqrt(course_variance)};
+  if (axis.known) return {to_half_turn(axis.value), std::sqrt(axis.variance)};
+  return {course, std::sqrt(kUnknown)};
+}
+
+bool given_up(const Track& track, GlobalTime time, GlobalTime at, const TrackerConfig& config,
+              const Estimator& estimator) {
+  at = std::max(at, time);
+  const Duration silent = at - track.newest.measured;
+  if (silent <= config.coast_after) return false;
+  if (silent > config.delete_after) return true;
+  Estimate estimate = track.estimate;
+  estimator.predict(estimate, (at - time).seconds());
+  const double largest = config.delete_position_sigma * config.delete_position_sigma;
+  return estimator.position(estimate).p.diagonal().maxCoeff() > largest;
+}
+
+TrackView view_of(const Track& track, GlobalTime time, GlobalTime at, const TrackerConfig& config,
+                  const Estimator& estimator) {
+  Estimate later = track.estimate;
+  const double dt = std::max(0.0, (at - time).seconds());
+  estimator.predict(later, dt);
+  const Cartesian estimate = estimator.cartesian(later);
+  TrackView view;
+  view.id = track.id;
+  view.valid_at = std::max(at, time);
+  view.state = estimate.x;
+  view.covariance = estimate.p;
+  view.confirmed = track.confirmed;
+  view.coasting = track.misses >= config.coast_misses || view.valid_at - track.newest.measured > config.coast_after;
+
+  const double vx = estimate.x(2), vy = estimate.x(3);
+  view.speed = std::hypot(vx, vy);
+  const Eigen::Vector2d along =
+      view.speed > 1e-9 ? Eigen::Vector2d(vx / view.speed, vy / view.speed) : Eigen::Vector2d(1.0, 0.0);
+  const Eigen::Matrix2d velocity = estimate.p.block<2, 2>(2, 2);
+  view.sigma_speed = std::sqrt(along.dot(velocity * along));
+
+  const Facing facing = facing_of(estimate, predicted(track.heading, config.heading_noise, dt));
+  view.heading = facing.heading;
+  view.sigma_heading = facing.sigma;
+  const Eigen::Vector2d direction(std::cos(view.heading), std::sin(view.heading));
+  const Eigen::Matrix2d acceleration = estimate.p.block<2, 2>(4, 4);
+  view.acceleration = direction.dot(estimate.x.segment<2>(4));
+  view.sigma_acceleration = std::sqrt(std::max(0.0, direction.dot(acceleration * direction)));
+
+  Extent extent = track.extent;
+  predict(extent, config.extent_noise, dt);
+  view.length = extent.size(0);
+  view.sigma_length = std::sqrt(extent.covariance(0, 0));
+  view.has_length = extent.knows_length();
+  view.width = extent.size(1);
+  view.sigma_width = std::sqrt(extent.covariance(1, 1));
+  view.has_width = extent.knows_width();
+  view.unfiltered = track.unfiltered;
+  return view;
+}
+
+}  // namespace ttf::fusion

@@ -1,0 +1,274 @@
+#include "fusion/tracks/tracker.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "core/check.h"
+#include "fusion/tracks/existence.h"
+#include "fusion/metrics/chi_square.h"
+#include "fusion/motion/angles.h"
+
+namespace ttf::fusion {
+namespace {
+
+void correct_scalar(Scalar& scalar, double innovation, double measured, double sigma) {
+  const double variance = sigma * sigma;
+  if (!scalar.known) {
+    scalar = {measured, variance, true};
+    return;
+  }
+  const double gain = scalar.variance / (scalar.variance + variance);
+  scalar.value += gain * innovation;
+  scalar.variance = (1.0 - gain) * (1.0 - gain) * scalar.variance + gain * gain * variance;
+}
+
+// Confirmed tracks take precedence over tentative ones for the same observation.
+constexpr double kConfirmedBonus = 100.0;
+
+// A bound that is rounded leaves nothing out.
+constexpr double kRoundedUp = 1.0 + 1e-12;
+
+}  // namespace
+
+void TrackSet::assign(const TrackSet& other) {
+  TTF_CHECK(other.tracks.size() <= tracks.capacity(), "{} tracks into {}", other.tracks.size(), tracks.capacity());
+  tracks.assign(other.tracks.begin(), other.tracks.end());
+  time = other.time;
+  started = other.started;
+}
+
+Tracker::Tracker(const TrackerConfig& config, std::size_t max_observations)
+    : config_(config), estimator_(make_estimator(config)), max_observations_(max_observations),
+      max_tracks_(static_cast<std::size_t>(config.max_objects) + 3 * max_observations),
+      assignment_(max_observations, max_tracks_),
+      joint_(config.association == Association::kJpda ? max_observations : 0,
+             config.association == Association::kJpda ? max_tracks_ : 0),
+      twins_(config, max_tracks_), near_track_(max_observations), observation_of_(max_tracks_) {
+  candidates_.reserve(max_observations * max_tracks_);
+  by_x_.reserve(max_tracks_);
+  if (config.association == Association::kJpda) {
+    pairs_.reserve(max_observations * max_tracks_);
+    explanations_.reserve(max_observations + 1);
+  }
+  for (int dimension = 1; dimension <= 3; ++dimension)
+    gate_[dimension] = chi_square_quantile(config.gate_probability, dimension);
+}
+
+void Tracker::step(TrackSet& set, const Scan& scan) {
+  TTF_CHECK(scan.observations.size() <= max_observations_, "{} observations", scan.observations.size());
+  if (!set.started) {
+    set.started = true;
+    set.time = scan.measured;
+  }
+  predict_all(set, scan.measured);
+  std::erase_if(set.tracks,
+                [&](const Track& track) { return given_up(track, set.time, set.time, config_, *estimator_); });
+  associate(set, scan);
+  for (std::size_t t = 0; t < set.tracks.size(); ++t) {
+    Track& track = set.tracks[t];
+    const int observation = observation_of_[t];
+    ++track.scans;
+    track.hits = (track.hits << 1) | (observation >= 0 ? 1u : 0u);
+    track.misses = observation >= 0 ? 0 : track.misses + 1;
+    const Observation* z = observation >= 0 ? &scan.observations[static_cast<std::size_t>(observation)] : nullptr;
+    if (z) track.newest = {scan.id, static_cast<std::uint16_t>(observation), scan.measured};
+    if (config_.association == Association::kJpda) {
+      take_in_all(track, t, scan);
+      if (z) correct_beside(track, *z);
+      continue;
+    }
+    if (config_.birth == Birth::kExistence) judge_existence(track, z);
+    if (z) {
+      estimator_->update(track.estimate, *z);
+      correct_beside(track, *z);
+    }
+  }
+  give_birth(set, scan);
+  prune(set);
+  if (config_.merge_probability > 0.0) twins_.unite(set.tracks, *estimator_);
+}
+
+std::span<const int> Tracker::assigned(const TrackSet& set, const Scan& scan) {
+  TTF_CHECK(scan.observations.size() <= max_observations_, "{} observations", scan.observations.size());
+  associate(set, scan);
+  return std::span(observation_of_).first(set.tracks.size());
+}
+
+void Tracker::predict_all(TrackSet& set, GlobalTime to) const {
+  const double dt = (to - set.time).seconds();
+  for (Track& track : set.tracks) {
+    estimator_->predict(track.estimate, dt);
+    track.heading = predicted(track.heading, config_.heading_noise, dt);
+    predict(track.extent, config_.extent_noise, dt);
+    if (config_.birth == Birth::kExistence) track.existence = survived(track.existence, dt, config_);
+  }
+  set.time = to;
+}
+
+void Tracker::sort_by_x(const TrackSet& set, SensorId seen_by) {
+  by_x_.clear();
+  largest_variance_x_ = 0.0;
+  for (std::size_t t = 0; t < set.tracks.size(); ++t) {
+    const Gaussian<2> at = estimator_->seen_position(set.tracks[t].estimate, seen_by);
+    by_x_.push_back({at.x(0), at.x(1), at.p(0, 0), at.p(1, 1), t});
+    largest_variance_x_ = std::max(largest_variance_x_, at.p(0, 0));
+  }
+  std::sort(by_x_.begin(), by_x_.end(),
+            [](const Placed& a, const Placed& b) { return a.x != b.x ? a.x < b.x : a.track < b.track; });
+}
+
+// In the order of the tracks along x; what is assigned does not depend on the order of candidates.
+void Tracker::associate(const TrackSet& set, const Scan& scan) {
+  candidates_.clear();
+  pairs_.clear();
+  std::fill(near_track_.begin(), near_track_.end(), 0);
+  sort_by_x(set, scan.observations.empty() ? kNoSensor : scan.observations.front().sensor);
+  for (std::size_t o = 0; o < scan.observations.size(); ++o) {
+    const Observation& z = scan.observations[o];
+    const double gate = gate_[dimension_of(z.kind)];
+    const bool position = z.kind == ObservationKind::kPosition;
+    auto at = by_x_.begin();
+    double to = std::numeric_limits<double>::infinity();
+    if (position) {
+      // Further away than the least certain of all tracks reaches: outside every gate.
+      const double reach = kRoundedUp * std::sqrt(gate * (largest_variance_x_ + z.r(0, 0)));
+      at = std::partition_point(at, by_x_.end(), [&](const Placed& placed) { return placed.x < z.z(0) - reach; });
+      to = z.z(0) + reach;
+    }
+    for (; at != by_x_.end() && at->x <= to; ++at) {
+      const std::size_t t = at->track;
+      const Track& track = set.tracks[t];
+      if (position) {
+        // Cheap bound first: outside the gate on one axis alone is outside the gate.
+        const double dx = z.z(0) - at->x, dy = z.z(1) - at->y;
+        if (dx * dx > gate * (at->variance_x + z.r(0, 0)) || dy * dy > gate * (at->variance_y + z.r(1, 1))) continue;
+      }
+      if (config_.association == Association::kJpda) {
+        offer(track, z, static_cast<int>(o), static_cast<int>(t));
+        continue;
+      }
+      const std::optional<double> distance_squared = estimator_->distance_squared(track.estimate, z);
+      if (!distance_squared || *distance_squared > gate) continue;
+      if (track.confirmed) near_track_[o] = 1;
+      // Never exactly zero: a pair on the gate's edge is still better than none.
+      const double gain = gate - *distance_squared + 1e-9 + (track.confirmed ? kConfirmedBonus : 0.0);
+      candidates_.push_back({static_cast<int>(o), static_cast<int>(t), gain});
+    }
+  }
+  assignment_.solve(candidates_, scan.observations.size(), set.tracks.size());
+  if (config_.association == Association::kJpda) joint_.solve(pairs_, scan.observations.size(), set.tracks.size());
+  std::fill(observation_of_.begin(), observation_of_.end(), -1);
+  const auto columns = assignment_.column_of();
+  for (std::size_t o = 0; o < columns.size(); ++o)
+    if (columns[o] >= 0) observation_of_[static_cast<std::size_t>(columns[o])] = static_cast<int>(o);
+}
+
+// The most probable joint event has the largest product of weights; a pair that is less probable than both alone is in
+// none such.
+void Tracker::offer(const Track& track, const Observation& z, int row, int column) {
+  const std::optional<Fit> fit = estimator_->fit(track.estimate, z);
+  if (!fit || fit->distance_squared > gate_[dimension_of(z.kind)]) return;
+  if (track.confirmed) near_track_[static_cast<std::size_t>(row)] = 1;
+  const double weight = joint_weight(track.existence, likelihood_ratio(z, fit->density, config_), config_);
+  pairs_.push_back({row, column, weight});
+  if (weight > 1.0) candidates_.push_back({row, column, std::log(weight)});
+}
+
+// Before the update: by what the observation says of the prediction.
+void Tracker::judge_existence(Track& track, const Observation* z) const {
+  const std::optional<Fit> fit = z ? estimator_->fit(track.estimate, *z) : std::nullopt;
+  track.existence = after_list(track.existence, fit ? likelihood_ratio(*z, fit->density, config_) : 0.0, config_);
+}
+
+// All in the track's gate, with their probabilities given that its object exists.
+void Tracker::take_in_all(Track& track, std::size_t column, const Scan& scan) {
+  const double unseen = joint_.none_of_column(column) * exists_unseen(track.existence, config_);
+  double exists = unseen;
+  for (const JointAssociation::Shared& shared : joint_.of_column(column)) exists += shared.probability;
+  if (!(exists > 0.0)) return;  // it is long gone, and nothing has been seen of it
+  explanations_.clear();
+  explanations_.push_back({nullptr, unseen / exists});
+  for (const JointAssociation::Shared& shared : joint_.of_column(column))
+    explanations_.push_back({&scan.observations[static_cast<std::size_t>(shared.row)], shared.probability / exists});
+  if (explanations_.size() > 1) estimator_->update(track.estimate, explanations_);
+  if (config_.birth == Birth::kExistence) track.existence = std::min(1.0, exists);
+}
+
+void Tracker::correct_outline(Track& track, const Observation& z) const {
+  if (z.has_heading) {
+    const Cartesian now = estimator_->cartesian(track.estimate);
+    const double vx = now.x(2), vy = now.x(3);
+    const double expected = track.heading.known        ? track.heading.value
+                            : std::hypot(vx, vy) > 1.0 ? std::atan2(vy, vx)
+                                                       : z.heading;
+    const double measured = nearest_half_turn(z.heading, expected);
+    correct_scalar(track.heading, to_half_turn(measured - track.heading.value), measured, z.sigma_heading);
+    track.heading.value = to_half_turn(track.heading.value);
+  }
+  correct_extent(track, z);
+}
+
+// The span needs the aspect: it comes last, when position, course and axis know what this observation says of
+// them.
+void Tracker::correct_extent(Track& track, const Observation& z) const {
+  if (z.has_length) correct_length(track.extent, z.length, z.sigma_length);
+  if (z.has_width) correct_width(track.extent, z.width, z.sigma_width);
+  if (!z.has_span) return;
+  const Cartesian now = estimator_->cartesian(track.estimate);
+  const Vector<2> from = place_of(config_.sensors, z.sensor);
+  const double x = now.x(0) - from.x(), y = now.x(1) - from.y(), range = std::hypot(x, y);
+  if (range <= 0.0) return;
+  const Facing facing = facing_of(now, track.heading);
+  const Eigen::Vector2d sight(x / range, y / range);
+  const double range_variance = sight.dot(now.p.topLeftCorner<2, 2>() * sight);
+  correct_span(track.extent,
+               {range, std::sqrt(range_variance), to_half_turn(facing.heading - std::atan2(y, x)), facing.sigma},
+               z.span, z.sigma_span);
+}
+
+// An observation no track took becomes a tentative track, unless it lies in the gate of a confirmed one: that
+// is a second echo of an object which is known already.
+void Tracker::give_birth(TrackSet& set, const Scan& scan) {
+  const auto columns = assignment_.column_of();
+  for (std::size_t o = 0; o < scan.observations.size(); ++o) {
+    if (columns[o] >= 0 || near_track_[o] || set.tracks.size() == max_tracks_) continue;
+    const Observation& z = scan.observations[o];
+    Track track;
+    track.birth = track.newest = {scan.id, static_cast<std::uint16_t>(o), scan.measured};
+    track.estimate = estimator_->initial(z);
+    if (z.has_heading) track.heading = {z.heading, z.sigma_heading * z.sigma_heading, true};
+    correct_extent(track, z);
+    carry(track.unfiltered, z);
+    track.hits = 1;
+    track.scans = 1;
+    if (config_.birth == Birth::kExistence) track.existence = config_.initial_existence;
+    set.tracks.push_back(track);
+  }
+}
+
+void Tracker::prune(TrackSet& set) const {
+  const std::uint32_t window = config_.confirm_window >= 32 ? ~0u : (1u << config_.confirm_window) - 1u;
+  const bool by_existence = config_.birth == Birth::kExistence;
+  auto confirmed = std::count_if(set.tracks.begin(), set.tracks.end(), [](const Track& t) { return t.confirmed; });
+  for (Track& track : set.tracks)
+    if (!track.confirmed && confirmed < config_.max_objects &&
+        (by_existence ? track.existence >= config_.confirm_existence
+                      : std::popcount(track.hits & window) >= config_.confirm_hits)) {
+      track.confirmed = true;
+      ++confirmed;
+    }
+  const double largest = config_.delete_position_sigma * config_.delete_position_sigma;
+  std::erase_if(set.tracks, [&](const Track& track) {
+    if (estimator_->position(track.estimate).p.diagonal().maxCoeff() > largest) return track.misses > 0;
+    if (by_existence) return track.existence < config_.delete_existence;
+    if (track.confirmed) return track.misses >= config_.delete_misses;
+    // A tentative track goes when M hits cannot be reached within its window any more.
+    const int hits = std::popcount(track.hits & window);
+    const int left = config_.confirm_window - std::min(track.scans, config_.confirm_window);
+    return hits + left < config_.confirm_hits;
+  });
+}
+
+}  // namespace ttf::fusion

@@ -1,0 +1,126 @@
+#include "fusion/tracks/twins.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "fusion/metrics/chi_square.h"
+
+namespace ttf::fusion {
+namespace {
+
+struct Difference {
+  double squared = 0.0;
+  int degrees = 4;
+};
+
+Difference difference_of(const Cartesian& a, const Extent& a_size, const Cartesian& b, const Extent& b_size) {
+  const Vector<4> d = (a.x - b.x).head<4>();
+  const Matrix<4> sum = (a.p + b.p).topLeftCorner<4, 4>();
+  Difference difference{.squared = d.dot(sum.ldlt().solve(d))};
+  const bool known[] = {a_size.knows_length() && b_size.knows_length(), a_size.knows_width() && b_size.knows_width()};
+  for (Eigen::Index side = 0; side < 2; ++side) {
+    if (!known[side]) continue;
+    const double apart = a_size.size(side) - b_size.size(side);
+    difference.squared += apart * apart / (a_size.covariance(side, side) + b_size.covariance(side, side));
+    ++difference.degrees;
+  }
+  return difference;
+}
+
+// How uncertain a track's motion is, in one number.
+double volume_of(const Track& track, const Estimator& estimator) {
+  return estimator.cartesian(track.estimate).p.topLeftCorner<4, 4>().eval().determinant();
+}
+
+void join(Track& elder, const Track& younger, const Estimator& estimator) {
+  if (volume_of(younger, estimator) < volume_of(elder, estimator)) elder.estimate = younger.estimate;
+  if (younger.heading.known && (!elder.heading.known || younger.heading.variance < elder.heading.variance))
+    elder.heading = younger.heading;
+  if (younger.extent.covariance.determinant() < elder.extent.covariance.determinant()) elder.extent = younger.extent;
+  auto& sums = elder.unfiltered.classes.sums;
+  for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += younger.unfiltered.classes.sums[i];
+  const bool newer = younger.newest.measured > elder.newest.measured;
+  if (newer) elder.newest = younger.newest;
+  ThirdAxis& third = elder.unfiltered.third;
+  const ThirdAxis& other = younger.unfiltered.third;
+  if (other.has_z && (newer || !third.has_z)) {
+    third.has_z = true;
+    third.z = other.z;
+  }
+  if (other.has_height && (newer || !third.has_height)) {
+    third.has_height = true;
+    third.height = other.height;
+  }
+  elder.hits |= younger.hits;
+  elder.misses = std::min(elder.misses, younger.misses);
+  elder.existence = std::max(elder.existence, younger.existence);
+}
+
+}  // namespace
+
+Twins::Twins(const TrackerConfig& config, std::size_t max_tracks) : scans_(config.merge_scans) {
+  if (config.merge_probability <= 0.0) return;
+  for (int degrees = 4; degrees <= 6; ++degrees)
+    quantile_[degrees] = chi_square_quantile(config.merge_probability, degrees);
+  by_x_.reserve(max_tracks);
+  nearest_.reserve(max_tracks);
+}
+
+void Twins::find_nearest(const std::vector<Track>& tracks, const Estimator& estimator) {
+  by_x_.clear();
+  nearest_.assign(tracks.size(), {});
+  double largest = 0.0;
+  for (std::size_t t = 0; t < tracks.size(); ++t) {
+    if (!tracks[t].confirmed) continue;
+    by_x_.push_back({estimator.cartesian(tracks[t].estimate), t});
+    largest = std::max(largest, by_x_.back().at.p(0, 0));
+  }
+  std::sort(by_x_.begin(), by_x_.end(), [](const Seen& a, const Seen& b) {
+    return a.at.x(0) != b.at.x(0) ? a.at.x(0) < b.at.x(0) : a.track < b.track;
+  });
+  for (std::size_t i = 0; i < by_x_.size(); ++i) {
+    // Further apart in x alone than the quantile allows of the most degrees: not alike to anybody from here on.
+    const double reach = std::sqrt(quantile_[6] * (by_x_[i].at.p(0, 0) + largest)) * (1.0 + 1e-12);
+    for (std::size_t j = i + 1; j < by_x_.size() && by_x_[j].at.x(0) - by_x_[i].at.x(0) <= reach; ++j) {
+      const std::size_t elder = std::min(by_x_[i].track, by_x_[j].track);
+      const std::size_t younger = std::max(by_x_[i].track, by_x_[j].track);
+      const Difference apart =
+          difference_of(by_x_[i].at, tracks[by_x_[i].track].extent, by_x_[j].at, tracks[by_x_[j].track].extent);
+      const double distance = apart.squared / quantile_[apart.degrees];
+      if (!(distance <= 1.0)) continue;
+      Nearest& nearest = nearest_[younger];
+      const int candidate = static_cast<int>(elder);
+      if (nearest.elder < 0 || distance < nearest.distance ||
+          (distance == nearest.distance && candidate < nearest.elder))
+        nearest = {candidate, distance};
+    }
+  }
+}
+
+void Twins::unite(std::vector<Track>& tracks, const Estimator& estimator) {
+  find_nearest(tracks, estimator);
+  for (std::size_t t = tracks.size(); t-- > 0;) {
+    Track& younger = tracks[t];
+    if (nearest_[t].elder < 0) {
+      younger.twin_scans = 0;
+      continue;
+    }
+    Track& elder = tracks[static_cast<std::size_t>(nearest_[t].elder)];
+    if (younger.twin_scans == 0 || !(younger.twin == elder.birth)) {
+      younger.twin = elder.birth;
+      younger.twin_scans = 0;
+    }
+    const bool elder_seen = elder.hits & 1u, younger_seen = younger.hits & 1u;
+    if (elder_seen && younger_seen)
+      younger.twin_scans = 0;
+    else if (elder_seen || younger_seen)
+      ++younger.twin_scans;
+    if (younger.twin_scans < scans_) continue;
+    join(elder, younger, estimator);
+    tracks.erase(tracks.begin() + static_cast<std::ptrdiff_t>(t));
+  }
+}
+
+}  // namespace ttf::fusion

@@ -1,0 +1,55 @@
+// What a track carries along without a filter: what its observations take it for, and their third axis.
+//
+// Being part of the track, a value, it goes back with the track where a late scan rewrites the past: sums and newest
+// values are those of its observations in the order of measurement, whatever the order of arrival, to the last bit.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "fusion/sensors/observation.h"
+
+namespace ttf::fusion {
+
+// Scores summed by class.
+struct Classification {
+  std::array<double, kMostClasses> sums{};
+
+  void add(ClassId what, double score) { sums[static_cast<std::size_t>(what)] += score; }
+  // The class of the largest sum, of equal ones the first; kNoClass where nothing above zero was added.
+  ClassId best() const {
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < sums.size(); ++i)
+      if (sums[i] > sums[best]) best = i;
+    return sums[best] > 0.0 ? static_cast<ClassId>(best) : kNoClass;
+  }
+  // Of all that was added, the part that the best class has; 0 where there is none.
+  double share() const {
+    double all = 0.0, most = 0.0;
+    for (const double sum : sums) {
+      all += sum;
+      most = sum > most ? sum : most;
+    }
+    return all > 0.0 ? most / all : 0.0;
+  }
+};
+
+struct Unfiltered {
+  Classification classes;
+  ThirdAxis third;  // each from the newest observation that had it
+};
+
+inline void carry(Unfiltered& unfiltered, const Observation& observation) {
+  if (observation.class_id != kNoClass) unfiltered.classes.add(observation.class_id, observation.score);
+  const ThirdAxis& seen = observation.third;
+  if (seen.has_z) {
+    unfiltered.third.has_z = true;
+    unfiltered.third.z = seen.z;
+  }
+  if (seen.has_height) {
+    unfiltered.third.has_height = true;
+    unfiltered.third.height = seen.height;
+  }
+}
+
+}  // namespace ttf::fusion

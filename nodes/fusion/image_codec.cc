@@ -1,0 +1,69 @@
+#include "nodes/fusion/image_codec.h"
+
+#include <cmath>
+
+#include "nodes/host/signals.h"
+
+namespace ttf::nodes {
+namespace {
+
+double status_of(const fusion::TrackView& view) {
+  return (view.confirmed ? records::kImageConfirmed : 0) + (view.coasting ? records::kImageCoasting : 0) +
+         (view.has_length ? records::kImageHasLength : 0) + (view.has_width ? records::kImageHasWidth : 0);
+}
+
+}  // namespace
+
+ImageSignals bind_image(const schedules::Cluster& cluster, const schedules::PduLayout& layout) {
+  return bind_element(cluster, layout, kImageSignals);
+}
+
+void encode_image_object(const fusion::TrackView& view, Output& out, int index, const ImageSignals& signals) {
+  const double sigma_x = std::sqrt(view.covariance(0, 0)), sigma_y = std::sqrt(view.covariance(1, 1));
+  const std::array<double, kImageSignals.size()> values{static_cast<double>(index_of(view.id)),
+                                                        view.state(0),
+                                                        view.state(1),
+                                                        view.heading,
+                                                        view.speed,
+                                                        view.acceleration,
+                                                        view.length,
+                                                        view.width,
+                                                        sigma_x,
+                                                        sigma_y,
+                                                        view.covariance(0, 1) / (sigma_x * sigma_y),
+                                                        view.sigma_heading,
+                                                        view.sigma_speed,
+                                                        view.sigma_acceleration,
+                                                        view.sigma_length,
+                                                        view.sigma_width,
+                                                        status_of(view)};
+  for (std::size_t s = 0; s < values.size(); ++s) out.set(index, signals[s], values[s]);
+}
+
+records::ImageObject decode_image_object(const schedules::PduLayout& layout, const bus::ListView& list, int index,
+                                         const ImageSignals& signals) {
+  const auto value = [&](std::size_t s) { return element_value(layout, list, index, signals[s]); };
+  records::ImageObject object;
+  object.track = static_cast<TrackId>(std::lround(value(0)));
+  double* const fields[] = {&object.x,
+                            &object.y,
+                            &object.heading,
+                            &object.speed,
+                            &object.acceleration,
+                            &object.length,
+                            &object.width,
+                            &object.sigma_x,
+                            &object.sigma_y,
+                            &object.correlation_xy,
+                            &object.sigma_heading,
+                            &object.sigma_speed,
+                            &object.sigma_acceleration,
+                            &object.sigma_length,
+                            &object.sigma_width};
+  static_assert(std::size(fields) + 2 == kImageSignals.size(), "id, the numbers, status");
+  for (std::size_t f = 0; f < std::size(fields); ++f) *fields[f] = value(f + 1);
+  object.status = static_cast<std::uint8_t>(std::lround(value(kImageSignals.size() - 1)));
+  return object;
+}
+
+}  // namespace ttf::nodes

@@ -1,0 +1,30 @@
+// The real-time image on the bus: what its signals are, written by the fusion node, understood by whoever
+// receives it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+#include "bus/cni/list_buffer.h"
+#include "fusion/tracks/track.h"
+#include "nodes/host/step.h"
+#include "recording/records/records.h"
+#include "schedules/model/cluster.h"
+
+namespace ttf::nodes {
+
+// The element's signals, in the code's order; a layout may have them in any.
+inline constexpr auto kImageSignals = std::to_array<std::string_view>(
+    {"id", "x", "y", "heading", "speed", "acceleration", "length", "width", "sigma_x", "sigma_y", "correlation",
+     "sigma_heading", "sigma_speed", "sigma_acceleration", "sigma_length", "sigma_width", "status"});
+using ImageSignals = std::array<std::size_t, kImageSignals.size()>;
+ImageSignals bind_image(const schedules::Cluster& cluster, const schedules::PduLayout& layout);
+
+// Writes element `index` of the list begun in `out`.
+void encode_image_object(const fusion::TrackView& view, Output& out, int index, const ImageSignals& signals);
+// Element `index` of an image list, as whoever receives it understands it.
+records::ImageObject decode_image_object(const schedules::PduLayout& layout, const bus::ListView& list, int index,
+                                         const ImageSignals& signals);
+
+}  // namespace ttf::nodes

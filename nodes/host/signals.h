@@ -1,0 +1,48 @@
+// Binding of code to the signals of a PDU by name, once, at start-up: a signal the code needs and the layout lacks, and
+// one the layout has and the code does not know, are both findings (signals called "spare" are padding).
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/errors.h"
+#include "schedules/model/cluster.h"
+
+namespace ttf::nodes {
+
+template <std::size_t N>
+std::array<std::size_t, N> bind_element(const schedules::Cluster& cluster, const schedules::PduLayout& layout,
+                                        const std::array<std::string_view, N>& names) {
+  Findings findings;
+  std::array<std::size_t, N> signals{};
+  for (std::size_t i = 0; i < N; ++i) {
+    const auto found = schedules::find_signal(layout.element, names[i]);
+    if (found)
+      signals[i] = *found;
+    else
+      findings.add({cluster.file, layout.line, "pdus." + layout.name + ".element", std::string(names[i]),
+                    "is missing: the code that fills or reads this PDU needs it"});
+  }
+  for (const schedules::Signal& signal : layout.element)
+    if (signal.name != "spare" && std::find(names.begin(), names.end(), signal.name) == names.end())
+      findings.add({cluster.file, layout.line, "pdus." + layout.name + ".element", signal.name,
+                    "is not a signal the code knows"});
+  findings.throw_if_any();
+  return signals;
+}
+
+// The same, for code whose number of signals depends on the PDU.
+template <std::size_t N>
+std::vector<std::size_t> bind_elements(const schedules::Cluster& cluster, const schedules::PduLayout& layout,
+                                       const std::array<std::string_view, N>& names) {
+  const auto signals = bind_element<N>(cluster, layout, names);
+  return {signals.begin(), signals.end()};
+}
+
+// The layout of the PDU bound to `port` of a task; ports are checked to exist before (schedules/model/ports.h).
+const schedules::PortBinding& binding_of(const std::vector<schedules::PortBinding>& bindings, std::string_view port);
+
+}  // namespace ttf::nodes

@@ -1,0 +1,268 @@
+#include "nodes/runner/arrival_window.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "core/check.h"
+#include "timebase/floor_div.h"
+
+namespace ttf::runner {
+namespace {
+
+using Kind = bus::LiveArrival::Kind;
+constexpr Microticks kNotDue{std::numeric_limits<std::int64_t>::max()};
+constexpr std::int64_t kNotHeard = -1;
+
+Microticks bits(const schedules::GlobalParameters& g, const schedules::NodeParameters& p, int count) {
+  return {(count * g.gdBit_ps + p.pdMicrotick_ps - 1) / p.pdMicrotick_ps};
+}
+
+// So that wherever a sync frame is put, it is within its slot, a startup frame near enough to be one, and no midpoint
+// of such deviations beyond what may be corrected.
+Microticks reach_of(const schedules::GlobalParameters& g, const schedules::NodeParameters& p) {
+  const std::int64_t macrotick = g.gdMacrotick_ps / p.pdMicrotick_ps;
+  const std::int64_t behind = (g.gdStaticSlot - g.gdActionPointOffset) * macrotick -
+                              bits(g, p, schedules::frame_bits(g, g.gPayloadLengthStatic)).value -
+                              std::max(p.pDelayCompensationA, p.pDelayCompensationB) - macrotick;
+  const std::int64_t before = g.gdActionPointOffset * macrotick - macrotick;
+  return {std::max<std::int64_t>(0, std::min({behind, before, static_cast<std::int64_t>(p.pdAcceptedStartupRange),
+                                              static_cast<std::int64_t>(p.pOffsetCorrectionOut)}))};
+}
+
+}  // namespace
+
+Arrivals::Arrivals(const schedules::Cluster& cluster, NodeId node, Window window, ArrivalEvents& events)
+    : cluster_(cluster), parameters_(cluster.node(node).flexray ? &*cluster.node(node).flexray : nullptr),
+      slots_(cluster, node), window_(window), events_(events), pool_(kMost) {
+  if (parameters_ != nullptr) reach_ = reach_of(cluster.flexray, *parameters_);
+  free_.reserve(kMost);
+  used_.reserve(kMost);
+  for (std::size_t i = kMost; i > 0; --i) free_.push_back(static_cast<std::uint16_t>(i - 1));
+  for (auto& slots : deviations_) slots.resize(static_cast<std::size_t>(cluster.flexray.gNumberOfStaticSlots));
+  for (auto& slots : heard_) slots.assign(static_cast<std::size_t>(cluster.flexray.gNumberOfStaticSlots), kNotHeard);
+}
+
+void Arrivals::arrive(const bus::LiveArrival& arrival, Microticks at, std::optional<Microticks> late,
+                      Microticks duration, const timebase::CycleClock* clock) {
+  if (arrival.kind == Kind::kFollowUp) return follow_up(arrival, late.value_or(Microticks{}), clock);
+  if (free_.empty()) {
+    ++dropped_;
+    return;
+  }
+  const std::uint16_t index = free_.back();
+  Held& held = pool_[index];
+  held.kind = arrival.kind;
+  held.order = order_++;
+  held.at = held.due = at;
+  held.late = late;
+  held.placed = true;
+  held.awaits_follow_up = false;
+  std::span<const std::byte> bytes;
+  if (arrival.kind == Kind::kCan) {
+    held.can_bus = arrival.can_bus;
+    held.identifier = arrival.can.identifier;
+    held.flexible_data_rate = arrival.can.flexible_data_rate;
+    bytes = arrival.can.data;
+  } else {
+    held.channel = arrival.signal.channel;
+    held.signal = arrival.signal.signal;
+    held.slot = arrival.signal.slot;
+    bytes = arrival.signal.bytes;
+  }
+  TTF_CHECK(bytes.size() <= held.bytes.size(), "{} bytes", bytes.size());
+  std::copy(bytes.begin(), bytes.end(), held.bytes.begin());
+  held.size = bytes.size();
+  if (held.kind == Kind::kFlexRay) {
+    if (parameters_ == nullptr) return;
+    // A frame is placed when the node has got to the instant of its arrival: what its clock shows then is known then.
+    if (held.signal == bus::Signal::kFrame)
+      held.placed = false;
+    else
+      place_raw(held, duration);
+  }
+  free_.pop_back();
+  used_.push_back(index);
+}
+
+void Arrivals::follow_up(const bus::LiveArrival& arrival, Microticks late, const timebase::CycleClock* clock) {
+  for (std::size_t i = 0; i < used_.size(); ++i) {
+    Held& held = pool_[used_[i]];
+    if (held.kind != Kind::kFlexRay || held.placed || held.late || held.channel != arrival.signal.channel ||
+        held.slot != arrival.signal.slot)
+      continue;
+    const auto header = wire::header_of(std::span(held.bytes).first(held.size));
+    if (!header || header->cycle != arrival.cycle_counter) continue;
+    held.late = late;
+    if (held.awaits_follow_up && !place(held, clock)) drop(i);
+    return;
+  }
+}
+
+Microticks Arrivals::length_of(const Held& frame) const {
+  return bits(cluster_.flexray, *parameters_,
+              schedules::frame_bits(cluster_.flexray, wire::words_in_frame(frame.size)));
+}
+
+void Arrivals::place_raw(Held& held, Microticks length) {
+  held.start = held.at - held.late.value_or(Microticks{});
+  held.end = held.due = held.start + length;
+  held.placed = true;
+}
+
+bool Arrivals::place(Held& held, const timebase::CycleClock* clock) {
+  const schedules::GlobalParameters& g = cluster_.flexray;
+  const std::span<const std::byte> bytes = std::span<const std::byte>(held.bytes).first(held.size);
+  const auto header = wire::header_of(bytes);
+  const Microticks length = length_of(held);
+  const bool known = header && wire::header_crc_holds(*header) && header->frame_id == held.slot && held.slot >= 1 &&
+                     held.slot <= g.gNumberOfStaticSlots;
+  if (known && header->sync && !held.late && !held.awaits_follow_up) {
+    // Until its follow-up comes, or comes no more.
+    held.awaits_follow_up = true;
+    held.placed = false;
+    held.due = held.at + window_.late;
+    return true;
+  }
+  held.awaits_follow_up = false;
+  if (!known || clock == nullptr) {
+    // A clock that comes anew counts anew.
+    if (clock == nullptr)
+      for (const schedules::Channel channel : schedules::kBothChannels) {
+        auto& heard = heard_[index_of(channel)];
+        auto& deviations = deviations_[index_of(channel)];
+        std::fill(heard.begin(), heard.end(), kNotHeard);
+        std::fill(deviations.begin(), deviations.end(), Deviation{});
+      }
+    place_raw(held, length);
+    return true;
+  }
+  return place_in_slot(held, *header, *clock, length);
+}
+
+bool Arrivals::place_in_slot(Held& held, const wire::FrameHeader& header, const timebase::CycleClock& clock,
+                             Microticks length) {
+  const schedules::GlobalParameters& g = cluster_.flexray;
+  const std::int64_t round = g.gCycleCountMax + 1;
+  const Macroticks action_point{static_cast<std::int64_t>(held.slot - 1) * g.gdStaticSlot + g.gdActionPointOffset};
+  // Of the cycles that it may be of the one nearest to where it came; the counter alone would take it for one of
+  // a round before.
+  const std::int64_t passed = timebase::floor_div((held.at - clock.cycle_start()).value, parameters_->pMicroPerCycle);
+  std::int64_t off = (header.cycle - (clock.cycle() + passed) % round + 2 * round) % round;
+  if (off > round / 2) off -= round;
+  const std::int64_t ahead = passed + off;
+  if (ahead == 1) {
+    // It waits behind the begin of its cycle, which comes when the clock says so by then.
+    held.placed = false;
+    held.due = clock.cycle_end() + Microticks{1};
+    return true;
+  }
+  if (ahead > 1 || off > 1 || off < -1) {
+    place_raw(held, length);  // of no cycle that is near: the controller will say so
+    return true;
+  }
+  const std::int64_t cycle = clock.cycle() + ahead;
+  const Microticks expected = clock.start_of(action_point) + Microticks{ahead * parameters_->pMicroPerCycle};
+  const Microticks behind = held.at - expected;
+  count_gap(cycle, held.slot, held.channel);
+  events_.arrived(behind);
+  if (ahead < 0 || behind > window_.late || behind < -window_.early) {
+    events_.missed_window(cycle, held.slot, held.channel, behind);
+    return false;
+  }
+  const bool on_a = held.channel == schedules::Channel::kA;
+  const Microticks travelled{on_a ? parameters_->pDelayCompensationA : parameters_->pDelayCompensationB};
+  Microticks deviation{};
+  if (header.sync && held.late) deviation = within_reach(behind - *held.late, cycle, held.slot, held.channel);
+  held.start = expected + travelled + deviation;
+  held.end = held.due = held.start + length;
+  held.placed = true;
+  return true;
+}
+
+// Offsets are measured in odd cycles, rates as what an odd cycle's deviation is more than that of the even one before.
+Microticks Arrivals::within_reach(Microticks deviation, std::int64_t cycle, int slot, schedules::Channel channel) {
+  Deviation& last = deviations_[index_of(channel)][static_cast<std::size_t>(slot - 1)];
+  const bool second = cycle % 2 == 1 && last.cycle == cycle - 1;
+  const Microticks most = reach_ - Microticks{reach_.value / 8};
+  const Microticks put =
+      second ? std::clamp(last.put + (deviation - last.measured), -reach_, reach_) : std::clamp(deviation, -most, most);
+  last = {cycle, deviation, put};
+  return put;
+}
+
+void Arrivals::count_gap(std::int64_t cycle, int slot, schedules::Channel channel) {
+  std::int64_t& last = heard_[index_of(channel)][static_cast<std::size_t>(slot - 1)];
+  const std::int64_t before = std::exchange(last, std::max(last, cycle));
+  if (before == kNotHeard || cycle - before > kLongestGap) return;
+  const int round = cluster_.flexray.gCycleCountMax + 1;
+  std::uint32_t lost = 0;
+  for (std::int64_t c = before + 1; c < cycle; ++c)
+    lost += slots_.expected(slot, static_cast<int>(c % round), channel) != nullptr ? 1 : 0;
+  if (lost > 0) events_.lost(cycle, slot, channel, lost);
+}
+
+void Arrivals::drop(std::size_t place) {
+  free_.push_back(used_[place]);
+  used_.erase(used_.begin() + static_cast<std::ptrdiff_t>(place));
+}
+
+Microticks Arrivals::next() const {
+  Microticks next = kNotDue;
+  for (const std::uint16_t index : used_) next = std::min(next, pool_[index].due);
+  return next;
+}
+
+std::optional<Arrivals::Due> Arrivals::take(Microticks now, const timebase::CycleClock* clock) {
+  if (handed_over_) free_.push_back(*handed_over_);
+  handed_over_.reset();
+  while (!used_.empty()) {
+    const auto first = std::min_element(used_.begin(), used_.end(), [this](std::uint16_t a, std::uint16_t b) {
+      return std::pair(pool_[a].due, pool_[a].order) < std::pair(pool_[b].due, pool_[b].order);
+    });
+    Held& held = pool_[*first];
+    if (held.due > now) return std::nullopt;
+    const auto place_in_used = static_cast<std::size_t>(first - used_.begin());
+    if (!held.placed) {
+      if (!place(held, clock)) {
+        drop(place_in_used);
+      } else if (!held.placed && !held.awaits_follow_up && held.due <= now) {
+        // By a clock whose cycle should be over, and is not: no use in waiting for the next.
+        place_raw(held, length_of(held));
+      }
+      continue;
+    }
+    // Placed before the node had this clock, or late: its cycle is over, and the controller knows no more of it.
+    if (held.kind == Kind::kFlexRay && clock != nullptr && held.end < clock->cycle_start()) {
+      if (held.signal == bus::Signal::kFrame)
+        events_.missed_window(clock->cycle(), held.slot, held.channel, clock->cycle_start() - held.start);
+      drop(place_in_used);
+      continue;
+    }
+    handed_over_ = *first;
+    used_.erase(first);
+    Due due;
+    due.kind = held.kind;
+    due.at = held.at;
+    const std::span<const std::byte> bytes = std::span<const std::byte>(held.bytes).first(held.size);
+    if (held.kind == Kind::kCan) {
+      due.can_bus = held.can_bus;
+      due.can = {held.identifier, held.flexible_data_rate, bytes};
+    } else {
+      due.reception = {
+          held.channel, held.signal, held.start, held.end,
+          held.signal == bus::Signal::kFrame ? wire::decode_frame(held.channel, bytes) : wire::DecodedFrame{}};
+    }
+    return due;
+  }
+  return std::nullopt;
+}
+
+bool Arrivals::carrier(schedules::Channel channel, Microticks now) const {
+  return std::any_of(used_.begin(), used_.end(), [&](std::uint16_t index) {
+    const Held& held = pool_[index];
+    return held.kind == Kind::kFlexRay && held.placed && held.channel == channel && held.start <= now && held.due > now;
+  });
+}
+
+}  // namespace ttf::runner

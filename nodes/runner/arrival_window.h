@@ -1,0 +1,138 @@
+// What has arrived in real time, put in its place on the node's own clock, and handed over in the order of those
+// instants.
+//
+// FlexRay's own windows are microseconds; an ordinary kernel wakes a sender up later than that. So a medium in real
+// time has an arrival window of its own (schedules::ArrivalWindow), and this is who judges it. A frame of the static
+// segment says which slot it is of, and of which cycle. Within its window it is handed over where FlexRay expects it:
+//
+//   a sync frame        at the instant it would have come at had its sender been in time: arrival less what the sender
+//                       says it left late by; so clock synchronisation measures clocks, not kernels. Never further from
+//                       the action point than FlexRay's windows and the correction's limit reach: what is further is
+//                       put an eighth before their end, so that within a double cycle there is room for what its
+//                       deviations differ by, from which rates are measured. Were both put at the end, rates would
+//                       seem equal, and clocks far apart would lose their rate corrections, and never meet
+//   any other frame     exactly at the action point of its slot
+//
+// Before or behind its window it is not handed over: it is late (or early), which is told. A frame of the cycle that
+// comes next on this node's clock waits for it. Frames that never came are told by the next one of their slot, as
+// long as no more than kLongestGap cycles are between them: who is silent for longer was away.
+//
+// Without a clock of the cluster, or with a header that nobody can make out, a frame keeps the instant it came at.
+//   L1  take() hands over in the order of due instants; of equal ones, in the order of arrival
+//   L2  nothing is handed over before it is due; nothing allocates after construction
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "bus/ports/flexray_port.h"
+#include "bus/ports/live_medium.h"
+#include "bus/controller/slot_table.h"
+#include "core/time.h"
+#include "schedules/model/cluster.h"
+#include "timebase/cycle_clock.h"
+
+namespace ttf::runner {
+
+class ArrivalEvents {
+ public:
+  virtual ~ArrivalEvents() = default;
+  // A frame of another node was so much behind the action point of its slot (negative: before it).
+  virtual void arrived(Microticks behind) { (void)behind; }
+  // Outside its window, and not used.
+  virtual void missed_window(std::int64_t cycle, int slot, schedules::Channel channel, Microticks behind) {
+    (void)cycle, (void)slot, (void)channel, (void)behind;
+  }
+  // So many frames of the slot, before that cycle, never came.
+  virtual void lost(std::int64_t cycle, int slot, schedules::Channel channel, std::uint32_t count) {
+    (void)cycle, (void)slot, (void)channel, (void)count;
+  }
+};
+
+class Arrivals {
+ public:
+  static constexpr std::int64_t kLongestGap = 64;
+  static constexpr std::size_t kMost = 1024;  // held at a time
+
+  struct Window {
+    Microticks early{}, late{};
+  };
+  Arrivals(const schedules::Cluster& cluster, NodeId node, Window window, ArrivalEvents& events);
+
+  // `at`: of the arrival, in this node's microticks. `late`: the same of what it says it left late by. `duration`: of a
+  // symbol. `clock`: the controller's, null while it has none.
+  void arrive(const bus::LiveArrival& arrival, Microticks at, std::optional<Microticks> late, Microticks duration,
+              const timebase::CycleClock* clock);
+
+  // When something is due next; far in the future where nothing is.
+  Microticks next() const;
+
+  struct Due {
+    bus::LiveArrival::Kind kind{};
+    bus::Reception reception;  // of kFlexRay
+    std::size_t can_bus = 0;   // of kCan
+    bus::CanFrame can;
+    Microticks at{};
+  };
+  // The next that is due up to `now`; views are valid until the next call of anything here.
+  std::optional<Due> take(Microticks now, const timebase::CycleClock* clock);
+
+  // Something whose begin has come is still on its way.
+  bool carrier(schedules::Channel channel, Microticks now) const;
+  // How long after its end a frame in its window may still be handed over: it comes late, and its follow-up as late
+  // again.
+  Microticks handed_over_within() const { return {2 * window_.late.value}; }
+  std::uint64_t held() const { return used_.size(); }
+  // There was no room for them.
+  std::uint64_t dropped() const { return dropped_; }
+
+ private:
+  struct Held {
+    bus::LiveArrival::Kind kind{};
+    bus::Signal signal{};
+    schedules::Channel channel{};
+    std::uint64_t order = 0;
+    Microticks at{}, due{};
+    std::optional<Microticks> late;
+    bool awaits_follow_up = false;
+    bool placed = false;
+    Microticks start{}, end{};
+    int slot = 0;
+    std::size_t can_bus = 0;
+    std::uint32_t identifier = 0;
+    bool flexible_data_rate = false;
+    std::array<std::byte, wire::kMaxFrameBytes> bytes{};
+    std::size_t size = 0;
+  };
+  void follow_up(const bus::LiveArrival& arrival, Microticks late, const timebase::CycleClock* clock);
+  // False: it is not to be handed over.
+  bool place(Held& held, const timebase::CycleClock* clock);
+  Microticks length_of(const Held& frame) const;
+  void place_raw(Held& held, Microticks length);
+  bool place_in_slot(Held& held, const wire::FrameHeader& header, const timebase::CycleClock& clock, Microticks length);
+  Microticks within_reach(Microticks deviation, std::int64_t cycle, int slot, schedules::Channel channel);
+  void count_gap(std::int64_t cycle, int slot, schedules::Channel channel);
+  void drop(std::size_t place);  // in used_
+
+  const schedules::Cluster& cluster_;
+  const schedules::NodeParameters* parameters_;  // null: off FlexRay
+  const bus::SlotTable slots_;
+  const Window window_;
+  ArrivalEvents& events_;
+  Microticks reach_{};  // a sync frame's from its action point, at most
+  struct Deviation {
+    std::int64_t cycle = -2;  // before any that an odd one follows
+    Microticks measured{}, put{};
+  };
+  std::array<std::vector<Deviation>, 2> deviations_;  // by channel and slot - 1, the last one of a sync frame
+  std::vector<Held> pool_;
+  std::vector<std::uint16_t> free_, used_;
+  std::optional<std::uint16_t> handed_over_;  // its views are out
+  std::uint64_t order_ = 0, dropped_ = 0;
+  std::array<std::vector<std::int64_t>, 2> heard_;  // by channel and slot - 1, the last cycle; kNotHeard
+};
+
+}  // namespace ttf::runner

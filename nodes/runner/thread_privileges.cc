@@ -1,0 +1,96 @@
+#include "nodes/runner/thread_privileges.h"
+
+#include <fmt/format.h>
+#include <sched.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdint>
+#include <fstream>
+#include <system_error>
+#include <utility>
+
+namespace ttf::runner {
+namespace {
+
+constexpr std::uint64_t kStackRoom = 8 << 20;  // as much as a stack grows to where nobody says otherwise
+constexpr int kPriority = 50;  // below the kernel's own threads that carry interrupts on real-time kernels
+
+std::string words_of(int error) { return std::system_category().message(error); }
+
+std::string pin(std::size_t place, std::size_t processes) {
+  cpu_set_t allowed;
+  CPU_ZERO(&allowed);
+  if (sched_getaffinity(0, sizeof allowed, &allowed) != 0) return "not pinned to a processor: " + words_of(errno);
+  const auto count = static_cast<std::size_t>(CPU_COUNT(&allowed));
+  if (count <= processes)
+    return fmt::format("not pinned to a processor: {} for {} processes, and one must be left", count, processes);
+  // The first is left to all others.
+  std::size_t nth = 0;
+  for (int cpu = 0; cpu < CPU_SETSIZE; ++cpu) {
+    if (!CPU_ISSET(cpu, &allowed) || nth++ != place + 1) continue;
+    cpu_set_t one;
+    CPU_ZERO(&one);
+    CPU_SET(cpu, &one);
+    if (sched_setaffinity(0, sizeof one, &one) != 0) return "not pinned to a processor: " + words_of(errno);
+    return {};
+  }
+  return "not pinned to a processor: there are fewer than nodes";
+}
+
+// Asked of the kernel, as in a container of one's own capabilities may be shown that count for nothing: under a limit
+// of nothing, only who is privileged locks a page.
+bool may_lock_beyond(const rlimit& limit) {
+  const rlimit nothing{0, limit.rlim_max};
+  if (setrlimit(RLIMIT_MEMLOCK, &nothing) != 0) return false;
+  const bool may = mlock(&nothing, sizeof nothing) == 0;
+  if (may) munlock(&nothing, sizeof nothing);
+  setrlimit(RLIMIT_MEMLOCK, &limit);
+  return may;
+}
+
+// Bytes of address space that the process has, all of which it would lock.
+std::uint64_t size_now() {
+  std::uint64_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
+
+constexpr const char* kLockHelp = "(allow it: ulimit -l unlimited, or CAP_IPC_LOCK)";
+
+// Under a limit, locking what is yet to come would let the kernel refuse memory that is asked for later, and end a
+// thread whose stack grows. Then only what is there is locked, where that and a stack to grow fit.
+std::string lock_memory() {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_MEMLOCK, &limit) != 0) return "memory is not locked: " + words_of(errno);
+  if (limit.rlim_cur == RLIM_INFINITY || may_lock_beyond(limit)) {
+    if (mlockall(MCL_CURRENT | MCL_FUTURE) == 0) return {};
+    return fmt::format("memory is not locked: {} {}", words_of(errno), kLockHelp);
+  }
+  // No figures of this process: who collects the sentences of many tells each once.
+  const std::string most = fmt::format("{} KiB, the limit", limit.rlim_cur / 1024);
+  if (size_now() + kStackRoom > limit.rlim_cur)
+    return fmt::format("memory is not locked: it is more than {} {}", most, kLockHelp);
+  if (mlockall(MCL_CURRENT) != 0) return fmt::format("memory is not locked: {} {}", words_of(errno), kLockHelp);
+  return fmt::format("memory is locked as it is at the start, not what comes later: it may be more than {} {}", most,
+                     kLockHelp);
+}
+
+}  // namespace
+
+std::vector<std::string> ask_for_real_time(std::size_t place, std::size_t processes) {
+  std::vector<std::string> refused;
+  const sched_param priority{.sched_priority = kPriority};
+  if (sched_setscheduler(0, SCHED_FIFO, &priority) != 0)
+    refused.push_back(
+        fmt::format("no real-time priority: {} (allow it: ulimit -r {}, or CAP_SYS_NICE)", words_of(errno), kPriority));
+  if (prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL) != 0) refused.push_back("timers have slack: " + words_of(errno));
+  if (std::string why = lock_memory(); !why.empty()) refused.push_back(std::move(why));
+  if (std::string why = pin(place, processes); !why.empty()) refused.push_back(std::move(why));
+  return refused;
+}
+
+}  // namespace ttf::runner

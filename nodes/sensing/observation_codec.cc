@@ -1,0 +1,87 @@
+#include "nodes/sensing/observation_codec.h"
+
+#include <algorithm>
+
+#include "nodes/host/signals.h"
+#include "nodes/host/step.h"
+
+namespace ttf::nodes {
+namespace {
+
+// Half the code's step: what fixed-point coding adds to the uncertainty is far below any sensor's, but a sigma of zero
+// would be a certainty nobody has.
+double at_least_resolution(double sigma, double resolution) { return std::max(sigma, 0.5 * resolution); }
+
+}  // namespace
+
+ObservationCodec::ObservationCodec(const schedules::Cluster& cluster, PduId pdu)
+    : layout_(&cluster.pdu(pdu)), form_(schedules::find_signal(layout_->element, "range")     ? Form::kRadar
+                                        : schedules::find_signal(layout_->element, "heading") ? Form::kLaser
+                                                                                              : Form::kPosition) {
+  switch (form_) {
+    case Form::kLaser:
+      signals_ = bind_elements<12>(cluster, *layout_,
+                                   {"x", "y", "sigma_x", "sigma_y", "correlation", "width", "sigma_width", "heading",
+                                    "sigma_heading", "length", "sigma_length", "valid"});
+      break;
+    case Form::kPosition:
+      signals_ =
+          bind_elements<7>(cluster, *layout_, {"x", "y", "sigma_x", "sigma_y", "correlation", "span", "sigma_span"});
+      break;
+    case Form::kRadar:
+      signals_ = bind_elements<6>(
+          cluster, *layout_, {"range", "bearing", "range_rate", "sigma_range", "sigma_bearing", "sigma_range_rate"});
+      break;
+  }
+}
+
+void ObservationCodec::decode(const bus::ListView& list, std::vector<fusion::Observation>& out) const {
+  out.clear();
+  const int count = element_count(*layout_, list);
+  for (int i = 0; i < count; ++i) {
+    const auto value = [&](std::size_t s) { return element_value(*layout_, list, i, signals_[s]); };
+    const auto sigma = [&](std::size_t s) {
+      return at_least_resolution(value(s), layout_->element[signals_[s]].resolution);
+    };
+    fusion::Observation observation{};
+    observation.z.setZero();
+    observation.r.setZero();
+    if (form_ == Form::kRadar) {
+      observation.kind = fusion::ObservationKind::kRangeBearingRate;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto row = static_cast<Eigen::Index>(k);
+        observation.z(row) = value(k);
+        observation.r(row, row) = sigma(3 + k) * sigma(3 + k);
+      }
+    } else {
+      observation.kind = fusion::ObservationKind::kPosition;
+      const double sigma_x = sigma(2), sigma_y = sigma(3);
+      // The coded correlation saturates below one, so the covariance stays positive definite.
+      const double covariance = std::clamp(value(4), -0.99, 0.99) * sigma_x * sigma_y;
+      observation.z(0) = value(0);
+      observation.z(1) = value(1);
+      observation.r(0, 0) = sigma_x * sigma_x;
+      observation.r(0, 1) = observation.r(1, 0) = covariance;
+      observation.r(1, 1) = sigma_y * sigma_y;
+      if (form_ == Form::kPosition) {
+        observation.has_span = true;
+        observation.span = value(5);
+        observation.sigma_span = sigma(6);
+      } else {
+        observation.width = value(5);
+        observation.sigma_width = sigma(6);
+        const int valid = static_cast<int>(value(11));
+        observation.has_heading = valid & 1;
+        observation.has_length = valid & 2;
+        observation.has_width = valid & 4;
+        observation.heading = value(7);
+        observation.sigma_heading = sigma(8);
+        observation.length = value(9);
+        observation.sigma_length = sigma(10);
+      }
+    }
+    out.push_back(observation);
+  }
+}
+
+}  // namespace ttf::nodes

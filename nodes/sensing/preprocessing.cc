@@ -1,0 +1,115 @@
+#include "nodes/sensing/preprocessing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "nodes/host/signals.h"
+
+namespace ttf::nodes {
+namespace {
+
+const schedules::PduLayout& layout_of(const schedules::Cluster& cluster,
+                                      const std::vector<schedules::PortBinding>& bindings, std::string_view port) {
+  return cluster.pdu(binding_of(bindings, port).pdu);
+}
+
+// Where there are more objects than the list holds, the nearest ones are kept, in a stable order.
+template <class Object> void keep_nearest(std::vector<Object>& objects, int limit) {
+  if (static_cast<int>(objects.size()) <= limit) return;
+  std::sort(objects.begin(), objects.end(), [](const Object& a, const Object& b) {
+    const double ra = a.x * a.x + a.y * a.y, rb = b.x * b.x + b.y * b.y;
+    return ra != rb ? ra < rb : a.y < b.y;
+  });
+  objects.erase(objects.begin() + limit, objects.end());
+}
+
+double correlation(double sxx, double sxy, double syy) { return sxy / std::sqrt(sxx * syy); }
+
+}  // namespace
+
+LaserPreprocessing::LaserPreprocessing(const schedules::Cluster& cluster, const schedules::Task& task,
+                                       const LaserPreprocessingConfig& config)
+    : sensor_(layout_of(cluster, task.reads, "raw").sensor),
+      raw_(bind_element<3>(cluster, layout_of(cluster, task.reads, "raw"), {"layer", "azimuth", "range"})),
+      signals_(bind_element<12>(cluster, layout_of(cluster, task.writes, "objects"),
+                                {"x", "y", "heading", "length", "width", "sigma_x", "sigma_y", "correlation",
+                                 "sigma_heading", "sigma_length", "sigma_width", "valid"})),
+      preprocessor_(config, static_cast<std::size_t>(layout_of(cluster, task.reads, "raw").max_elements)) {
+  points_.reserve(static_cast<std::size_t>(layout_of(cluster, task.reads, "raw").max_elements));
+  objects_.reserve(preprocessor_.most_objects());
+}
+
+void LaserPreprocessing::run(StepContext& context) {
+  const auto measurement = measurement_of(context, sensor_);
+  if (!measurement) return;
+  const Input& raw = context.inputs[0];
+  points_.clear();
+  const int count = element_count(*raw.layout, *raw.list);
+  for (int i = 0; i < count; ++i)
+    points_.push_back({static_cast<int>(std::lround(element_value(*raw.layout, *raw.list, i, raw_[0]))),
+                       element_value(*raw.layout, *raw.list, i, raw_[1]),
+                       element_value(*raw.layout, *raw.list, i, raw_[2])});
+  preprocessor_.process(points_, objects_);
+  Output& out = context.outputs[0];
+  keep_nearest(objects_, out.layout().max_elements);
+  out.begin(measurement->sequence, static_cast<int>(objects_.size()), measurement->at);
+  for (int i = 0; i < static_cast<int>(objects_.size()); ++i) {
+    const LaserObject& object = objects_[static_cast<std::size_t>(i)];
+    const double valid = (object.has_heading ? 1 : 0) + (object.has_length ? 2 : 0) + (object.has_width ? 4 : 0);
+    const double values[] = {object.x,
+                             object.y,
+                             object.heading,
+                             object.length,
+                             object.width,
+                             std::sqrt(object.sxx),
+                             std::sqrt(object.syy),
+                             correlation(object.sxx, object.sxy, object.syy),
+                             object.sigma_heading,
+                             object.sigma_length,
+                             object.sigma_width,
+                             valid};
+    for (std::size_t s = 0; s < signals_.size(); ++s) out.set(i, signals_[s], values[s]);
+  }
+}
+
+CameraPreprocessing::CameraPreprocessing(const schedules::Cluster& cluster, const schedules::Task& task,
+                                         const CameraCalibration& calibration)
+    : sensor_(layout_of(cluster, task.reads, "raw").sensor),
+      raw_(bind_element<3>(cluster, layout_of(cluster, task.reads, "raw"), {"bearing", "disparity", "width"})),
+      signals_(bind_element<7>(cluster, layout_of(cluster, task.writes, "objects"),
+                               {"x", "y", "sigma_x", "sigma_y", "correlation", "span", "sigma_span"})),
+      calibration_(calibration) {
+  objects_.reserve(static_cast<std::size_t>(layout_of(cluster, task.reads, "raw").max_elements));
+}
+
+void CameraPreprocessing::run(StepContext& context) {
+  const auto measurement = measurement_of(context, sensor_);
+  if (!measurement) return;
+  const Input& raw = context.inputs[0];
+  objects_.clear();
+  const int count = element_count(*raw.layout, *raw.list);
+  for (int i = 0; i < count; ++i)
+    objects_.push_back(triangulate(calibration_, element_value(*raw.layout, *raw.list, i, raw_[0]),
+                                   element_value(*raw.layout, *raw.list, i, raw_[1]),
+                                   element_value(*raw.layout, *raw.list, i, raw_[2])));
+  Output& out = context.outputs[0];
+  keep_nearest(objects_, out.layout().max_elements);
+  out.begin(measurement->sequence, static_cast<int>(objects_.size()), measurement->at);
+  for (int i = 0; i < static_cast<int>(objects_.size()); ++i) {
+    const CameraObject& object = objects_[static_cast<std::size_t>(i)];
+    const double values[] = {object.x,
+                             object.y,
+                             std::sqrt(object.sxx),
+                             std::sqrt(object.syy),
+                             correlation(object.sxx, object.sxy, object.syy),
+                             object.span,
+                             object.sigma_span};
+    for (std::size_t s = 0; s < signals_.size(); ++s) out.set(i, signals_[s], values[s]);
+  }
+}
+
+void Gateway::run(StepContext& context) {
+  if (context.inputs[0].fresh) context.outputs[0].copy(*context.inputs[0].list);
+}
+
+}  // namespace ttf::nodes

@@ -1,0 +1,82 @@
+// Recorded observations in place of the sensor models: the rest of the cluster is the same.
+//
+// A `recorded_source` device sends the n-th recorded row of its sensor at its n-th measurement; its host's
+// `recorded_preprocessing` adds the documented noise of the recording as the observation's covariance.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "core/strict_yaml.h"
+#include "nodes/sensing/scene.h"
+#include "nodes/host/step.h"
+#include "recording/rows/laser_radar_file.h"
+#include "schedules/model/cluster.h"
+
+namespace ttf::nodes {
+
+// Standard deviations of the recorded sensors. Defaults: the laser and radar of the public recording the loader knows.
+struct RecordedNoise {
+  double position_m = 0.15;
+  double range_m = 0.3;
+  double bearing_rad = 0.03;
+  double range_rate_mps = 0.3;
+};
+RecordedNoise load_recorded_noise(YamlMap& yaml);
+
+// The rows of one sensor, in time order.
+class RecordedTrack {
+ public:
+  RecordedTrack(const recording::RecordedInput& input, std::string_view sensor);
+  std::size_t size() const { return rows_.size(); }
+  const recording::RecordedObservation& row(std::size_t index) const { return rows_[index]; }
+
+ private:
+  std::vector<recording::RecordedObservation> rows_;
+};
+
+// The recording's ground truth as the scene: cubic Hermite interpolation between its rows (position and velocity).
+// Before its first row and after its last one there is no truth: the scene is empty then, and nothing is compared with
+// it.
+class RecordedScene final : public Scene {
+ public:
+  // Recorded time 0 is at true time `start`.
+  RecordedScene(const recording::RecordedInput& input, TrueTime start);
+  void states_at(TrueTime at, std::vector<world::ObjectState>& out) const override;
+  std::size_t objects() const override { return 1; }
+
+ private:
+  std::vector<recording::RecordedTruth> rows_;
+  TrueTime start_;
+};
+
+// Port `raw`.
+class RecordedSource final : public Step {
+ public:
+  RecordedSource(const schedules::Cluster& cluster, const schedules::Task& task, SensorId sensor,
+                 std::shared_ptr<const recording::RecordedInput> input);
+  void run(StepContext& context) override;
+
+ private:
+  SensorId sensor_;
+  RecordedTrack track_;
+  std::vector<std::size_t> signals_;
+};
+
+// Ports: `raw` -> `objects`.
+class RecordedPreprocessing final : public Step {
+ public:
+  RecordedPreprocessing(const schedules::Cluster& cluster, const schedules::Task& task, const RecordedNoise& noise);
+  void run(StepContext& context) override;
+
+ private:
+  SensorId sensor_;
+  RecordedNoise noise_;
+  std::vector<std::size_t> raw_;
+  std::vector<std::size_t> signals_;
+  bool radar_;
+};
+
+}  // namespace ttf::nodes

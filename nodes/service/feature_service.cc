@@ -1,0 +1,78 @@
+#include "nodes/service/feature_service.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "nodes/host/signals.h"
+
+namespace ttf::nodes {
+namespace {
+
+// From the origin to the outline of a rectangle, towards its centre; zero within it.
+double clearance(const records::ImageObject& object, double range) {
+  const double aspect = object.heading - std::atan2(object.y, object.x);
+  // Half the chord along the line of sight: it leaves the rectangle through the sides or through the ends.
+  constexpr double kAlongTheSides = 1e-9;
+  const double through_ends = 0.5 * object.length / std::max(kAlongTheSides, std::abs(std::cos(aspect)));
+  const double through_sides = 0.5 * object.width / std::max(kAlongTheSides, std::abs(std::sin(aspect)));
+  return std::max(0.0, range - std::min(through_ends, through_sides));
+}
+
+}  // namespace
+
+FeatureConfig load_feature(YamlMap& yaml) {
+  FeatureConfig config;
+  config.own_speed_mps = yaml.number_or("own_speed", config.own_speed_mps, {0.0, 100.0}, "m/s");
+  config.corridor_half_width_m = yaml.number_or("corridor_half_width", config.corridor_half_width_m, {0.1, 20.0}, "m");
+  config.warning_time_s = yaml.number_or("warning_time", config.warning_time_s, {0.1, 10.0}, "s");
+  config.max_image_age = yaml.duration_or("max_image_age", config.max_image_age,
+                                          {Duration::milliseconds(1), Duration::milliseconds(10'000)});
+  return config;
+}
+
+records::FeatureObject judge(const records::ImageObject& object, const FeatureConfig& config) {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  // Closing slower than walking pace is no collision course: the sign of a speed near zero is noise.
+  constexpr double kSlowestClosing_mps = 0.5;
+  records::FeatureObject result;
+  result.image = object;
+  const double range = std::hypot(object.x, object.y), distance = clearance(object, range);
+  const double vx = object.speed * std::cos(object.heading), vy = object.speed * std::sin(object.heading);
+  const double closing = range > 0.0 ? -(vx * object.x + vy * object.y) / range : 0.0;
+  result.time_gap_s = config.own_speed_mps > 0.0 && object.x > 0.0 ? distance / config.own_speed_mps : kNone;
+  result.time_to_collision_s = closing > kSlowestClosing_mps ? distance / closing : kNone;
+  result.warning = object.x > 0.0 && std::abs(object.y) <= config.corridor_half_width_m &&
+                   result.time_to_collision_s < config.warning_time_s;
+  return result;
+}
+
+FeatureService::FeatureService(const schedules::Cluster& cluster, const schedules::Task& task,
+                               const FeatureConfig& config)
+    : config_(config), round_(cluster.round()) {
+  const schedules::PduLayout& layout = cluster.pdu(binding_of(task.reads, "image").pdu);
+  signals_ = bind_image(cluster, layout);
+  objects_.reserve(static_cast<std::size_t>(layout.max_elements));
+}
+
+void FeatureService::run(StepContext& context) {
+  const Input& image = context.inputs[0];
+  if (!image.list) return;  // no image has arrived yet: nothing is made up
+  if (image.fresh) valid_at_ = time_stamp(*image.layout, *image.list, context.stamp.global, round_);
+  const Duration age = context.stamp.global - valid_at_;
+  const bool stale = age > config_.max_image_age || -age > config_.max_image_age;
+  objects_.clear();
+  const int count = stale ? 0 : element_count(*image.layout, *image.list);
+  for (int i = 0; i < count; ++i)
+    objects_.push_back(judge(decode_image_object(*image.layout, *image.list, i, signals_), config_));
+  records::FeatureUsed used;
+  used.stamp = context.stamp;
+  used.image_sequence = image.list->sequence;
+  used.image_valid_at = valid_at_;
+  used.fresh = image.fresh;
+  used.stale = stale;
+  used.objects = objects_;
+  context.sink->on(used);
+}
+
+}  // namespace ttf::nodes

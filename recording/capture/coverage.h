@@ -1,0 +1,55 @@
+// Which owned slots of the cycles a capture covers brought a frame. Private to the room.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "schedules/model/cluster.h"
+
+namespace ttf::recording {
+
+class CaptureCoverage {
+ public:
+  // `count` frames are missing after a packet.
+  using Missing = std::function<void(std::uint64_t packet, std::uint64_t count, std::string text)>;
+  CaptureCoverage(const schedules::Cluster& cluster, schedules::Channels channels, Missing missing);
+
+  // The next frame was sent `advance` cycles after the one before, in a cycle with this counter. Whether it is the
+  // first one of its slot and channel there.
+  bool frame(std::int64_t advance, int counter, int slot, schedules::Channel channel, std::uint64_t packet);
+  // A frame that claims this place, but with a header that fails its CRC: it is damaged, not missing.
+  void damaged(int counter, int slot, schedules::Channel channel);
+  // After the last frame.
+  void finish();
+  std::int64_t cycles() const { return cycle_ + 1; }
+
+ private:
+  struct Owned {
+    int slot = 0;
+    schedules::Channel channel{};
+  };
+  struct Claim {
+    std::int64_t cycle = 0;  // the running one when it came
+    int counter = 0;
+    Owned place;
+  };
+  std::uint64_t& packet_of(int slot, schedules::Channel channel);
+  bool was_damaged(const Owned& owned) const;
+  void close_cycle(int before_slot);
+  void silent_cycles(std::int64_t count);
+
+  Missing missing_;
+  int counters_;
+  std::vector<std::vector<Owned>> owned_;  // by cycle counter, in order of slots
+  std::vector<std::uint64_t> packets_;     // of the current cycle, by slot and channel; 0: none
+  std::vector<Claim> damaged_;
+  std::int64_t cycle_ = -1;  // running, from 0
+  int counter_ = 0;
+  int after_slot_ = 0;  // where the first cycle's coverage begins
+  int last_slot_ = 0;
+  std::uint64_t last_packet_ = 0, last_before_cycle_ = 0;
+};
+
+}  // namespace ttf::recording

@@ -1,0 +1,81 @@
+// What one packet of a capture holds, for the two link types this program writes and reads.
+//
+//   LINKTYPE_FLEXRAY (210)        | channel and type | error flags | header 5 | payload 0..254 |     no trailer
+//                                 | channel and type | length in bits |                              a symbol
+//   LINKTYPE_CAN_SOCKETCAN (227)  | identifier, big endian | length | FD flags | 0 | 0 | data 0..64 |
+//
+// Sources: https://www.tcpdump.org/linktypes/LINKTYPE_FLEXRAY.html and LINKTYPE_CAN_SOCKETCAN.html
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "bus/wire/flexray_frame.h"
+#include "schedules/model/cluster.h"
+
+namespace ttf::recording {
+
+enum class LinkType : std::uint16_t { kFlexRay = 210, kCan = 227 };
+
+// Error flags of a FlexRay packet.
+enum FlexRayErrors : std::uint8_t {
+  kTssViolation = 0x01,
+  kCodingError = 0x02,
+  kFrameEndError = 0x04,
+  kHeaderCrcError = 0x08,
+  kFrameCrcError = 0x10,
+};
+
+// One FlexRay frame as logged, taken apart: `header_and_payload` as on the wire without the trailer, and what our own
+// checks say of it.
+struct CheckedFlexRayFrame {
+  std::uint8_t errors = 0;  // FlexRayErrors
+  wire::FrameHeader header;
+  std::span<const std::byte> header_and_payload;
+};
+
+// Computes both CRCs anew from `bytes` (header, payload, trailer). Bytes that are too few for a header and a trailer,
+// or not as many as the header says, fail the frame CRC, too few for a header also the header CRC.
+CheckedFlexRayFrame check_flexray_frame(schedules::Channel channel, std::span<const std::byte> bytes);
+
+// The same of what is left of a frame that could not be made out to its end: `bytes`, as many as were there as a whole,
+// with the trailer, if that was there, too. Whatever can be checked of it is.
+CheckedFlexRayFrame check_broken_frame(schedules::Channel channel, std::span<const std::byte> bytes);
+
+// Appends a packet of link type 210.
+void put_flexray_packet(std::string& out, schedules::Channel channel, const CheckedFlexRayFrame& frame);
+
+// Appends a symbol's packet of link type 210: how long it was low, in bits. Its 7 bits end at kLongestSymbolBits, which
+// is that and all that is longer, as a wake-up pattern.
+void put_symbol_packet(std::string& out, schedules::Channel channel, std::int64_t bits);
+inline constexpr std::int64_t kLongestSymbolBits = 127;
+
+// A packet of link type 210 as somebody captured it. Nothing in it is believed: the header may be cut short, the
+// payload may have another length than the header says.
+struct FlexRayPacket {
+  enum class Kind : std::uint8_t { kFrame = 1, kSymbol = 2, kUnknown = 0 };
+  Kind kind = Kind::kUnknown;
+  schedules::Channel channel{};
+  std::uint8_t errors = 0;    // FlexRayErrors, of a frame
+  int symbol_bits = 0;        // of a symbol
+  bool whole_header = false;  // of a frame; without it the fields below are zero
+  wire::FrameHeader header;
+  bool header_crc_holds = false;  // recomputed
+  std::span<const std::byte> payload;
+};
+FlexRayPacket parse_flexray_packet(std::span<const std::byte> data);
+
+// Appends a packet of link type 227. Base identifiers up to 0x7ff, extended above; with `flexible_data_rate` the bit
+// rate is switched too, as on every CAN FD of this program. At most 64 bytes of data go in.
+void put_can_packet(std::string& out, std::uint32_t identifier, bool flexible_data_rate,
+                    std::span<const std::byte> data);
+
+inline constexpr std::size_t kCanPacketHeader = 8;
+inline constexpr std::size_t kMaxCanData = 64;
+inline constexpr std::uint32_t kLargestBaseIdentifier = 0x7ff;
+inline constexpr std::uint32_t kExtendedIdentifier = 0x80000000u;
+inline constexpr std::uint8_t kBitRateSwitch = 1, kFlexibleDataRate = 4;
+
+}  // namespace ttf::recording

@@ -1,0 +1,145 @@
+#include "recording/exports/frames.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include "bus/wire/flexray_frame.h"
+
+namespace ttf::recording {
+namespace {
+
+std::string name_or_number(const std::vector<std::string>& names, std::size_t index, const char* what) {
+  return index < names.size() && !names[index].empty() ? names[index] : fmt::format("{} {}", what, index);
+}
+
+}  // namespace
+
+std::string LogNames::node(NodeId id) const { return name_or_number(manifest_.node_names, index_of(id), "node"); }
+std::string LogNames::task(NodeId node, std::uint8_t task) const {
+  return index_of(node) < manifest_.task_names.size()
+             ? name_or_number(manifest_.task_names[index_of(node)], task, "task")
+             : fmt::format("task {}", task);
+}
+std::string LogNames::sensor(SensorId id) const {
+  return name_or_number(manifest_.sensor_names, index_of(id), "sensor");
+}
+std::string LogNames::pdu(PduId id) const { return name_or_number(manifest_.pdu_names, index_of(id), "pdu"); }
+std::string LogNames::can_bus(std::size_t index) const { return name_or_number(manifest_.can_bus_names, index, "can"); }
+
+std::string LogNames::measurement(const LoggedFrame& frame) const {
+  if (frame.null_frame || frame.sensor == kNoSensor) return "";
+  return fmt::format("{} {}", sensor(frame.sensor), frame.sequence);
+}
+
+SymbolName name_of_symbol(std::uint8_t symbol) {
+  switch (symbol) {
+    case records::kSymbolCas: return {"cas", "collision avoidance symbol"};
+    case records::kSymbolWakeup: return {"wakeup", "wake-up pattern"};
+    case records::kSymbolMediaTest: return {"media_test", "media access test symbol"};
+    default: return {"", "symbol"};  // of a damaged log
+  }
+}
+
+void FrameCollector::on(const records::SlotFrameSent& record) {
+  LoggedFrame frame;
+  frame.time_ns = record.stamp.true_time.ns;
+  frame.flexray = true;
+  frame.channel = record.channel == 0 ? 0 : 1;
+  frame.id = record.slot;
+  frame.cycle = record.cycle;
+  frame.null_frame = record.null_frame;
+  frame.sender = record.stamp.node;
+  frame.pdu = record.pdu;
+  frame.sensor = record.sensor;
+  frame.sequence = record.sequence;
+  frame.fragment = record.fragment;
+  frames_.push_back(with_data(frame, record.bytes));
+}
+
+void FrameCollector::on(const records::CanFrameSent& record) {
+  LoggedFrame frame;
+  frame.time_ns = record.end.true_time.ns;
+  frame.channel = record.bus;
+  frame.id = record.identifier;
+  frame.flexible_data_rate = record.flexible_data_rate;
+  frame.sender = record.end.node;
+  frame.pdu = record.pdu;
+  frame.sensor = record.sensor;
+  frame.sequence = record.sequence;
+  frame.fragment = record.fragment;
+  frames_.push_back(with_data(frame, record.data));
+}
+
+void FrameCollector::on(const records::ChannelFrame& record) {
+  LoggedFrame frame;
+  frame.time_ns = record.start.ns;
+  frame.flexray = true;
+  frame.as_sent = false;
+  frame.of_controller = record.slot != 0;
+  frame.channel = record.channel == 0 ? 0 : 1;
+  frame.sender = record.sender;
+  frame.state = record.state;
+  if (const auto header = wire::header_of(record.bytes)) {
+    frame.id = header->frame_id;
+    frame.null_frame = header->null_frame;
+  }
+  frame = with_data(frame, record.bytes);
+  const bool nothing = (record.state & records::kChannelNothing) != 0;
+  if (frame.of_controller)
+    on_channel_.push_back({record.sent.ns, record.sender, std::uint8_t{record.sent_channel != 0}, nothing, frame});
+  else if (!nothing)
+    frames_.push_back(frame);
+}
+
+void FrameCollector::on(const records::SymbolSent& record) {
+  LoggedFrame symbol;
+  symbol.time_ns = record.stamp.true_time.ns;
+  symbol.flexray = true;
+  symbol.channel = record.channel == 0 ? 0 : 1;
+  symbol.sender = record.stamp.node;
+  symbol.symbol = record.kind;
+  symbol.duration_ns = record.end.true_time.ns - record.stamp.true_time.ns;
+  if (record.kind != 0) frames_.push_back(symbol);
+}
+
+LoggedFrame FrameCollector::with_data(LoggedFrame frame, std::span<const std::byte> data) {
+  frame.data_begin = bytes_.size();
+  frame.data_size = data.size();
+  bytes_.insert(bytes_.end(), data.begin(), data.end());
+  return frame;
+}
+
+std::vector<LoggedFrame> FrameCollector::in_order() const {
+  // A frame is told of twice: as it was sent, and, if it was not so there, as it was on the channel.
+  using Key = std::tuple<std::int64_t, std::uint8_t, NodeId>;
+  std::map<Key, const OnChannel*> became;
+  for (const OnChannel& one : on_channel_) became[{one.sent_ns, one.sent_channel, one.sender}] = &one;
+  std::vector<LoggedFrame> frames;
+  frames.reserve(frames_.size());
+  for (const LoggedFrame& frame : frames_) {
+    const bool sent = frame.flexray && frame.symbol == 0 && frame.of_controller;
+    const auto found = sent ? became.find({frame.time_ns, frame.channel, frame.sender}) : became.end();
+    if (found == became.end()) {
+      frames.push_back(frame);
+      continue;
+    }
+    const OnChannel& other = *found->second;
+    if (other.nothing) continue;
+    LoggedFrame there = frame;
+    there.as_sent = false;
+    there.time_ns = other.frame.time_ns;
+    there.channel = other.frame.channel;
+    there.state = other.frame.state;
+    there.data_begin = other.frame.data_begin;
+    there.data_size = other.frame.data_size;
+    frames.push_back(there);
+  }
+  std::stable_sort(frames.begin(), frames.end(),
+                   [](const LoggedFrame& a, const LoggedFrame& b) { return a.time_ns < b.time_ns; });
+  return frames;
+}
+
+}  // namespace ttf::recording

@@ -1,0 +1,12 @@
+#include "recording/exports/logged_frame.h"
+
+#include "bus/wire/flexray_frame.h"
+
+namespace ttf::recording {
+
+bool is_startup_frame(const records::SlotFrameSent& frame) {
+  const auto header = wire::header_of(frame.bytes);
+  return header && header->startup;
+}
+
+}  // namespace ttf::recording

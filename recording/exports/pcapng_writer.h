@@ -1,0 +1,35 @@
+// Writes a pcapng capture, little endian, with stamps in nanoseconds (draft-ietf-opsawg-pcapng): one section, its
+// interfaces first, then the packets as enhanced packet blocks. No dates and no host: the same packets give the same
+// bytes.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "recording/capture/packet.h"
+
+namespace ttf::recording {
+
+struct CaptureInterface {
+  LinkType link_type{};
+  std::string name;
+};
+
+class CaptureWriter {
+ public:
+  // Appends to `out`, which must outlive the writer. `comment` is of the section; empty: none.
+  CaptureWriter(std::string& out, std::span<const CaptureInterface> interfaces, std::string_view comment);
+
+  // `interface` indexes the list above. Instants before the epoch count as 0: stamps of the format are unsigned.
+  // `comment`: empty for none; control characters become '?', what is very long is cut.
+  void packet(std::size_t interface, std::int64_t time_ns, std::string_view data, std::string_view comment);
+
+ private:
+  std::string& out_;
+  std::size_t interfaces_;
+};
+
+}  // namespace ttf::recording

@@ -1,0 +1,306 @@
+#include "recording/exports/perfetto.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "recording/exports/slot_status.h"
+
+namespace ttf::recording {
+namespace {
+
+constexpr const char *kFlexRayGroup = "FlexRay", *kCanGroup = "CAN", *kFaultGroup = "faults";
+constexpr Duration kKeptBack = MeasurementFlows::kLongestWay + Duration::milliseconds(100);
+constexpr std::size_t kImagesKept = 8;
+
+// Of a damaged log times may be any: within 36 years they can be computed with.
+constexpr std::int64_t kTraceReach_ns = std::int64_t{1} << 60;
+constexpr bool within_reach(std::int64_t ns) { return ns >= -kTraceReach_ns && ns <= kTraceReach_ns; }
+TrueTime shown(TrueTime at) { return {std::clamp<std::int64_t>(at.ns, 0, kTraceReach_ns)}; }
+
+std::string channel_lane(std::uint8_t channel) { return channel == 0 ? "channel A" : "channel B"; }
+std::string microseconds(Duration time) { return fmt::format("{:.1f} us", static_cast<double>(time.ns) * 1e-3); }
+
+// What became of a frame on a channel: bits of records::ChannelFrame.
+std::string channel_state_words(unsigned state) {
+  static constexpr std::pair<unsigned, const char*> kWords[] = {{records::kChannelHeaderCrc, "header CRC error"},
+                                                                {records::kChannelFrameCrc, "frame CRC error"},
+                                                                {records::kChannelCoding, "coding error"},
+                                                                {records::kChannelCut, "cut"},
+                                                                {records::kChannelNothing, "reached nobody"}};
+  std::string words;
+  for (const auto& [bit, word] : kWords)
+    if ((state & bit) != 0) words += (words.empty() ? "" : ", ") + std::string(word);
+  return words;
+}
+
+const char* words_of_loss(records::Hop hop) {
+  switch (hop) {
+    case records::Hop::kTorn: return "torn";
+    case records::Hop::kOverwritten: return "overwritten";
+    case records::Hop::kStale: return "fragment came too late";
+    case records::Hop::kDiscarded: return "discarded";
+    case records::Hop::kWritten:
+    case records::Hop::kSent:
+    case records::Hop::kReceived:
+    case records::Hop::kRead: break;
+  }
+  return nullptr;
+}
+
+const char* words_of_problem(std::uint8_t what) {
+  switch (what) {
+    case records::kLateWakeUp: return "woken up late";
+    case records::kSlotMissed: return "slot missed";
+    case records::kLateFrame: return "frame came late";
+    case records::kEarlyFrame: return "frame came early";
+    case records::kFramesLost: return "frames lost";
+    default: return "timing problem";
+  }
+}
+
+std::int64_t whole(std::uint64_t number) { return static_cast<std::int64_t>(number); }
+
+}  // namespace
+
+PerfettoExport::PerfettoExport(LogNames names, TraceTimeline::Write write)
+    : names_(std::move(names)),
+      timeline_(std::move(write), [this](const TraceMark& mark) { return flows_.take(mark); }) {}
+
+std::string PerfettoExport::measurement(const MeasurementId& id) const {
+  return fmt::format("{} {}", names_.sensor(id.sensor), id.sequence);
+}
+
+// Records come in the order of time: what is long enough ago is complete.
+TrueTime PerfettoExport::come_to(TrueTime at) {
+  const TrueTime now = shown(at);
+  flows_.advance(now, [this](const MeasurementFlows::Act& act, const TraceMark& run) { told(act, run); });
+  timeline_.write_before(now - kKeptBack);
+  return now;
+}
+
+TraceCounts PerfettoExport::finish() {
+  come_to(TrueTime{kTraceReach_ns});
+  flows_.finish();
+  timeline_.finish();
+  return timeline_.counts();
+}
+
+// A task's slice says what it did.
+void PerfettoExport::told(const MeasurementFlows::Act& act, const TraceMark& run) {
+  const auto note = [&](const char* name, const MeasurementId& id) { timeline_.note(run, {name, measurement(id)}); };
+  using Deed = MeasurementFlows::Deed;
+  switch (act.deed) {
+    case Deed::kRead:
+      for (const MeasurementId& id : act.ids) note("reads", id);
+      break;
+    case Deed::kWritten:
+      for (const MeasurementId& id : act.ids) note("writes", id);
+      break;
+    case Deed::kHeld:
+      for (const MeasurementId& id : act.ids) note("holds back", id);
+      break;
+    case Deed::kFused:
+      for (const MeasurementId& id : act.ids) note("fuses", id);
+      break;
+    case Deed::kImage:
+      timeline_.note(run, {"writes image", std::int64_t{act.image}});
+      for (const MeasurementId& id : act.ids) note("newest in the image", id);
+      break;
+    case Deed::kUsed: timeline_.note(run, {"uses image", std::int64_t{act.image}}); break;
+    case Deed::kSent: break;
+  }
+}
+
+TraceMark PerfettoExport::node_instant(NodeId node, const char* lane, TrueTime at, std::string name,
+                                       std::vector<TraceNote> notes) {
+  return timeline_.instant(names_.node(node), lane, come_to(at), std::move(name), std::move(notes));
+}
+
+void PerfettoExport::on(const records::Measured& r) {
+  const TraceMark mark = node_instant(r.stamp.node, "measurements", r.stamp.true_time, measurement(r.id),
+                                      {{"items", whole(r.truth_ids.size())}});
+  flows_.measured(r.id, mark);
+}
+
+void PerfettoExport::on(const records::CanFrameSent& r) {
+  come_to(r.end.true_time);
+  std::vector<TraceNote> notes{{"identifier", std::int64_t{r.identifier}},
+                               {"fragment", std::int64_t{r.fragment}},
+                               {"sender", names_.node(r.start.node)},
+                               {"bytes", whole(r.data.size())}};
+  if (r.sensor != kNoSensor) notes.push_back({"measurement", measurement({r.sensor, r.sequence})});
+  const TraceMark mark = timeline_.slice(
+      kCanGroup, names_.can_bus(r.bus), shown(r.start.true_time), shown(r.end.true_time),
+      r.pdu == kNoPdu ? "frame" : fmt::format("{} {}", names_.pdu(r.pdu), r.sequence), std::move(notes));
+  flows_.frame(false, r.bus, r.start.node, r.sensor, r.sequence, r.fragment, mark);
+}
+
+void PerfettoExport::on(const records::SlotFrameSent& r) {
+  const TrueTime start = come_to(r.stamp.true_time);
+  const bool list = !r.null_frame && r.pdu != kNoPdu;
+  std::vector<TraceNote> notes{{"slot", std::int64_t{r.slot}},
+                               {"cycle", r.cycle},
+                               {"sender", names_.node(r.stamp.node)},
+                               {"bytes", whole(r.bytes.size())}};
+  if (list) notes.push_back({"fragment", std::int64_t{r.fragment}});
+  if (list && r.sensor != kNoSensor) notes.push_back({"measurement", measurement({r.sensor, r.sequence})});
+  const TraceMark mark = timeline_.slice(kFlexRayGroup, channel_lane(r.channel), start, shown(r.end.true_time),
+                                         list           ? fmt::format("{} {}", names_.pdu(r.pdu), r.sequence)
+                                         : r.null_frame ? "null frame"
+                                                        : "status",
+                                         std::move(notes));
+  if (list) flows_.frame(true, r.channel, r.stamp.node, r.sensor, r.sequence, r.fragment, mark);
+}
+
+void PerfettoExport::on(const records::SymbolSent& r) {
+  const TrueTime start = come_to(r.stamp.true_time);
+  timeline_.slice(kFlexRayGroup, channel_lane(r.channel), start, shown(r.end.true_time), name_of_symbol(r.kind).words,
+                  {{"sender", names_.node(r.stamp.node)}});
+}
+
+void PerfettoExport::on(const records::ChannelFrame& r) {
+  const std::string state = channel_state_words(r.state);
+  const std::string whose = r.slot != 0 ? fmt::format("slot {} of {}", r.slot, names_.node(r.sender))
+                            : r.sender != kNoNode
+                                ? fmt::format("the controller of {} did not send it", names_.node(r.sender))
+                                : "nobody sent it";
+  timeline_.instant(kFlexRayGroup, channel_lane(r.channel), come_to(r.start), state.empty() ? "displaced frame" : state,
+                    {{"whose", whose}, {"bytes", whole(r.bytes.size())}});
+}
+
+void PerfettoExport::on(const records::GuardianIntervention& r) {
+  timeline_.instant(kFlexRayGroup, channel_lane(r.channel), come_to(r.at), r.cut ? "guardian cuts" : "guardian blocks",
+                    {{"branch", r.branch == kNoNode ? "none" : names_.node(r.branch)}, {"why", std::string(r.why)}});
+}
+
+void PerfettoExport::on(const records::SlotProblem& r) {
+  node_instant(r.stamp.node, "slot problems", r.stamp.true_time, slot_status_words(r.status),
+               {{"slot", std::int64_t{r.slot}}, {"cycle", r.cycle}, {"channel", channel_lane(r.channel)}});
+}
+
+void PerfettoExport::on(const records::ListHop& r) {
+  const MeasurementId id{r.sensor, r.sequence};
+  if (const char* loss = words_of_loss(r.hop)) {
+    const TraceMark mark = node_instant(r.stamp.node, "lost lists", r.stamp.true_time,
+                                        fmt::format("{} {} {}", names_.pdu(r.pdu), r.sequence, loss), {});
+    if (r.sensor != kNoSensor && r.hop != records::Hop::kStale) flows_.lost(id, mark);
+    return;
+  }
+  const bool passes = r.hop == records::Hop::kRead || r.hop == records::Hop::kWritten;
+  if (!passes || r.sensor == kNoSensor) return;
+  using Deed = MeasurementFlows::Deed;
+  flows_.act(
+      {r.hop == records::Hop::kRead ? Deed::kRead : Deed::kWritten, come_to(r.stamp.true_time), r.stamp.node, {id}, 0});
+}
+
+void PerfettoExport::on(const records::TaskRun& r) {
+  const TrueTime start = come_to(r.start.true_time), end = shown(r.end.true_time);
+  const std::string task = names_.task(r.start.node, r.task), node = names_.node(r.start.node);
+  std::vector<TraceNote> notes;
+  if (const TrueTime activated = shown(r.activated.true_time); activated < start)
+    notes.push_back({"waited", microseconds(start - activated)});
+  const TraceMark mark = timeline_.slice(node, task, start, end, task, std::move(notes));
+  if (!r.deadline_met) timeline_.instant(node, task, std::max(start, end), "deadline missed", {});
+  flows_.run(r.start.node, start, end, mark);
+}
+
+void PerfettoExport::on(const records::ClockCorrected& r) {
+  const TrueTime at = come_to(r.stamp.true_time);
+  const std::string node = names_.node(r.stamp.node);
+  timeline_.counter(node, "offset correction [microticks]", at, r.offset_microticks);
+  timeline_.counter(node, "rate correction [microticks]", at, r.rate_microticks);
+  const std::pair<bool, const char*> flaws[] = {{r.offset_missing, "offset correction: no value"},
+                                                {r.rate_missing, "rate correction: no value"},
+                                                {r.offset_limited, "offset correction at its limit"},
+                                                {r.rate_limited, "rate correction at its limit"}};
+  for (const auto& [there, words] : flaws)
+    if (there) node_instant(r.stamp.node, "clock synchronisation", r.stamp.true_time, words, {{"cycle", r.cycle}});
+}
+
+void PerfettoExport::on(const records::PrecisionSample& r) {
+  timeline_.counter(kFlexRayGroup, "precision [us]", come_to(r.at), static_cast<double>(r.precision.ns) * 1e-3);
+}
+
+void PerfettoExport::on(const records::ListFused& r) {
+  const TrueTime at = come_to(r.stamp.true_time);
+  using Deed = MeasurementFlows::Deed;
+  const char* lost = nullptr;
+  switch (r.disposition) {
+    case records::Disposition::kFused:
+    case records::Disposition::kFusedLate: flows_.act({Deed::kFused, at, r.stamp.node, {r.id}, 0}); break;
+    case records::Disposition::kHeld: flows_.act({Deed::kHeld, at, r.stamp.node, {r.id}, 0}); break;
+    case records::Disposition::kDroppedTooOld: lost = "too old"; break;
+    case records::Disposition::kDuplicate: lost = "duplicate"; break;
+  }
+  if (lost != nullptr)
+    flows_.lost(r.id, node_instant(r.stamp.node, "lost lists", r.stamp.true_time,
+                                   fmt::format("{}: {}", measurement(r.id), lost), {}));
+}
+
+void PerfettoExport::on(const records::FusionStep& r) {
+  timeline_.counter(names_.node(r.stamp.node), "confirmed tracks", come_to(r.stamp.true_time), r.confirmed);
+}
+
+void PerfettoExport::on(const records::ImageWritten& r) {
+  flows_.act({MeasurementFlows::Deed::kImage,
+              come_to(r.stamp.true_time),
+              r.stamp.node,
+              {r.newest.begin(), r.newest.end()},
+              r.sequence});
+  if (r.newest.empty() || !within_reach(r.stamp.global.ns) || !within_reach(r.newest_measurement.ns) ||
+      !within_reach(r.stamp.true_time.ns))
+    return;
+  images_.push_back({r.sequence, records::true_time_of(r.stamp, r.newest_measurement)});
+  while (images_.size() > kImagesKept) images_.pop_front();
+}
+
+void PerfettoExport::on(const records::FeatureUsed& r) {
+  const TrueTime at = come_to(r.stamp.true_time);
+  if (r.stale) {
+    node_instant(r.stamp.node, "refused images", r.stamp.true_time, fmt::format("image {} too old", r.image_sequence),
+                 {});
+    return;
+  }
+  flows_.act({MeasurementFlows::Deed::kUsed, at, r.stamp.node, {}, r.image_sequence});
+  const auto image = std::find_if(images_.rbegin(), images_.rend(),
+                                  [&](const Image& one) { return one.sequence == r.image_sequence; });
+  if (image != images_.rend())
+    timeline_.counter(names_.node(r.stamp.node), "age of the newest measurement when used [ms]", at,
+                      static_cast<double>((at - image->newest).ns) * 1e-6);
+}
+
+void PerfettoExport::on(const records::StateChanged& r) {
+  std::vector<TraceNote> notes{{"from", std::string(r.from_name)}, {"why", std::string(r.why)}};
+  if (!r.consequence.empty()) notes.push_back({"consequence", std::string(r.consequence)});
+  node_instant(r.stamp.node, "controller", r.stamp.true_time, std::string(r.to_name), std::move(notes));
+}
+
+void PerfettoExport::on(const records::PowerChanged& r) {
+  node_instant(r.stamp.node, "controller", r.stamp.true_time, r.on ? "power on" : "power off", {});
+}
+
+void PerfettoExport::on(const records::FaultActivity& r) {
+  come_to(r.at);
+  const std::string lane = fmt::format("fault {}: {}", r.fault, r.kind), text(r.text);
+  switch (r.what) {
+    case records::kFaultBegins: timeline_.begin(kFaultGroup, lane, shown(r.at), text, {}); break;
+    case records::kFaultEnds: timeline_.end(kFaultGroup, lane, shown(r.at)); break;
+    default: timeline_.instant(kFaultGroup, lane, shown(r.at), text, {}); break;
+  }
+}
+
+void PerfettoExport::on(const records::TimingProblem& r) {
+  std::vector<TraceNote> notes{{"late", microseconds(r.late)}};
+  if (r.slot != 0) {
+    notes.push_back({"slot", std::int64_t{r.slot}});
+    notes.push_back({"cycle", r.cycle});
+    notes.push_back({"channel", channel_lane(r.channel)});
+  }
+  if (r.count > 1) notes.push_back({"times", std::int64_t{r.count}});
+  node_instant(r.stamp.node, "timing problems", r.stamp.true_time, words_of_problem(r.what), std::move(notes));
+}
+
+}  // namespace ttf::recording

@@ -1,0 +1,73 @@
+// A run as a Perfetto trace, for ui.perfetto.dev and its SQL: Perfetto's TrackEvent protobuf
+// (recording/exports/perfetto.proto).
+//
+//   a group a node   a lane a task, one of its sensor's measurements, of what its receivers found wrong, of lists lost
+//                    there, of its controller's states. Counters: clock corrections [microticks]; of the feature
+//                    service the age of the newest measurement in the image when it uses one [ms]; of the fusion node
+//                    its confirmed tracks
+//   FlexRay          a lane a channel: frames and symbols as they were sent, and a mark where a frame was otherwise on
+//                    the channel. Counter: the clocks' precision [us]
+//   CAN              a lane a bus
+//   faults           a lane a fault of the run's plan
+//   flows            a measurement's way from sensor to feature service (recording/exports/measurement_flows.h)
+//
+// Timestamps are true times, nanoseconds since the start of the run; what was before it stands at it. The same records
+// in the same order give the same bytes. What is in memory is of the last seconds of the drive, however long it is.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <string>
+
+#include "recording/exports/frames.h"
+#include "recording/exports/measurement_flows.h"
+#include "recording/records/records.h"
+#include "recording/exports/trace_timeline.h"
+
+namespace ttf::recording {
+
+// Wants records in the order of MergedLogs::read(). Bytes go to `write` as they come; call finish() at the end.
+class PerfettoExport final : public records::Sink {
+ public:
+  PerfettoExport(LogNames names, TraceTimeline::Write write);
+
+  TraceCounts finish();
+
+  using records::Sink::on;
+  void on(const records::Measured&) override;
+  void on(const records::CanFrameSent&) override;
+  void on(const records::SlotFrameSent&) override;
+  void on(const records::SlotProblem&) override;
+  void on(const records::ListHop&) override;
+  void on(const records::TaskRun&) override;
+  void on(const records::ClockCorrected&) override;
+  void on(const records::PrecisionSample&) override;
+  void on(const records::ListFused&) override;
+  void on(const records::FusionStep&) override;
+  void on(const records::ImageWritten&) override;
+  void on(const records::FeatureUsed&) override;
+  void on(const records::StateChanged&) override;
+  void on(const records::SymbolSent&) override;
+  void on(const records::PowerChanged&) override;
+  void on(const records::FaultActivity&) override;
+  void on(const records::GuardianIntervention&) override;
+  void on(const records::ChannelFrame&) override;
+  void on(const records::TimingProblem&) override;
+
+ private:
+  struct Image {
+    std::uint32_t sequence = 0;
+    TrueTime newest{};  // when the newest measurement in it was made
+  };
+  TrueTime come_to(TrueTime at);
+  void told(const MeasurementFlows::Act& act, const TraceMark& run);
+  TraceMark node_instant(NodeId node, const char* lane, TrueTime at, std::string name, std::vector<TraceNote> notes);
+  std::string measurement(const MeasurementId& id) const;
+
+  LogNames names_;
+  MeasurementFlows flows_;
+  TraceTimeline timeline_;
+  std::deque<Image> images_;  // the last few
+};
+
+}  // namespace ttf::recording

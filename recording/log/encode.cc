@@ -1,0 +1,372 @@
+#include "recording/log/codec.h"
+
+namespace ttf::recording {
+namespace {
+
+template <class Enum> constexpr std::uint32_t number(Enum value) { return static_cast<std::uint32_t>(value); }
+
+void fill(ttfusion::Stamp& out, const records::Stamp& in) {
+  out.set_true_time(in.true_time.ns);
+  out.set_local(in.local.ns);
+  out.set_global(in.global.ns);
+  out.set_node(number(in.node));
+}
+
+void fill(ttfusion::MeasurementId& out, const MeasurementId& in) {
+  out.set_sensor(number(in.sensor));
+  out.set_sequence(in.sequence);
+}
+
+void fill(ttfusion::ImageObject& out, const records::ImageObject& in) {
+  out.set_track(number(in.track));
+  out.set_x(in.x);
+  out.set_y(in.y);
+  out.set_heading(in.heading);
+  out.set_speed(in.speed);
+  out.set_acceleration(in.acceleration);
+  out.set_length(in.length);
+  out.set_width(in.width);
+  out.set_sigma_x(in.sigma_x);
+  out.set_sigma_y(in.sigma_y);
+  out.set_correlation_xy(in.correlation_xy);
+  out.set_sigma_heading(in.sigma_heading);
+  out.set_sigma_speed(in.sigma_speed);
+  out.set_sigma_acceleration(in.sigma_acceleration);
+  out.set_sigma_length(in.sigma_length);
+  out.set_sigma_width(in.sigma_width);
+  out.set_status(in.status);
+}
+
+LogTimes times_of(const records::Stamp& stamp) { return {stamp.true_time.ns, stamp.global.ns}; }
+
+// Into the string that is there: it grows to the longest words, then no more.
+void fill_text(std::string& out, std::string_view in) { out.assign(in); }
+
+void fill_bytes(std::string& out, std::span<const std::byte> in) {
+  out.assign(reinterpret_cast<const char*>(in.data()), in.size());
+}
+
+}  // namespace
+
+Encoded encode(const records::Measured& in, Payloads& payloads) {
+  auto& out = payloads.measured;
+  fill(*out.mutable_stamp(), in.stamp);
+  fill(*out.mutable_id(), in.id);
+  out.clear_truth_ids();
+  for (const ObjectId id : in.truth_ids) out.add_truth_ids(number(id));
+  return {RecordKind::kMeasured, &out, times_of(in.stamp)};
+}
+
+Encoded encode(const records::CanFrameSent& in, Payloads& payloads) {
+  auto& out = payloads.can_frame;
+  out.set_bus(in.bus);
+  fill(*out.mutable_start(), in.start);
+  fill(*out.mutable_end(), in.end);
+  out.set_identifier(in.identifier);
+  out.set_flexible_data_rate(in.flexible_data_rate);
+  out.set_pdu(number(in.pdu));
+  out.set_sequence(in.sequence);
+  out.set_fragment(in.fragment);
+  out.set_sensor(number(in.sensor));
+  fill_bytes(*out.mutable_data(), in.data);
+  return {RecordKind::kCanFrame, &out, times_of(in.end)};
+}
+
+Encoded encode(const records::SlotFrameSent& in, Payloads& payloads) {
+  auto& out = payloads.slot_frame;
+  fill(*out.mutable_stamp(), in.stamp);
+  fill(*out.mutable_end(), in.end);
+  out.set_cycle(in.cycle);
+  out.set_slot(in.slot);
+  out.set_channel(in.channel);
+  out.set_null_frame(in.null_frame);
+  out.set_pdu(number(in.pdu));
+  out.set_sequence(in.sequence);
+  out.set_fragment(in.fragment);
+  out.set_sensor(number(in.sensor));
+  fill_bytes(*out.mutable_bytes(), in.bytes);
+  return {RecordKind::kSlotFrame, &out, times_of(in.stamp)};
+}
+
+Encoded encode(const records::SlotProblem& in, Payloads& payloads) {
+  auto& out = payloads.slot_problem;
+  fill(*out.mutable_stamp(), in.stamp);
+  out.set_cycle(in.cycle);
+  out.set_slot(in.slot);
+  out.set_channel(in.channel);
+  out.set_status(in.status);
+  return {RecordKind::kSlotProblem, &out, times_of(in.stamp)};
+}
+
+Encoded encode(const records::ListHop& in, Payloads& payloads) {
+  auto& out = payloads.list_hop;
+  fill(*out.mutable_stamp(), in.stamp);
+  out.set_hop(number(in.hop));
+  out.set_pdu(number(in.pdu));
+  out.set_sequence(in.sequence);
+  out.set_can_bus(in.can_bus);
+  out.set_sensor(number(in.sensor));
+  return {RecordKind::kListHop, &out, times_of(in.stamp)};
+}
+
+Encoded encode(const records::TaskRun& in, Payloads& payloads) {
+  auto& out = payloads.task_run;
+  fill(*out.mutable_start(), in.start);
+  out.set_task(in.task);
+  fill(*out.mutable_activated(), in.activated);
+  fill(*out.mutable_end(), in.end);
+  out.set_deadline_met(in.deadline_met);
+  return {RecordKind::kTaskRun, &out, times_of(in.start)};
+}
+
+Encoded encode(const records::ClockCorrected& in, Payloads& payloads) {
+  auto& out = payloads.clock_corrected;
+  fill(*out.mutable_stamp(), in.stamp);
+  out.set_cycle(in.cycle);
+  out.set_offset_microticks(in.offset_microticks);
+  out.set_rate_microticks(in.rate_microticks);
+  out.set_offset_missing(in.offset_missing);
+  out.set_rate_missing(in.rate_missing);
+  out.set_offset_limited(in.offset_limited);
+  out.set_rate_limited(in.rate_limited);
+  return {RecordKind::kClockCorrected, &out, times_of(in.stamp)};
+}
+
+Encoded encode(const records::PrecisionSample& in, Payloads& payloads) {
+  auto& out = payloads.precision;
+  out.set_at(in.at.ns);
+  out.set_cycle(in.cycle);
+  out.set_precision(in.precision.ns);
+  return {RecordKind::kPrecision, &out, {in.at.ns, in.at.ns}};
+}
+
+Encoded encode(const records::FusionInput& in, Payloads& payloads) {
+  auto& out = payloads.fusion_input;
+  fill(*out.mutable_stamp(), in.stamp);
+  out.set_step(in.step);
+  out.set_pdu(number(in.pdu));
+  out.set_sequence(in.sequence);
+  out.set_measured(in.measured.ns);
+  out.set_count(in.count);
+  out.set_sensor(number(in.sensor));
+  fill_bytes(*out.mutable_fragments(), in.fragments);
+  return {RecordKind::kFusionInput, &out, times_of(in.stamp)};
+}
+
+Encoded encode(const records::ListFused& in, Payloads& payloads) {
+  auto& out = payloads.list_fused;
+  fill(*out.mutable_stamp(), in.stamp);
+  out.set_step(in.step);
+  fill(*out.mutable_id(), in.id);
+  out.set_measured(in.measured.ns);
+  out.set_disposition(number(in.disposition));
+  return {RecordKind::kListFused, &out, times_of(in.stamp)};
+}
+
+Encoded encode(const records::FusionStep& in, Payloads& payloads) {
+  auto& out = payloads.fusion_step;
+  fill(*out.mutable_stamp(), in.stamp);
+  out.set_step(in.step);
+  out.set_confirmed(in.confirmed);
+  out.set_tentative(in.tentative);
+  return {RecordKind::kFusionStep, &out, times_of(in.stamp)};
+}
+
+Encoded encode(const records::TrackState& in, Payloads& payloads) {
+  auto& out = payloads.track;
+  fill(*out.mutable_stamp(), in.stamp);
+  out.set_step(in.step);
+  out.set_track(number(in.track));
+  out.set_valid_at(in.valid_at.ns);
+  out.clear_state();
+  out.clear_covariance();
+  for (const double value : in.state) out.add_state(value);
+  for (const double value : in.covariance) out.add_covariance(value);
+  out.set_predicted_for_image(in.predicted_for_image);
+  return {RecordKind::kTrack, &out, times_of(in.stamp)};
+}
+
+Encoded encode(const records::ObservationSeen& in, Payloads& payloads) {
+  auto& out = payloads.observation;
+  fill(*out.mutable_stamp(), in.stamp);
+  fill(*out.mutable_id(), in.id);
+  out.set_measured(in.measured.ns);
+  out.set_index(in.index);
+  out.set_x(in.x);
+  out.set_y(in.y);
+  out.set_sxx(in.sxx);
+  out.set_sxy(in.sxy);
+  out.set_syy(in.syy);
+  return {RecordKind::kObservation, &out, times_of(in.stamp)};
+}
+
+Encoded encode(const records::ImageWritten& in, Payloads& payloads) {
+  auto& out = payloads.image;
+  fill(*out.mutable_stamp(), in.stamp);
+  out.set_sequence(in.sequence);
+  out.set_valid_at(in.valid_at.ns);
+  out.set_newest_measurement(in.newest_measurement.ns);
+  out.clear_objects();
+  out.clear_newest();
+  for (const auto& object : in.objects) fill(*out.add_objects(), object);
+  for (const auto& id : in.newest) fill(*out.add_newest(), id);
+  return {RecordKind::kImage, &out, times_of(in.stamp)};
+}
+
+Encoded encode(const records::FeatureUsed& in, Payloads& payloads) {
+  auto& out = payloads.feature;
+  fill(*out.mutable_stamp(), in.stamp);
+  out.set_image_sequence(in.image_sequence);
+  out.set_image_valid_at(in.image_valid_at.ns);
+  out.set_fresh(in.fresh);
+  out.set_stale(in.stale);
+  out.clear_objects();
+  out.clear_time_gap_s();
+  out.clear_time_to_collision_s();
+  out.clear_warning();
+  for (const auto& object : in.objects) {
+    fill(*out.add_objects(), object.image);
+    out.add_time_gap_s(object.time_gap_s);
+    out.add_time_to_collision_s(object.time_to_collision_s);
+    out.add_warning(object.warning);
+  }
+  return {RecordKind::kFeature, &out, times_of(in.stamp)};
+}
+
+Encoded encode(const records::ReferenceFix& in, Payloads& payloads) {
+  auto& out = payloads.reference;
+  out.set_measured_true(in.measured_true.ns);
+  out.set_measured(in.measured.ns);
+  out.set_available(in.available.ns);
+  out.set_object(number(in.object));
+  out.set_x(in.x);
+  out.set_y(in.y);
+  out.set_sigma(in.sigma);
+  out.set_vx(in.vx);
+  out.set_vy(in.vy);
+  out.set_sigma_velocity(in.sigma_velocity);
+  out.set_measured_local(in.measured_local.ns);
+  return {RecordKind::kReference, &out, {in.measured_true.ns, in.measured.ns}};
+}
+
+Encoded encode(const records::TruthState& in, Payloads& payloads) {
+  auto& out = payloads.truth;
+  out.set_at(in.at.ns);
+  out.set_object(number(in.object));
+  out.set_x(in.x);
+  out.set_y(in.y);
+  out.set_heading(in.heading);
+  out.set_speed(in.speed);
+  out.set_acceleration(in.acceleration);
+  out.set_yaw_rate(in.yaw_rate);
+  out.set_length(in.length);
+  out.set_width(in.width);
+  out.set_local(in.local.ns);
+  out.set_global(in.global.ns);
+  out.set_node(number(in.node));
+  return {RecordKind::kTruth, &out, {in.at.ns, in.global.ns}};
+}
+
+Encoded encode(const records::StateChanged& in, Payloads& payloads) {
+  auto& out = payloads.state_change;
+  fill(*out.mutable_stamp(), in.stamp);
+  out.set_from(in.from);
+  out.set_to(in.to);
+  fill_text(*out.mutable_from_name(), in.from_name);
+  fill_text(*out.mutable_to_name(), in.to_name);
+  fill_text(*out.mutable_why(), in.why);
+  fill_text(*out.mutable_consequence(), in.consequence);
+  return {RecordKind::kStateChange, &out, times_of(in.stamp)};
+}
+
+Encoded encode(const records::SymbolSent& in, Payloads& payloads) {
+  auto& out = payloads.symbol;
+  fill(*out.mutable_stamp(), in.stamp);
+  fill(*out.mutable_end(), in.end);
+  out.set_channel(in.channel);
+  out.set_kind(in.kind);
+  return {RecordKind::kSymbol, &out, times_of(in.stamp)};
+}
+
+Encoded encode(const records::PowerChanged& in, Payloads& payloads) {
+  auto& out = payloads.power;
+  fill(*out.mutable_stamp(), in.stamp);
+  out.set_on(in.on);
+  return {RecordKind::kPower, &out, times_of(in.stamp)};
+}
+
+Encoded encode(const records::FaultActivity& in, Payloads& payloads) {
+  auto& out = payloads.fault;
+  out.set_at(in.at.ns);
+  out.set_fault(in.fault);
+  out.set_what(in.what);
+  out.set_node(number(in.node));
+  fill_text(*out.mutable_kind(), in.kind);
+  fill_text(*out.mutable_text(), in.text);
+  return {RecordKind::kFault, &out, {in.at.ns, in.at.ns}};
+}
+
+Encoded encode(const records::GuardianIntervention& in, Payloads& payloads) {
+  auto& out = payloads.guardian;
+  out.set_at(in.at.ns);
+  out.set_branch(number(in.branch));
+  out.set_channel(in.channel);
+  out.set_signal(in.signal);
+  out.set_reason(in.reason);
+  out.set_cut(in.cut);
+  out.set_until(in.until.ns);
+  fill_text(*out.mutable_why(), in.why);
+  return {RecordKind::kGuardian, &out, {in.at.ns, in.at.ns}};
+}
+
+Encoded encode(const records::ChannelFrame& in, Payloads& payloads) {
+  auto& out = payloads.channel_frame;
+  out.set_start(in.start.ns);
+  out.set_end(in.end.ns);
+  out.set_sender(number(in.sender));
+  out.set_channel(in.channel);
+  out.set_state(in.state);
+  out.set_slot(in.slot);
+  out.set_cycle_counter(in.cycle_counter);
+  out.set_sent(in.sent.ns);
+  out.set_sent_channel(in.sent_channel);
+  fill_bytes(*out.mutable_bytes(), in.bytes);
+  return {RecordKind::kChannelFrame, &out, {in.start.ns, in.start.ns}};
+}
+
+Encoded encode(const records::TimingProblem& in, Payloads& payloads) {
+  auto& out = payloads.timing_problem;
+  fill(*out.mutable_stamp(), in.stamp);
+  out.set_what(in.what);
+  out.set_late(in.late.ns);
+  out.set_cycle(in.cycle);
+  out.set_slot(in.slot);
+  out.set_channel(in.channel);
+  out.set_count(in.count);
+  return {RecordKind::kTimingProblem, &out, times_of(in.stamp)};
+}
+
+Encoded encode(const records::LatenessHistogram& in, Payloads& payloads) {
+  auto& out = payloads.lateness;
+  fill(*out.mutable_stamp(), in.stamp);
+  out.set_of(in.of);
+  out.set_longest(in.longest.ns);
+  out.clear_counts();
+  for (const std::uint64_t count : in.counts) out.add_counts(count);
+  return {RecordKind::kLateness, &out, times_of(in.stamp)};
+}
+
+Encoded encode(const records::MediumCounts& in, Payloads& payloads) {
+  auto& out = payloads.medium;
+  fill(*out.mutable_stamp(), in.stamp);
+  out.set_sent(in.sent);
+  out.set_received(in.received);
+  out.set_not_sent(in.not_sent);
+  out.set_lost(in.lost);
+  out.set_foreign(in.foreign);
+  out.set_malformed(in.malformed);
+  out.set_dropped(in.dropped);
+  return {RecordKind::kMedium, &out, times_of(in.stamp)};
+}
+
+}  // namespace ttf::recording

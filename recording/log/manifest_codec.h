@@ -1,0 +1,28 @@
+// The manifest as an MCAP metadata record's list of (key, value), and back. Private to the room.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "recording/log/manifest.h"
+
+namespace ttf::recording {
+
+inline constexpr std::string_view kLogProfile = "ttfusion";
+inline constexpr std::string_view kManifestName = "ttfusion.manifest";
+inline constexpr std::string_view kResultName = "ttfusion.result";  // written at the end: content hash, records
+
+using ManifestEntries = std::vector<std::pair<std::string, std::string>>;
+
+// Keys: version, seed, scenario, cluster, strategy, cycle_ns, bit_ps, hash.<what>, node.<i>, node.<i>.task.<j>,
+// pdu.<i>, pdu_sensor.<i>, sensor.<i>, can_bus.<i>, where they say something recording, clock, host and time_scale_ppm,
+// and crc32 over all of it.
+ManifestEntries manifest_entries(const LogManifest& manifest);
+
+// Reads what it can; false if the checksum does not match (metadata has none of its own) or a number is
+// broken.
+bool read_manifest(const ManifestEntries& entries, LogManifest& manifest);
+
+}  // namespace ttf::recording

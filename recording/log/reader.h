@@ -1,0 +1,55 @@
+// Reads a log back: drives a sink with every record, in the order they were written.
+//
+// Lengths and counts in the file are never trusted. What is damaged is left out and named in `warning`:
+//   a torn tail (crash while writing)    everything before the cut is read, `truncated` is set
+//   a damaged chunk                      that chunk is left out
+//   damage between chunks                reading goes on at the next chunk
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "recording/log/content_hash.h"
+#include "recording/log/manifest.h"
+#include "recording/records/records.h"
+
+namespace ttf::recording {
+
+struct Attachment {
+  std::string name, media_type, bytes;
+  bool operator==(const Attachment&) const = default;
+};
+
+struct LogInfo {
+  LogManifest manifest;
+  bool manifest_sound = false;                       // else it is missing, or may be wrong
+  std::vector<Attachment> attachments;               // in file order
+  bool truncated = false;                            // the file ends before its closing record
+  std::string warning;                               // sentences, empty for a sound file
+  std::array<std::uint64_t, kRecordKinds> counts{};  // records read, by RecordKind - 1
+  std::uint64_t chunks_read = 0;
+  std::uint64_t chunks_lost = 0;                     // damaged ones that were recognised as chunks
+  std::uint64_t content_hash = 0;                    // over the records read
+  ContentHash records;                               // the same, for adding up over several logs
+  std::optional<std::uint64_t> stated_content_hash;  // as the writer wrote it at the end; absent in a torn file
+
+  std::uint64_t count(RecordKind kind) const { return counts[static_cast<std::size_t>(kind) - 1]; }
+};
+
+// Throws InputError if the file cannot be read, is not MCAP, is MCAP but no log of this program, or is cut off before
+// its manifest. Spans
+// handed to the sink are valid during the call only.
+LogInfo read_log(const std::string& path, records::Sink& sink);
+
+// The same on bytes in memory; `name` is what errors and warnings call it. `on_chunk` hears of every sound chunk before
+// the sink hears of its records: where in `bytes` its content lies.
+using ChunkListener = std::function<void(std::string_view content)>;
+LogInfo read_log_bytes(std::string_view bytes, const std::string& name, records::Sink& sink,
+                       const ChunkListener& on_chunk = {});
+
+}  // namespace ttf::recording

@@ -1,0 +1,147 @@
+#include "recording/log/writer.h"
+
+#include <fmt/format.h>
+#include <google/protobuf/descriptor.pb.h>
+
+#include <algorithm>
+#include <optional>
+#include <set>
+
+#include "core/check.h"
+#include "recording/log/content_hash.h"
+#include "recording/log/behind.h"
+#include "recording/log/codec.h"
+#include "recording/log/manifest_codec.h"
+#include "recording/mcap/writer.h"
+
+namespace ttf::recording {
+namespace {
+
+// The schema of one message: a FileDescriptorSet with the message and what it refers to, in the file's order.
+std::string schema_of(const google::protobuf::Descriptor& message) {
+  std::set<std::string> needed;
+  const auto need = [&needed](const auto& self, const google::protobuf::Descriptor& type) -> void {
+    if (!needed.insert(type.name()).second) return;
+    for (int i = 0; i < type.field_count(); ++i)
+      if (type.field(i)->message_type() != nullptr) self(self, *type.field(i)->message_type());
+  };
+  need(need, message);
+  google::protobuf::FileDescriptorProto whole;
+  message.file()->CopyTo(&whole);
+  google::protobuf::FileDescriptorSet set;
+  auto& file = *set.add_file();
+  file.set_name(whole.name());
+  file.set_package(whole.package());
+  file.set_syntax(whole.syntax());
+  for (const auto& type : whole.message_type())
+    if (needed.count(type.name()) != 0) *file.add_message_type() = type;
+  std::string bytes;
+  TTF_CHECK(set.SerializeToString(&bytes), "schema of {}", message.full_name());
+  return bytes;
+}
+
+std::uint64_t unsigned_time(std::int64_t ns) { return static_cast<std::uint64_t>(std::max<std::int64_t>(ns, 0)); }
+
+}  // namespace
+
+std::string ContentHash::text(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
+
+struct LogWriter::Impl {
+  explicit Impl(const std::string& path) : mcap(path, kLogProfile, "ttfusion") {}
+
+  void store(const LogMessage& message) {
+    hash.add(message.log_time, message.kind, message.payload);
+    mcap.add_message(message.kind, message.log_time, message.publish_time, message.payload);
+    ++records;
+  }
+
+  McapWriter mcap;
+  Payloads payloads;
+  std::string bytes;
+  ContentHash hash;
+  std::uint64_t records = 0;
+  bool closed = false;
+  std::optional<LogBehind> behind;  // last: its thread ends before what it writes to
+};
+
+LogWriter::LogWriter(const std::string& path, const LogManifest& manifest, Writing writing)
+    : impl_(std::make_unique<Impl>(path)) {
+  McapWriter& mcap = impl_->mcap;
+  mcap.add_metadata(kManifestName, manifest_entries(manifest));
+  for (std::size_t i = 1; i <= kRecordKinds; ++i) {
+    const auto kind = static_cast<RecordKind>(i);
+    const auto* type = impl_->payloads.of(kind)->GetDescriptor();
+    const auto id = static_cast<std::uint16_t>(i);
+    mcap.add_schema(id, type->full_name(), "protobuf", schema_of(*type));
+    mcap.add_channel(id, id, topic_of(kind), "protobuf");
+  }
+  impl_->bytes.reserve(64 * 1024);
+  if (writing == Writing::kBehind) impl_->behind.emplace([this](const LogMessage& message) { impl_->store(message); });
+}
+
+LogWriter::~LogWriter() {
+  try {
+    close();
+  } catch (const std::exception&) {
+    // Nobody is left to tell; callers who care call close().
+  }
+}
+
+void LogWriter::attach(std::string_view name, std::string_view media_type, std::string_view bytes) {
+  impl_->mcap.add_attachment(0, name, media_type, bytes);
+}
+
+void LogWriter::close() {
+  if (impl_->closed) return;
+  impl_->closed = true;
+  if (impl_->behind) impl_->behind->close();
+  impl_->mcap.flush();
+  impl_->mcap.add_metadata(kResultName,
+                           {{"content_hash", content_hash_text()}, {"records", std::to_string(impl_->records)}});
+  impl_->mcap.close();
+}
+
+std::uint64_t LogWriter::content_hash() const { return impl_->hash.value(); }
+std::string LogWriter::content_hash_text() const { return ContentHash::text(content_hash()); }
+
+template <class Record> void LogWriter::write(const Record& record) {
+  const Encoded encoded = encode(record, impl_->payloads);
+  // No maps and no unknown fields in our payloads: fields are written in the order of their numbers, always.
+  impl_->bytes.clear();
+  TTF_CHECK(encoded.payload->AppendToString(&impl_->bytes), "kind {}", static_cast<int>(encoded.kind));
+  const LogMessage message{static_cast<std::uint8_t>(encoded.kind), unsigned_time(encoded.times.log),
+                           unsigned_time(encoded.times.publish), impl_->bytes};
+  if (impl_->behind)
+    impl_->behind->add(message);
+  else
+    impl_->store(message);
+}
+
+void LogWriter::on(const records::Measured& record) { write(record); }
+void LogWriter::on(const records::CanFrameSent& record) { write(record); }
+void LogWriter::on(const records::SlotFrameSent& record) { write(record); }
+void LogWriter::on(const records::SlotProblem& record) { write(record); }
+void LogWriter::on(const records::ListHop& record) { write(record); }
+void LogWriter::on(const records::TaskRun& record) { write(record); }
+void LogWriter::on(const records::ClockCorrected& record) { write(record); }
+void LogWriter::on(const records::PrecisionSample& record) { write(record); }
+void LogWriter::on(const records::FusionInput& record) { write(record); }
+void LogWriter::on(const records::ListFused& record) { write(record); }
+void LogWriter::on(const records::FusionStep& record) { write(record); }
+void LogWriter::on(const records::TrackState& record) { write(record); }
+void LogWriter::on(const records::ObservationSeen& record) { write(record); }
+void LogWriter::on(const records::ImageWritten& record) { write(record); }
+void LogWriter::on(const records::FeatureUsed& record) { write(record); }
+void LogWriter::on(const records::ReferenceFix& record) { write(record); }
+void LogWriter::on(const records::TruthState& record) { write(record); }
+void LogWriter::on(const records::StateChanged& record) { write(record); }
+void LogWriter::on(const records::SymbolSent& record) { write(record); }
+void LogWriter::on(const records::PowerChanged& record) { write(record); }
+void LogWriter::on(const records::FaultActivity& record) { write(record); }
+void LogWriter::on(const records::GuardianIntervention& record) { write(record); }
+void LogWriter::on(const records::ChannelFrame& record) { write(record); }
+void LogWriter::on(const records::TimingProblem& record) { write(record); }
+void LogWriter::on(const records::LatenessHistogram& record) { write(record); }
+void LogWriter::on(const records::MediumCounts& record) { write(record); }
+
+}  // namespace ttf::recording

@@ -1,0 +1,262 @@
+#include "recording/mcap/reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "recording/mcap/bytes.h"
+#include "recording/mcap/chunk.h"
+
+namespace ttf::recording {
+namespace {
+
+constexpr std::size_t kMaxWarnings = 20;
+constexpr std::size_t kFooterBytes = kRecordHead + 20;
+
+struct AttachmentFields {
+  std::string_view name, media_type, data;
+  std::uint32_t crc = 0;
+};
+
+bool read_attachment(std::string_view content, AttachmentFields& out) {
+  FieldReader fields(content);
+  fields.bytes(16);  // log and creation time
+  out.name = fields.text();
+  out.media_type = fields.text();
+  out.data = fields.bytes(fields.take<std::uint64_t>());
+  out.crc = fields.take<std::uint32_t>();
+  return fields.done();
+}
+
+bool read_metadata(std::string_view content, std::string_view& name,
+                   std::vector<std::pair<std::string, std::string>>* entries) {
+  FieldReader fields(content);
+  name = fields.text();
+  FieldReader map(fields.text());
+  if (!fields.done()) return false;
+  while (map.ok() && !map.rest().empty()) {
+    const std::string_view key = map.text();
+    const std::string_view value = map.text();
+    if (map.ok() && entries != nullptr) entries->emplace_back(key, value);
+  }
+  return map.ok();
+}
+
+// Whether a record's fields fill it exactly. Takes time in proportion to the number of fields, never to their
+// lengths.
+bool consistent(const McapRecord& record) {
+  FieldReader fields(record.content);
+  switch (static_cast<Opcode>(record.opcode)) {
+    case Opcode::kHeader:
+      fields.text();
+      fields.text();
+      return fields.done();
+    case Opcode::kFooter: return record.content.size() == 20;
+    case Opcode::kDataEnd: return record.content.size() == 4;
+    case Opcode::kSummaryOffset: return record.content.size() == 17;
+    case Opcode::kSchema:
+      fields.take<std::uint16_t>();
+      for (int i = 0; i < 3; ++i) fields.text();
+      return fields.done();
+    case Opcode::kChannel:
+      fields.take<std::uint32_t>();
+      for (int i = 0; i < 3; ++i) fields.text();
+      return fields.done();
+    case Opcode::kChunk: {
+      ChunkFields chunk;
+      return read_chunk(record.content, chunk);
+    }
+    case Opcode::kMessageIndex: {
+      fields.take<std::uint16_t>();
+      const std::string_view entries = fields.text();
+      return fields.done() && entries.size() % 16 == 0;
+    }
+    case Opcode::kChunkIndex: {
+      fields.bytes(32);
+      const std::string_view offsets = fields.text();
+      fields.take<std::uint64_t>();
+      fields.text();
+      fields.bytes(16);
+      return fields.done() && offsets.size() % 10 == 0;
+    }
+    case Opcode::kAttachment: {
+      AttachmentFields attachment;
+      return read_attachment(record.content, attachment);
+    }
+    case Opcode::kAttachmentIndex:
+      fields.bytes(40);
+      fields.text();
+      fields.text();
+      return fields.done();
+    case Opcode::kStatistics: {
+      fields.bytes(42);
+      const std::string_view counts = fields.text();
+      return fields.done() && counts.size() % 10 == 0;
+    }
+    case Opcode::kMetadata: {
+      std::string_view name;
+      return read_metadata(record.content, name, nullptr);
+    }
+    case Opcode::kMetadataIndex:
+      fields.bytes(16);
+      fields.text();
+      return fields.done();
+    case Opcode::kMessage: return false;  // ours stand in chunks, where a checksum covers them
+  }
+  return false;
+}
+
+bool known(std::uint8_t opcode) {
+  return opcode >= static_cast<std::uint8_t>(Opcode::kHeader) && opcode <= static_cast<std::uint8_t>(Opcode::kDataEnd);
+}
+
+// Whether the file has its last record, whatever happened before it.
+bool has_end(std::string_view bytes) {
+  if (bytes.size() < kFooterBytes + kMcapMagic.size() || bytes.substr(bytes.size() - 8) != kMcapMagic) return false;
+  const auto footer = record_at(bytes, bytes.size() - 8 - kFooterBytes);
+  return footer && footer->opcode == static_cast<std::uint8_t>(Opcode::kFooter) && consistent(*footer);
+}
+
+class Walk {
+ public:
+  Walk(std::string_view bytes, McapHandler& handler) : bytes_(bytes), handler_(handler) {}
+
+  McapReport run() {
+    const bool ended = has_end(bytes_);
+    std::size_t at = kMcapMagic.size();
+    bool finished = false;
+    while (!finished && at < bytes_.size()) {
+      const auto record = record_at(bytes_, at);
+      if (record && !known(record->opcode) && record->opcode != 0) {
+        warn("the record of unknown type {} at byte {} is left out", record->opcode, at);
+      } else if (!record || !consistent(*record)) {
+        const std::size_t next = next_record(at + 1);
+        if (next >= bytes_.size() && !ended) break;  // the torn tail
+        if (bytes_[at] == static_cast<char>(Opcode::kChunk)) ++report_.chunks_lost;
+        warn("the record at byte {} is damaged and left out", at);
+        at = next;
+        continue;
+      } else {
+        finished = take(*record, at);
+      }
+      at += kRecordHead + record->content.size();
+    }
+    if (!ended) {
+      report_.truncated = true;
+      warn("the log was cut off at byte {}; everything up to byte {} is read", bytes_.size(),
+           std::min(at, bytes_.size()));
+    } else if (finished && at + kMcapMagic.size() != bytes_.size()) {
+      warn("{} bytes follow the end", bytes_.size() - at - kMcapMagic.size());
+    }
+    if (suppressed_ > 0) report_.warnings.push_back(fmt::format("{} more like these", suppressed_));
+    return std::move(report_);
+  }
+
+ private:
+  template <class... Args> void warn(fmt::format_string<Args...> text, Args&&... args) {
+    if (report_.warnings.size() < kMaxWarnings)
+      report_.warnings.push_back(fmt::format(text, std::forward<Args>(args)...));
+    else
+      ++suppressed_;
+  }
+
+  std::size_t next_record(std::size_t from) const {
+    for (std::size_t at = from; at + kRecordHead < bytes_.size(); ++at) {
+      if (!known(static_cast<std::uint8_t>(bytes_[at])) || bytes_[at] == static_cast<char>(Opcode::kHeader)) continue;
+      if (bytes_.substr(at + 5, 4) != std::string_view("\0\0\0\0", 4)) continue;  // no record of 4 GiB
+      const auto record = record_at(bytes_, at);
+      if (record && consistent(*record)) return at;
+    }
+    return bytes_.size();
+  }
+
+  // True after the footer.
+  bool take(const McapRecord& record, std::size_t at) {
+    switch (static_cast<Opcode>(record.opcode)) {
+      case Opcode::kChunk: take_chunk(record.content, at); return false;
+      case Opcode::kAttachment: {
+        AttachmentFields attachment;
+        read_attachment(record.content, attachment);
+        const std::string_view covered = record.content.substr(0, record.content.size() - 4);
+        if (attachment.crc != 0 && attachment.crc != crc_of(covered))
+          warn("the attachment at byte {} is damaged (checksum) and left out", at);
+        else
+          handler_.on_attachment(attachment.name, attachment.media_type, attachment.data);
+        return false;
+      }
+      case Opcode::kMetadata: {
+        std::string_view name;
+        std::vector<std::pair<std::string, std::string>> entries;
+        read_metadata(record.content, name, &entries);
+        handler_.on_metadata(name, entries);
+        return false;
+      }
+      case Opcode::kDataEnd: {
+        const auto stated = FieldReader(record.content).take<std::uint32_t>();
+        if (stated != 0 && stated != crc_of(bytes_.substr(0, at)) && report_.warnings.empty())
+          warn("bytes outside the chunks are damaged (checksum of the data section); all records are read");
+        return false;
+      }
+      case Opcode::kFooter: {
+        FieldReader fields(record.content);
+        const auto summary_start = fields.take<std::uint64_t>();
+        fields.take<std::uint64_t>();
+        const auto stated = fields.take<std::uint32_t>();
+        const std::size_t crc_at = at + kFooterBytes - 4;
+        const bool sound =
+            summary_start <= at && (stated == 0 || crc_of(bytes_.substr(static_cast<std::size_t>(summary_start),
+                                                                        crc_at - summary_start)) == stated);
+        if (!sound) warn("the index at the end is damaged (checksum); all records are read");
+        return true;
+      }
+      case Opcode::kHeader:
+      case Opcode::kSchema:
+      case Opcode::kChannel:
+      case Opcode::kMessage:
+      case Opcode::kMessageIndex:
+      case Opcode::kChunkIndex:
+      case Opcode::kAttachmentIndex:
+      case Opcode::kStatistics:
+      case Opcode::kMetadataIndex:
+      case Opcode::kSummaryOffset: return false;  // for readers that seek
+    }
+    return false;
+  }
+
+  void take_chunk(std::string_view content, std::size_t at) {
+    const auto records = opener_.open(content, buffer_);
+    if (!records) {
+      ++report_.chunks_lost;
+      warn("the chunk at byte {} is damaged and left out", at);
+      return;
+    }
+    ++report_.chunks_read;
+    handler_.on_chunk(content);
+    const std::uint64_t unreadable =
+        for_each_message(*records, [this](std::uint16_t channel, std::uint64_t log_time, std::string_view payload) {
+          return handler_.on_message(channel, log_time, payload);
+        });
+    if (unreadable > 0) warn("the chunk at byte {} holds {} unreadable messages, which are left out", at, unreadable);
+  }
+
+  std::string_view bytes_;
+  McapHandler& handler_;
+  ChunkOpener opener_;
+  std::string buffer_;
+  McapReport report_;
+  std::uint64_t suppressed_ = 0;
+};
+
+}  // namespace
+
+std::string_view mcap_profile(std::string_view bytes) {
+  if (bytes.size() < kMcapMagic.size()) return {};
+  const auto header = record_at(bytes, kMcapMagic.size());
+  if (!header || header->opcode != static_cast<std::uint8_t>(Opcode::kHeader) || !consistent(*header)) return {};
+  return FieldReader(header->content).text();
+}
+
+McapReport walk_mcap(std::string_view bytes, McapHandler& handler) { return Walk(bytes, handler).run(); }
+
+}  // namespace ttf::recording

@@ -1,0 +1,215 @@
+#include "recording/merge/merge.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+#include "core/errors.h"
+#include "recording/log/codec.h"
+#include "recording/log/writer.h"
+#include "recording/log/manifest_codec.h"
+#include "recording/merge/walk.h"
+
+namespace ttf::recording {
+namespace {
+
+std::map<std::string, std::string> keys_of(const StoredLog& log) {
+  std::map<std::string, std::string> keys;
+  for (const auto& [key, value] : manifest_entries(log.info().manifest))
+    if (key != "crc32" && key != "host") keys[key] = value;
+  return keys;
+}
+
+// What tells the run of `log` from that of `first`, by the first key of the manifest in which they differ.
+std::optional<Finding> misfit(const StoredLog& log, const StoredLog& first) {
+  const auto mine = keys_of(log), others = keys_of(first);
+  if (mine == others) return std::nullopt;
+  for (const auto& [key, unused] : manifest_entries(first.info().manifest)) {  // in that order
+    const auto value = mine.find(key), expected = others.find(key);
+    if (expected == others.end() || (value != mine.end() && value->second == expected->second)) continue;
+    return Finding{log.name(), 0, key, value == mine.end() ? "" : value->second,
+                   fmt::format("must be {} as in {}: only logs of one run are merged", expected->second, first.name())};
+  }
+  for (const auto& [key, value] : mine)
+    if (!others.contains(key))
+      return Finding{log.name(), 0, key, value,
+                     fmt::format("is not in {}: only logs of one run are merged", first.name())};
+  return std::nullopt;
+}
+
+Finding given_twice(const StoredLog& log, const StoredLog& other) {
+  return {log.name(), 0, "", "",
+          fmt::format("holds the same records as {}: each log may be given once, and a merged one without its parts",
+                      other.name())};
+}
+
+bool is_copy(const StoredLog& log, const StoredLog& other) {
+  return log.name() == other.name() ||
+         (log.info().records.records() > 0 && log.info().content_hash == other.info().content_hash);
+}
+
+// One of them that holds what the others, two or more, hold together; end() where there is none.
+std::vector<StoredLog>::iterator whole_among(std::vector<StoredLog>& logs) {
+  ContentHash all;
+  std::size_t with_records = 0;
+  for (const StoredLog& log : logs) {
+    all.add(log.info().records);
+    with_records += log.info().records.records() > 0;
+  }
+  if (with_records < 3) return logs.end();
+  return std::find_if(logs.begin(), logs.end(), [&](const StoredLog& log) {
+    ContentHash twice = log.info().records;
+    twice.add(log.info().records);
+    return twice.value() == all.value();
+  });
+}
+
+std::vector<StoredLog> stored(const std::vector<std::string>& paths) {
+  std::vector<StoredLog> logs;
+  for (const std::string& path : paths) logs.emplace_back(path);
+  return logs;
+}
+
+}  // namespace
+
+MergedLogs::MergedLogs(const std::vector<std::string>& paths) : MergedLogs(stored(paths)) {}
+
+MergedLogs::MergedLogs(std::vector<StoredLog> logs) : logs_(std::move(logs)) {
+  if (const auto whole = whole_among(logs_); whole != logs_.end()) {
+    warnings_.push_back(fmt::format("{}: is passed over: it holds what the other {} logs hold together", whole->name(),
+                                    logs_.size() - 1));
+    logs_.erase(whole);
+  }
+  Findings findings;
+  const StoredLog* first = nullptr;
+  for (auto log = logs_.begin(); log != logs_.end(); ++log) {
+    const auto copied = std::find_if(logs_.begin(), log, [&](const StoredLog& other) { return is_copy(*log, other); });
+    if (copied != log) {
+      findings.add(given_twice(*log, *copied));
+      continue;
+    }
+    if (!log->info().manifest_sound) continue;
+    if (first == nullptr)
+      first = &*log;
+    else if (auto finding = misfit(*log, *first))
+      findings.add(std::move(*finding));
+  }
+  findings.throw_if_any();
+  if (first != nullptr)
+    manifest_ = first->info().manifest;
+  else if (!logs_.empty())
+    manifest_ = logs_.front().info().manifest;
+  times_ = common_times(logs_, warnings_);
+  const auto elsewhere = [&](const StoredLog& log) {
+    return log.info().manifest_sound && log.info().manifest.host != manifest_.host;
+  };
+  if (std::any_of(logs_.begin(), logs_.end(), elsewhere)) manifest_.host.clear();
+  const auto put_on_scale = [](const CommonTime& time) { return !time.changes_nothing(); };
+  if (std::any_of(times_.begin(), times_.end(), put_on_scale)) manifest_.clock = kCommonClock;
+}
+
+std::vector<Attachment> MergedLogs::attachments() const {
+  // By what they are, the first place in any log.
+  std::map<std::tuple<std::string, std::string, std::string>, std::size_t> places;
+  for (const StoredLog& log : logs_) {
+    const std::vector<Attachment>& own = log.info().attachments;
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      const auto [known, added] = places.try_emplace({own[i].name, own[i].bytes, own[i].media_type}, i);
+      if (!added) known->second = std::min(known->second, i);
+    }
+  }
+  std::vector<std::pair<std::size_t, Attachment>> all;
+  for (const auto& [what, place] : places)
+    all.push_back({place, {std::get<0>(what), std::get<2>(what), std::get<1>(what)}});
+  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<Attachment> attachments;
+  for (auto& [place, attachment] : all) attachments.push_back(std::move(attachment));
+  return attachments;
+}
+
+ContentHash MergedLogs::content_hash() const {
+  ContentHash hash;
+  for (const StoredLog& log : logs_) hash.add(log.info().records);
+  return hash;
+}
+
+std::vector<std::string> MergedLogs::warnings() const {
+  std::vector<std::string> warnings;
+  for (const StoredLog& log : logs_)
+    if (!log.info().warning.empty()) warnings.push_back(log.info().warning);
+  warnings.insert(warnings.end(), warnings_.begin(), warnings_.end());
+  return warnings;
+}
+
+void MergedLogs::read(records::Sink& sink) const {
+  MergeWalk walk(logs_, times_);
+  Decoder decoder;
+  std::vector<OnCommonTime> sinks;
+  for (const CommonTime& time : times_) sinks.emplace_back(time, sink);
+  while (true) {
+    const std::vector<MergeWalk::Message>& instant = walk.next();
+    if (instant.empty()) return;
+    for (std::size_t i = 0; i < instant.size(); ++i) {
+      const MergeWalk::Message& message = instant[i];
+      if (i > 0 && message.place.of_node && message.log != instant[i - 1].log && message.kind == instant[i - 1].kind &&
+          message.payload == instant[i - 1].payload) {
+        const auto [a, b] = std::minmax(message.log, instant[i - 1].log);
+        throw InputError(given_twice(logs_[b], logs_[a]));
+      }
+      records::Sink& out = times_[message.log].changes_nothing() ? sink : sinks[message.log];
+      decoder.decode(message.kind, message.payload, out);
+    }
+  }
+}
+
+std::vector<MergedLogs> merge_by_run(std::vector<StoredLog> logs) {
+  std::vector<std::vector<StoredLog>> runs;
+  std::vector<StoredLog> unknown;
+  for (StoredLog& log : logs) {
+    if (!log.info().manifest_sound) {
+      unknown.push_back(std::move(log));
+      continue;
+    }
+    const auto run = std::find_if(runs.begin(), runs.end(),
+                                  [&](const std::vector<StoredLog>& other) { return !misfit(log, other.front()); });
+    if (run == runs.end())
+      runs.emplace_back().push_back(std::move(log));
+    else
+      run->push_back(std::move(log));
+  }
+  const bool apart = runs.size() > 1;
+  for (StoredLog& log : unknown) {
+    if (!apart && !runs.empty())
+      runs.front().push_back(std::move(log));
+    else
+      runs.emplace_back().push_back(std::move(log));
+  }
+  std::vector<MergedLogs> merged;
+  for (std::vector<StoredLog>& run : runs) merged.emplace_back(std::move(run));
+  return merged;
+}
+
+void write_merged(const MergedLogs& merged, const std::string& path) {
+  std::error_code none;  // what does not exist yet is none of them
+  for (const StoredLog& log : merged.logs())
+    if (std::filesystem::equivalent(log.name(), path, none))
+      throw InputError({path, 0, "", "", "must be another file than the logs that are merged"});
+  bool created = false;
+  try {
+    LogWriter writer(path, merged.manifest());
+    created = true;
+    for (const Attachment& one : merged.attachments()) writer.attach(one.name, one.media_type, one.bytes);
+    merged.read(writer);
+    writer.close();
+  } catch (const std::exception&) {
+    if (created && std::filesystem::is_regular_file(path, none)) std::filesystem::remove(path, none);
+    throw;
+  }
+}
+
+}  // namespace ttf::recording

@@ -1,0 +1,67 @@
+// Where a record stands among the records of a run: the canonical order of merged logs. Private to the room.
+//
+// By (true time, rank of its kind, what it is about), then:
+//   records of a node                 as that node reported them; what is said twice in different logs, by payload
+//   records of the run as a whole     by payload: any process may have reported them
+//
+// True time is the record's own, signed, as MCAP's log_time; a fault counts 100 ns earlier, because nodes say in whole
+// microticks when something happened to them, and would be struck before the blow. The ranks put causes before effects,
+// as readers rely on where things happen at one instant: a fault begins before what it does, supplies come and go
+// before states change, a fusion step's inputs stand before its tracks, these before the image made of them, and uses
+// before the truth they are held against. Within a kind the order of a node's own reports counts (its states follow
+// each other, an image's predictions are in the order of its objects); it is the same in every process that runs the
+// node.
+#pragma once
+
+#include <cstdint>
+
+#include "recording/log/manifest.h"
+#include "recording/records/records.h"
+
+namespace ttf::recording {
+
+struct RecordPlace {
+  TrueTime at{};
+  std::uint8_t rank = 0;
+  bool of_node = false;
+  std::uint64_t about = 0;  // the node, else what of the run's it is: numbers in the order they are to have
+};
+
+// Tells the place of every record that it sees.
+class Placing : public records::Sink {
+ public:
+  virtual void placed(const RecordPlace& place) = 0;
+
+  void on(const records::Measured&) override;
+  void on(const records::CanFrameSent&) override;
+  void on(const records::SlotFrameSent&) override;
+  void on(const records::SlotProblem&) override;
+  void on(const records::ListHop&) override;
+  void on(const records::TaskRun&) override;
+  void on(const records::ClockCorrected&) override;
+  void on(const records::PrecisionSample&) override;
+  void on(const records::FusionInput&) override;
+  void on(const records::ListFused&) override;
+  void on(const records::FusionStep&) override;
+  void on(const records::TrackState&) override;
+  void on(const records::ObservationSeen&) override;
+  void on(const records::ImageWritten&) override;
+  void on(const records::FeatureUsed&) override;
+  void on(const records::ReferenceFix&) override;
+  void on(const records::TruthState&) override;
+  void on(const records::StateChanged&) override;
+  void on(const records::SymbolSent&) override;
+  void on(const records::PowerChanged&) override;
+  void on(const records::FaultActivity&) override;
+  void on(const records::GuardianIntervention&) override;
+  void on(const records::ChannelFrame&) override;
+  void on(const records::TimingProblem&) override;
+  void on(const records::LatenessHistogram&) override;
+  void on(const records::MediumCounts&) override;
+
+ private:
+  void of_node(RecordKind kind, TrueTime at, NodeId node);
+  void of_run(RecordKind kind, TrueTime at, std::uint64_t about);
+};
+
+}  // namespace ttf::recording

@@ -1,0 +1,69 @@
+#include "recording/merge/stored_log.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "core/file_bytes.h"
+#include "recording/merge/record_place.h"
+
+namespace ttf::recording {
+namespace {
+
+class ChunkTimes final : public Placing {
+ public:
+  ChunkTimes(std::vector<StoredLog::Chunk>& chunks, std::vector<SyncStamp>& stamps)
+      : chunks_(chunks), stamps_(stamps) {}
+
+  void begin(std::size_t at, std::size_t size) { next_ = {at, size, {}, {}}; }
+  using Placing::on;
+  void on(const records::ClockCorrected& r) override {
+    const bool by_the_cluster = r.stamp.global.ns != r.stamp.local.ns;  // else it has no global time (records::Stamp)
+    if (by_the_cluster && possible(r.stamp.true_time.ns) && possible(r.stamp.global.ns))
+      stamps_.push_back({r.stamp.node, r.stamp.true_time, r.stamp.global});
+    Placing::on(r);
+  }
+  void placed(const RecordPlace& place) override {
+    if (chunks_.empty() || chunks_.back().begin != next_.begin) {
+      next_.first = next_.last = place.at;
+      chunks_.push_back(next_);
+    }
+    chunks_.back().first = std::min(chunks_.back().first, place.at);
+    chunks_.back().last = std::max(chunks_.back().last, place.at);
+  }
+
+ private:
+  // Within 36 years of the run's start: what else a damaged log says is not computed with.
+  static bool possible(std::int64_t ns) {
+    constexpr std::int64_t kFarthest_ns = std::int64_t{1} << 60;
+    return ns >= -kFarthest_ns && ns <= kFarthest_ns;
+  }
+
+  std::vector<StoredLog::Chunk>& chunks_;
+  std::vector<SyncStamp>& stamps_;
+  StoredLog::Chunk next_;
+};
+
+}  // namespace
+
+std::vector<std::string> logs_in(const std::string& folder) {
+  std::vector<std::string> logs;
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, none))
+    if (entry.path().extension() == ".mcap") logs.push_back(entry.path().string());
+  std::sort(logs.begin(), logs.end());
+  return logs;
+}
+
+StoredLog::StoredLog(const std::string& path) : StoredLog(read_file(path), path) {}
+
+StoredLog::StoredLog(std::string bytes, std::string name) : name_(std::move(name)), bytes_(std::move(bytes)) {
+  ChunkTimes times(chunks_, sync_stamps_);
+  info_ = read_log_bytes(bytes_, name_, times, [&](std::string_view content) {
+    times.begin(static_cast<std::size_t>(content.data() - bytes_.data()), content.size());
+  });
+  if (info_.manifest.clock != kWallClock) sync_stamps_ = {};
+}
+
+}  // namespace ttf::recording

@@ -1,0 +1,63 @@
+// Walks through the records of several logs in their canonical order. Private to the room.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "recording/merge/common_time.h"
+#include "recording/log/codec.h"
+#include "recording/mcap/chunk.h"
+#include "recording/merge/record_place.h"
+#include "recording/merge/stored_log.h"
+
+namespace ttf::recording {
+
+class MergeWalk {
+ public:
+  // A record in an open chunk.
+  struct Message {
+    RecordPlace place;
+    RecordKind kind{};
+    std::uint32_t log = 0;
+    std::uint32_t repetition = 0;  // how many of its node, kind and instant its log has before it
+    std::uint64_t in_log = 0;      // place in its log
+    std::string_view payload;
+  };
+
+  // `times`: by log, where its true times are on the common scale. Both must outlive this.
+  MergeWalk(const std::vector<StoredLog>& logs, const std::vector<CommonTime>& times);
+
+  // All records of the next instant, in their order; empty at the end. Valid until the next call.
+  const std::vector<Message>& next();
+
+ private:
+  struct Upcoming {
+    TrueTime first;
+    std::uint32_t log;
+    std::uint32_t chunk;
+  };
+  struct Open {
+    std::string buffer;
+    std::vector<Message> messages;  // by time
+    std::size_t at = 0;
+    TrueTime time() const { return messages[at].place.at; }
+  };
+  static bool later(const std::unique_ptr<Open>& a, const std::unique_ptr<Open>& b);
+  void open(const Upcoming& upcoming);
+  std::unique_ptr<Open> closed_chunk();
+
+  const std::vector<StoredLog>& logs_;
+  const std::vector<CommonTime>& times_;
+  std::vector<Upcoming> upcoming_;           // the next one last
+  std::vector<std::unique_ptr<Open>> open_;  // a heap, the earliest first
+  std::vector<std::unique_ptr<Open>> used_;  // what has been read to its end: for the next instant's call, then again
+  std::vector<std::unique_ptr<Open>> free_;
+  std::vector<Message> instant_;
+  ChunkOpener opener_;
+  Decoder decoder_;
+};
+
+}  // namespace ttf::recording

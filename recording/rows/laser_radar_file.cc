@@ -1,0 +1,226 @@
+#include "recording/rows/laser_radar_file.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include "core/errors.h"
+#include "core/file_bytes.h"
+#include "recording/mcap/bytes.h"
+
+namespace ttf::recording {
+namespace {
+
+constexpr std::string_view kBlank = " \t\r";
+
+std::string_view trim(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(kBlank);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
+}
+
+std::vector<std::string_view> split(std::string_view line, char separator) {
+  std::vector<std::string_view> fields;
+  while (true) {
+    const std::size_t end = line.find(separator);
+    fields.push_back(trim(line.substr(0, end)));
+    if (end == std::string_view::npos) return fields;
+    line.remove_prefix(end + 1);
+  }
+}
+
+// A broken line in a message: short and printable.
+std::string shown(std::string_view text) {
+  std::string out;
+  for (const char c : text.substr(0, 40)) out += c >= ' ' && c <= '~' ? c : '?';
+  return text.size() > 40 ? out + "..." : out;
+}
+
+struct Column {
+  std::string_view name;
+  double low, high;
+  std::string_view unit;
+};
+
+// Rows of one table: reads numbers by column, one finding per broken line.
+class Rows {
+ public:
+  Rows(const std::string& name, Findings& findings) : name_(name), findings_(findings) {}
+
+  void at_line(int line) { line_ = line; }
+  void fail(std::string_view column, std::string_view value, std::string expected) {
+    findings_.add({name_, line_, std::string(column), shown(value), std::move(expected)});
+  }
+
+  // The fields as numbers into `out`, of the columns' count; false, with one finding, if one of them is
+  // broken.
+  bool numbers(std::span<const std::string_view> fields, std::span<const Column> columns, std::span<double> out) {
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      const std::string_view field = fields[i];
+      const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), out[i]);
+      const Column& column = columns[i];
+      if (error != std::errc{} || end != field.data() + field.size() ||
+          !(out[i] >= column.low && out[i] <= column.high)) {
+        fail(column.name, field,
+             fmt::format("must be a number in {:g}..{:g} {}", column.low, column.high, column.unit));
+        return false;
+      }
+    }
+    return true;
+  }
+  std::optional<std::int64_t> whole(std::string_view column, std::string_view field, std::string_view unit) {
+    std::int64_t value = 0;
+    const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+    if (error != std::errc{} || end != field.data() + field.size() || value < 0) {
+      fail(column, field, fmt::format("must be a whole number of at least 0{}", unit));
+      return std::nullopt;
+    }
+    return value;
+  }
+
+ private:
+  const std::string& name_;
+  Findings& findings_;
+  int line_ = 0;
+};
+
+template <class Handle> void for_each_line(std::string_view text, Handle&& handle) {
+  for (int line = 1; !text.empty(); ++line) {
+    const std::size_t end = text.find('\n');
+    handle(line, text.substr(0, end));
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  }
+}
+
+// Bounds only tell numbers from garbage: a road scene is well within 10 km, and turns and speeds below these.
+constexpr double kFar = 1e4, kFast = 1e3, kTurns = 100;
+constexpr std::array<Column, 2> kLaserColumns{{{"px", -kFar, kFar, "m"}, {"py", -kFar, kFar, "m"}}};
+constexpr std::array<Column, 3> kRadarColumns{
+    {{"range", 0, kFar, "m"}, {"bearing", -kTurns, kTurns, "rad"}, {"range_rate", -kFast, kFast, "m/s"}}};
+constexpr std::array<Column, 6> kTruthColumns{{{"gt_x", -kFar, kFar, "m"},
+                                               {"gt_y", -kFar, kFar, "m"},
+                                               {"gt_vx", -kFast, kFast, "m/s"},
+                                               {"gt_vy", -kFast, kFast, "m/s"},
+                                               {"gt_yaw", -kTurns, kTurns, "rad"},
+                                               {"gt_yawrate", -kTurns, kTurns, "rad/s"}}};
+constexpr std::array<Column, 3> kScanColumns{
+    {{"azimuth_rad", -kTurns, kTurns, "rad"}, {"range_m", 0, kFar, "m"}, {"intensity", 0, 1e9, ""}}};
+
+}  // namespace
+
+RecordedInput parse_laser_radar(const std::string& text, const std::string& name) {
+  Findings findings;
+  Rows rows(name, findings);
+  RecordedInput input;
+  std::int64_t last_time = std::numeric_limits<std::int64_t>::min();
+  for_each_line(text, [&](int line, std::string_view raw) {
+    if (trim(raw).empty() || trim(raw).front() == '#') return;
+    rows.at_line(line);
+    const std::vector<std::string_view> fields = split(raw, '\t');
+    const bool laser = fields[0] == "L";
+    if (!laser && fields[0] != "R") return rows.fail("sensor", fields[0], "must be L (laser) or R (radar)");
+    const std::size_t values = laser ? 2 : 3, columns = values + 8;
+    if (fields.size() != columns)
+      return rows.fail("columns", std::to_string(fields.size()),
+                       fmt::format("must be {} columns, separated by tabs, in a row of {}", columns, fields[0]));
+
+    std::array<double, 3> seen{};
+    std::array<double, 6> truth{};
+    const std::span<const std::string_view> all(fields);
+    const std::span<const Column> seen_columns =
+        laser ? std::span<const Column>(kLaserColumns) : std::span<const Column>(kRadarColumns);
+    if (!rows.numbers(all.subspan(1), seen_columns, seen)) return;
+    const std::optional<std::int64_t> time = rows.whole("t_us", fields[values + 1], " us");
+    if (!time || !rows.numbers(all.subspan(values + 2), kTruthColumns, truth)) return;
+    if (*time < last_time)
+      return rows.fail("t_us", fields[values + 1], fmt::format("must not be before the row above, {} us", last_time));
+    last_time = *time;
+
+    if (input.observations.empty()) input.first_time_us = *time;
+    const std::int64_t since = *time - input.first_time_us;
+    RecordedObservation& out = input.observations.emplace_back();
+    out.time_us_from_start = since;
+    out.sensor = laser ? "laser" : "radar";
+    if (laser) {
+      out.kind = RecordedObservation::Kind::kPosition;
+      out.x = seen[0];
+      out.y = seen[1];
+    } else {
+      out.kind = RecordedObservation::Kind::kRangeBearingRate;
+      out.range = seen[0];
+      out.bearing = seen[1];
+      out.range_rate = seen[2];
+    }
+    input.truth.push_back({since, truth[0], truth[1], truth[2], truth[3], truth[4], truth[5]});
+  });
+  if (findings.empty() && input.observations.empty())
+    findings.add({name, 0, "", "", "holds no rows; expected rows that begin with L or R"});
+  findings.throw_if_any();
+  return input;
+}
+
+std::vector<RecordedScan> parse_lidar_scans(const std::string& text, const std::string& name) {
+  Findings findings;
+  Rows rows(name, findings);
+  std::vector<RecordedScan> scans;
+  bool header_possible = true;
+  for_each_line(text, [&](int line, std::string_view raw) {
+    if (trim(raw).empty() || trim(raw).front() == '#') return;
+    rows.at_line(line);
+    const std::vector<std::string_view> fields = split(raw, ',');
+    if (std::exchange(header_possible, false) && fields[0] == "frame") return;
+    if (fields.size() != 4)
+      return rows.fail("columns", std::to_string(fields.size()),
+                       "must be 4 columns, separated by commas: frame, azimuth_rad, range_m, intensity");
+    const std::optional<std::int64_t> frame = rows.whole("frame", fields[0], "");
+    std::array<double, 3> values{};
+    if (!frame || !rows.numbers(std::span<const std::string_view>(fields).subspan(1), kScanColumns, values)) return;
+    if (scans.empty() || scans.back().frame != *frame) {
+      if (!scans.empty() && *frame < scans.back().frame)
+        return rows.fail("frame", fields[0], fmt::format("must not be before the row above, {}", scans.back().frame));
+      scans.emplace_back().frame = *frame;
+    }
+    scans.back().returns.push_back({values[0], values[1], values[2]});
+  });
+  if (findings.empty() && scans.empty())
+    findings.add({name, 0, "", "", "holds no rows; expected frame, azimuth_rad, range_m, intensity"});
+  findings.throw_if_any();
+  return scans;
+}
+
+RecordedInput read_laser_radar(const std::string& path) { return parse_laser_radar(read_file(path), path); }
+std::vector<RecordedScan> read_lidar_scans(const std::string& path) { return parse_lidar_scans(read_file(path), path); }
+
+RecordingFormat sniff_recording(const std::string& path) {
+  return sniff_recording(read_file(path, kRecordingHead), path);
+}
+
+RecordingFormat sniff_recording(std::string_view text, const std::string& name) {
+  if (text.substr(0, kMcapMagic.size()) == kMcapMagic) return RecordingFormat::kLog;
+  std::optional<RecordingFormat> format;
+  bool decided = false;
+  for_each_line(text, [&](int, std::string_view raw) {
+    const std::string_view row = trim(raw);
+    if (decided || row.empty()) return;
+    const bool comment = row.front() == '#';
+    const std::string_view words = comment ? trim(row.substr(1)) : row;
+    if (words.substr(0, 5) == "frame" || (!comment && words.find(',') != std::string_view::npos))
+      format = RecordingFormat::kLidarScans;
+    else if (!comment && (words.substr(0, 2) == "L\t" || words.substr(0, 2) == "R\t"))
+      format = RecordingFormat::kLaserRadar;
+    decided = !comment || format.has_value();
+  });
+  if (!format)
+    throw InputError({name, 0, "", "",
+                      "is no recording known here: rows of L or R (laser and radar), of frame, azimuth_rad, range_m, "
+                      "intensity (scanner), or an MCAP log"});
+  return *format;
+}
+
+}  // namespace ttf::recording

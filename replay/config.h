@@ -1,0 +1,74 @@
+// What recorded observations are replayed with: the tracker, the strategy, and what is known of each sensor. As YAML,
+// in which every key has a default:
+//
+//   strategy: adva                # buff, adva or tt
+//   tracker: {process_noise: 4.0}                # the same keys as in a scenario (fusion/config/tracker_config.h)
+//   sensors:                                     # those of the recording; without this key, whichever it has
+//     laser: {position: 0.15, period: 100 ms, worst_delay: 10 ms}
+//     radar: {range: 0.3, bearing: 0.03, range_rate: 0.3, period: 100 ms, first: 50 ms, worst_delay: 70 ms}
+//     side:                                      # place and biases: fusion/sensors/known_sensor.h
+//       {mounting: {x: 1.0, y: -0.9, heading: -1.57}, bias: {bearing: 0.01}, bias_sigma: {range: 0.1, time: 5 ms}}
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/strict_yaml.h"
+#include "core/time.h"
+#include "fusion/sensors/known_sensor.h"
+#include "fusion/strategies/strategy.h"
+#include "fusion/config/tracker_config.h"
+
+namespace ttf::experiments {
+
+// Standard deviations of what a row gives without a covariance or a sigma of its own.
+struct SensorNoise {
+  double position = 0.5;             // [m], per axis
+  double range = 0.5;                // [m]
+  double bearing = 0.03;             // [rad]
+  double range_rate = 0.5;           // [m/s]
+  double heading = 0.2;              // [rad]
+  double length = 0.5, width = 0.5;  // [m]
+};
+
+struct SensorSetup {
+  SensorNoise noise;
+  // Without them: what the recording shows (replay/sensor_timing.h).
+  std::optional<Duration> worst_delay, period;
+  std::optional<GlobalTime> first;  // an instant of the schedule; only with a period
+  fusion::KnownSensor known;        // its place on the vehicle, and its biases
+};
+
+struct ReplayConfig {
+  std::string file;  // empty: there is none
+  fusion::StrategyKind strategy = fusion::StrategyKind::kAdva;
+  fusion::TrackerConfig tracker;                             // with what is known of the sensors
+  int late_line = 0;                                         // of tracker.late; 0: it is not there
+  std::vector<std::pair<std::string, SensorSetup>> sensors;  // by SensorId; none: whichever a recording has
+};
+
+inline constexpr std::size_t kMostSensors = 100;
+// Allowed for every sigma of SensorNoise, in its unit.
+inline constexpr Range<double> kSigmaAllowed{1e-3, 100.0}, kAngleSigmaAllowed{1e-4, 0.5};
+inline constexpr Range<Duration> kDelayAllowed{Duration{}, Duration::milliseconds(3'600'000)};
+inline constexpr Range<Duration> kPeriodAllowed{Duration::microseconds(1), Duration::milliseconds(3'600'000)};
+
+// The sigma of that name, and what is allowed for it; null where there is none.
+struct NamedSigma {
+  double* value = nullptr;
+  Range<double> allowed{};
+  const char* unit = "";
+};
+NamedSigma sigma_of(SensorNoise& noise, std::string_view name);
+// Their names, as in "must be position, range, ...".
+std::string sigma_names();
+
+// Of a sensor, what the file does not say is as in `any`. Throws InputError.
+ReplayConfig load_replay_config(const std::string& path, const SensorSetup& any);
+ReplayConfig parse_replay_config(const std::string& text, const std::string& name, const SensorSetup& any);
+
+}  // namespace ttf::experiments

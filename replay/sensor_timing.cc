@@ -1,0 +1,92 @@
+#include "replay/sensor_timing.h"
+
+#include <algorithm>
+#include <string>
+
+#include "core/errors.h"
+
+namespace ttf::experiments {
+namespace {
+
+// Of each sensor, ascending and each once.
+std::vector<std::vector<GlobalTime>> times_measured(const Arrivals& arrivals) {
+  std::vector<std::vector<GlobalTime>> times(arrivals.sensors.size());
+  for (const ListArrival& list : arrivals.lists)
+    if (list.copy == 0) times[index_of(list.id.sensor)].push_back(list.measured);
+  for (auto& of_sensor : times) std::sort(of_sensor.begin(), of_sensor.end());
+  return times;
+}
+
+// The nearest whole number; both above zero.
+std::int64_t rounds(Duration whole, Duration part) { return (whole.ns + part.ns / 2) / part.ns; }
+
+}  // namespace
+
+std::vector<Duration> longest_delays(const Arrivals& arrivals) {
+  std::vector<Duration> longest(arrivals.sensors.size());
+  for (const ListArrival& list : arrivals.lists) {
+    Duration& of_sensor = longest[index_of(list.id.sensor)];
+    of_sensor = std::max(of_sensor, list.arrival - list.measured);
+  }
+  return longest;
+}
+
+std::optional<Duration> regular_period(const std::vector<GlobalTime>& times) {
+  if (times.size() < 3) return std::nullopt;
+  std::vector<Duration> steps;
+  for (std::size_t i = 1; i < times.size(); ++i) steps.push_back(times[i] - times[i - 1]);
+  std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2), steps.end());
+  const Duration middle = steps[steps.size() / 2];
+  if (middle > kPeriodAllowed.high) return std::nullopt;
+  // As exact as the whole recording tells it.
+  std::int64_t in_all = 0;
+  for (std::size_t i = 1; i < times.size(); ++i) in_all += rounds(times[i] - times[i - 1], middle);
+  if (in_all == 0) return std::nullopt;
+  const Duration period{(times.back() - times.front()).ns / in_all};
+  if (period < kPeriodAllowed.low || period > kPeriodAllowed.high) return std::nullopt;
+  for (const GlobalTime time : times) {
+    const Duration since = time - times.front();
+    const Duration off = since - period * rounds(since, period);
+    if (std::max(off, -off).ns > period.ns / 4) return std::nullopt;
+  }
+  return period;
+}
+
+bool only_positions(const Arrivals& arrivals) {
+  return std::all_of(arrivals.lists.begin(), arrivals.lists.end(), [](const ListArrival& list) {
+    return std::all_of(list.observations.begin(), list.observations.end(), [](const fusion::Observation& observation) {
+      return observation.kind == fusion::ObservationKind::kPosition;
+    });
+  });
+}
+
+std::vector<fusion::SensorTiming> sensor_timings(const Arrivals& arrivals, const ReplayConfig& config,
+                                                 fusion::StrategyKind strategy) {
+  const std::vector<Duration> longest = longest_delays(arrivals);
+  const std::vector<std::vector<GlobalTime>> times = times_measured(arrivals);
+  std::vector<fusion::SensorTiming> timings;
+  const fusion::oosm::Kind late = config.tracker.late;
+  const bool on_schedule = strategy == fusion::StrategyKind::kTt || late == fusion::oosm::Kind::kClone;
+  bool any_scheduled = false;
+  for (std::size_t s = 0; s < arrivals.sensors.size(); ++s) {
+    const SensorSetup& setup = config.sensors[s].second;
+    fusion::SensorTiming timing{
+        static_cast<SensorId>(s), fusion::Settling::after(setup.worst_delay.value_or(longest[s])), false, {}, {}};
+    const std::optional<Duration> period = setup.period ? setup.period : regular_period(times[s]);
+    if (on_schedule && period && (setup.first || !times[s].empty())) {
+      timing.scheduled = any_scheduled = true;
+      timing.period = *period;
+      timing.first = setup.first ? *setup.first : times[s].front();
+    }
+    timings.push_back(timing);
+  }
+  if (strategy == fusion::StrategyKind::kTt && !any_scheduled)
+    throw InputError({config.file.empty() ? "command line" : config.file, 0, "strategy", "tt",
+                      "needs the period of at least one sensor: none is given, and none measures at regular instants"});
+  const std::string refusal = fusion::late_refusal(strategy, late, timings, only_positions(arrivals));
+  if (!refusal.empty())
+    throw InputError({config.file, config.late_line, "tracker.late", std::string(name_of(late)), refusal});
+  return timings;
+}
+
+}  // namespace ttf::experiments

@@ -1,0 +1,120 @@
+#include "report/drawing/render.h"
+
+#include <cairo-pdf.h>
+#include <cairo.h>
+#include <librsvg/rsvg.h>
+
+#include <fstream>
+#include <memory>
+#include <stdexcept>
+
+#include "core/errors.h"
+
+namespace ttf::report {
+namespace {
+
+constexpr double kPngSharpWidth = 2600;   // SVG units up to which a PNG gets two pixels per unit
+constexpr double kPointsPerPixel = 0.75;  // 72 / 96
+
+struct SurfaceFree {
+  void operator()(cairo_surface_t* s) const { cairo_surface_destroy(s); }
+};
+struct CairoFree {
+  void operator()(cairo_t* c) const { cairo_destroy(c); }
+};
+struct HandleFree {
+  void operator()(RsvgHandle* h) const { g_object_unref(h); }
+};
+using Surface = std::unique_ptr<cairo_surface_t, SurfaceFree>;
+using Cairo = std::unique_ptr<cairo_t, CairoFree>;
+using Handle = std::unique_ptr<RsvgHandle, HandleFree>;
+
+enum class Format { kSvg, kPng, kPdf };
+
+[[noreturn]] void fail(const std::string& path, std::string key, std::string value, std::string expected) {
+  throw InputError(Finding{path, 0, std::move(key), std::move(value), std::move(expected)});
+}
+
+// Not the user's input is at fault here.
+[[noreturn]] void fail_to_write(const std::string& path, const std::string& reason = "") {
+  throw std::runtime_error(path + ": cannot be written" + (reason.empty() ? "" : ": " + reason));
+}
+
+Format format_of(const std::string& path) {
+  const std::size_t slash = path.find_last_of('/');
+  const std::size_t dot = path.find_last_of('.');
+  const bool has = dot != std::string::npos && (slash == std::string::npos || dot > slash);
+  const std::string extension = has ? path.substr(dot) : "";
+  if (extension == ".svg") return Format::kSvg;
+  if (extension == ".png") return Format::kPng;
+  if (extension == ".pdf") return Format::kPdf;
+  fail(path, "file extension", extension.empty() ? "none" : extension, "must be .svg, .png or .pdf");
+}
+
+std::string take(GError* error) {
+  std::string message = error != nullptr ? error->message : "unknown reason";
+  if (error != nullptr) g_error_free(error);
+  return message;
+}
+
+void draw(RsvgHandle* handle, cairo_surface_t* surface, double scale, double width, double height,
+          const std::string& path) {
+  const Cairo cairo(cairo_create(surface));
+  cairo_scale(cairo.get(), scale, scale);
+  const RsvgRectangle viewport{0, 0, width, height};
+  GError* error = nullptr;
+  if (rsvg_handle_render_document(handle, cairo.get(), &viewport, &error) == 0)
+    fail(path, "picture", "", "could not be drawn: " + take(error));
+  cairo_show_page(cairo.get());
+  cairo_surface_finish(surface);
+  // What remains at this point is the disk: the drawing itself succeeded.
+  if (const cairo_status_t status = cairo_surface_status(surface); status != CAIRO_STATUS_SUCCESS)
+    fail_to_write(path, cairo_status_to_string(status));
+}
+
+}  // namespace
+
+void check_picture_path(const std::string& path) { format_of(path); }
+
+void write_picture(const std::string& svg, const std::string& path) {
+  const Format format = format_of(path);
+  if (format == Format::kSvg) {
+    std::ofstream out(path, std::ios::binary);
+    out << svg;
+    out.close();
+    if (!out) fail_to_write(path);
+    return;
+  }
+  GError* error = nullptr;
+  const Handle handle(rsvg_handle_new_from_data(reinterpret_cast<const guint8*>(svg.data()), svg.size(), &error));
+  if (!handle) fail(path, "picture", "", "is not valid SVG: " + take(error));
+  rsvg_handle_set_dpi(handle.get(), 96);
+  double width = 0, height = 0;
+  if (rsvg_handle_get_intrinsic_size_in_pixels(handle.get(), &width, &height) == 0 || width < 1 || height < 1)
+    fail(path, "picture", "", "has no size");
+
+  if (format == Format::kPng) {
+    const double scale = width <= kPngSharpWidth ? 2 : 1;
+    const Surface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(width * scale),
+                                                     static_cast<int>(height * scale)));
+    const Cairo cairo(cairo_create(surface.get()));
+    cairo_set_source_rgb(cairo.get(), 1, 1, 1);
+    cairo_paint(cairo.get());
+    cairo_scale(cairo.get(), scale, scale);
+    const RsvgRectangle viewport{0, 0, width, height};
+    if (rsvg_handle_render_document(handle.get(), cairo.get(), &viewport, &error) == 0)
+      fail(path, "picture", "", "could not be drawn: " + take(error));
+    if (const cairo_status_t status = cairo_surface_write_to_png(surface.get(), path.c_str());
+        status != CAIRO_STATUS_SUCCESS)
+      fail_to_write(path, cairo_status_to_string(status));
+    return;
+  }
+  const Surface surface(cairo_pdf_surface_create(path.c_str(), width * kPointsPerPixel, height * kPointsPerPixel));
+  if (const cairo_status_t status = cairo_surface_status(surface.get()); status != CAIRO_STATUS_SUCCESS)
+    fail_to_write(path, cairo_status_to_string(status));
+  // cairo would write today's date: a fixed one keeps equal pictures equal bytes.
+  cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE, "2000-01-01T00:00:00Z");
+  draw(handle.get(), surface.get(), kPointsPerPixel, width, height, path);
+}
+
+}  // namespace ttf::report

@@ -1,0 +1,282 @@
+#include "report/experiment/report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "core/counted.h"
+#include "report/experiment/plots.h"
+#include "report/drawing/figures.h"
+#include "report/page/page.h"
+
+namespace ttf::report {
+namespace {
+
+constexpr std::size_t kMostFailures = 50;
+
+// The first measure's paired difference of two paradigms at a point, by the runs themselves.
+results::Interval paired(const std::vector<results::Run>& runs, std::size_t column, std::size_t paradigm,
+                         std::size_t against, double confidence) {
+  std::map<std::uint32_t, std::pair<std::optional<double>, std::optional<double>>> by_replication;
+  for (const results::Run& run : runs) {
+    if (run.status != results::kDone) continue;
+    if (run.key.paradigm == paradigm) by_replication[run.key.replication].first = run.values[column];
+    if (run.key.paradigm == against) by_replication[run.key.replication].second = run.values[column];
+  }
+  results::Moments moments;
+  for (const auto& [replication, both] : by_replication)
+    if (both.first && both.second) moments.add(*both.first - *both.second);
+  return interval_of(moments, confidence);
+}
+
+// Of the first measure at a point; nothing where nobody has a figure.
+struct Least {
+  std::size_t paradigm = 0;
+  bool certain = false;
+};
+std::optional<Least> least_at(const ExperimentFolder& folder, const ExperimentPoint& point) {
+  std::optional<Least> least;
+  for (std::size_t p = 0; p < folder.paradigms.size(); ++p) {
+    const double mean = point.estimates[p][0].mean.mean;
+    if (std::isfinite(mean) && (!least || mean < point.estimates[least->paradigm][0].mean.mean))
+      least = Least{p, false};
+  }
+  if (!least || !folder.store || folder.paradigms.size() == 1) return least;
+  const auto& columns = folder.store->head().measures;
+  const auto column = static_cast<std::size_t>(std::ranges::find(columns, folder.measures[0].name) - columns.begin());
+  const std::vector<results::Run> runs = folder.store->of_point(point.point);
+  least->certain = true;
+  for (std::size_t p = 0; p < folder.paradigms.size(); ++p)
+    if (p != least->paradigm)
+      least->certain = least->certain && paired(runs, column, least->paradigm, p, folder.confidence).below(0.0);
+  return least;
+}
+
+// Begun with the axes' names, or their values at a point.
+std::vector<std::string> axes_of(const ExperimentFolder& folder) {
+  return folder.axes.empty() ? std::vector<std::string>{"point"} : folder.axes;
+}
+std::vector<std::string> settings_of(const ExperimentPoint& point) {
+  return point.settings.empty() ? std::vector<std::string>{std::to_string(point.point)} : point.settings;
+}
+
+PageTable means_table(const ExperimentFolder& folder, std::size_t m) {
+  const ExperimentMeasure& measure = folder.measures[m];
+  PageTable table{fmt::format("{}{}; mean of the replications, {:g} % intervals", measure.with_unit(),
+                              measure.meaning.empty() ? "" : ": " + measure.meaning, 100.0 * folder.confidence),
+                  axes_of(folder),
+                  {}};
+  table.header.push_back("runs");
+  for (const std::string& paradigm : folder.paradigms) table.header.push_back(paradigm);
+  for (const ExperimentPoint& point : folder.points) {
+    std::vector<std::string> row = settings_of(point);
+    std::uint64_t runs = 0;
+    for (const auto& estimates : point.estimates) runs = std::max(runs, estimates[m].mean.count);
+    row.push_back(std::to_string(runs));
+    for (const auto& estimates : point.estimates)
+      row.push_back(with_interval(estimates[m].mean.mean, estimates[m].mean.half_width));
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+PageTable differences_table(const ExperimentFolder& folder, std::size_t m) {
+  PageTable table{fmt::format("{} less that of {}, paired by replication: whether it is less or more for certain",
+                              folder.measures[m].with_unit(), folder.baseline),
+                  axes_of(folder),
+                  {}};
+  for (const std::string& paradigm : folder.paradigms)
+    if (paradigm != folder.baseline) table.header.push_back(fmt::format("{} − {}", paradigm, folder.baseline));
+  for (const ExperimentPoint& point : folder.points) {
+    std::vector<std::string> row = settings_of(point);
+    for (std::size_t p = 0; p < folder.paradigms.size(); ++p) {
+      if (folder.paradigms[p] == folder.baseline) continue;
+      const auto& difference = point.estimates[p][m].difference;
+      row.push_back(difference ? fmt::format("{} {}", with_interval(difference->mean, difference->half_width, true),
+                                             verdict(difference->mean, difference->half_width))
+                               : "-");
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+std::vector<std::string> sentences(const ExperimentFolder& folder) {
+  std::vector<std::string> all;
+  for (std::size_t at = 0; at < folder.answer.size();) {
+    const std::size_t end = std::min(folder.answer.find('\n', at), folder.answer.size());
+    if (end > at) all.push_back(folder.answer.substr(at, end - at));
+    at = end + 1;
+  }
+  bool certain = false;
+  for (const ExperimentCrossing& crossing : folder.crossings) {
+    certain = certain || crossing.certain;
+    if (!crossing.certain)
+      all.push_back(fmt::format("{} and {} may cross at {} {}{}: that is not certain.", crossing.paradigm,
+                                folder.baseline, crossing.axis, brief(crossing.at),
+                                crossing.others.empty() ? "" : ", with " + crossing.others));
+  }
+  if (!certain && !folder.axes.empty() && folder.paradigms.size() > 1)
+    all.push_back("Along no axis a paradigm crosses " + folder.baseline + " for certain.");
+  for (const ExperimentExpectation& one : folder.expectations)
+    all.push_back(fmt::format("Expected: {}. It {}{}.", one.expected, one.holds ? "holds" : "does not hold for certain",
+                              one.holds || one.where_not.empty() ? "" : " at " + joined(one.where_not)));
+  if (folder.failed > 0) all.push_back(counted(folder.failed, "run") + " failed; they are below.");
+  return all;
+}
+
+void failures(Page& page, const ExperimentFolder& folder) {
+  if (!folder.store || folder.failed == 0) return;
+  PageTable table{
+      "Each is driven again, alone, by `ttfusion experiment FILE --replay` with what stands in the first column",
+      {"point/paradigm/replication", "what went wrong"},
+      {}};
+  std::uint64_t more = 0;
+  folder.store->for_each([&](const results::Run& run) {
+    if (run.status == results::kDone) return;
+    if (table.rows.size() >= kMostFailures) {
+      ++more;
+      return;
+    }
+    const std::string paradigm = run.key.paradigm < folder.paradigms.size() ? folder.paradigms[run.key.paradigm]
+                                                                            : std::to_string(run.key.paradigm);
+    table.rows.push_back({fmt::format("{}/{}/{}", run.key.point, paradigm, run.key.replication), run.status});
+  });
+  page.section("Runs that failed");
+  page.table(table);
+  if (more > 0) page.paragraph(fmt::format("And {} more, in runs.csv.", more));
+}
+
+void how_made(Page& page, const ExperimentFolder& folder) {
+  page.section("How it was made");
+  const std::string file = shell_word(folder.file.empty() ? "experiments/" + folder.name + ".yaml" : folder.file);
+  if (!folder.store) {
+    page.paragraph("There is no results.sqlite: what the runs are of is not known.");
+    return;
+  }
+  const results::StoreHead& head = folder.store->head();
+  page.facts({{"version", head.version},
+              {"identity of all inputs", head.identity},
+              {"seed", std::to_string(folder.seed)},
+              {"rows in results.sqlite", std::to_string(folder.store->count())}});
+  page.paragraph(
+      std::string("The whole of it again, and one run with its log and a report of its own. The experiment's "
+                  "file is below") +
+      (folder.file.empty() ? "; it may be in another folder than experiments/:" : ":"));
+  page.command(
+      fmt::format("ttfusion experiment {0} --out again\nttfusion experiment {0} --replay {1} --out one\n"
+                  "ttfusion report one -o one.html\n",
+                  file, shell_word(fmt::format("0/{}/0", folder.paradigms.front()))));
+  page.preformatted("The experiment's file", head.text);
+}
+
+// The sections of a run's page, of one run of every paradigm.
+void one_of_each(Page& page, const ExperimentFolder& folder, const ExperimentDrives& drives,
+                 const DiagramWindow& window) {
+  if (drives.drives.empty() && drives.why_none.empty()) return;
+  page.section("One drive of each paradigm");
+  if (drives.drives.empty()) {
+    page.paragraph(drives.why_none);
+    return;
+  }
+  const auto point = std::ranges::find(folder.points, drives.point, &ExperimentPoint::point);
+  std::vector<std::string> settings;
+  for (std::size_t a = 0; point != folder.points.end() && a < folder.axes.size(); ++a)
+    settings.push_back(folder.axes[a] + " " + point->settings[a]);
+  page.paragraph(fmt::format(
+      "The runs of point {}{}, replication {}, driven again for their logs: they came to the very figures in "
+      "results.sqlite. All paradigms had the same draws; it is one replication of many, and nothing is certain by it.",
+      drives.point, settings.empty() ? "" : " (" + joined(settings) + ")", drives.replication));
+  std::vector<ToldDrive> all;
+  for (const Drive& drive : drives.drives) all.push_back(told_of(drive));
+  errors_section(page, all);
+  timing_section(page, all, window);
+  time_base_section(page, all, window.most);
+  troubles_section(page, all);
+}
+
+}  // namespace
+
+std::string experiment_answer(const ExperimentFolder& folder) {
+  std::vector<std::size_t> least(folder.paradigms.size()), certain(folder.paradigms.size());
+  for (const ExperimentPoint& point : folder.points)
+    if (const auto one = least_at(folder, point)) {
+      ++least[one->paradigm];
+      certain[one->paradigm] += one->certain;
+    }
+  std::vector<std::size_t> order;
+  for (std::size_t p = 0; p < folder.paradigms.size(); ++p)
+    if (least[p] > 0) order.push_back(p);
+  std::ranges::stable_sort(order, std::ranges::greater{}, [&](std::size_t p) { return least[p]; });
+  if (order.empty()) return fmt::format("Nobody has a figure of {}.", folder.measures[0].name);
+  const bool alone = folder.paradigms.size() == 1;
+  std::string text;
+  for (const std::size_t p : order) {
+    if (alone) {
+      text = fmt::format("There is nobody to compare {} of {} with", folder.measures[0].name, folder.paradigms[p]);
+      break;
+    }
+    const std::string points = folder.points.size() == 1 ? ""
+                               : least[p] == folder.points.size()
+                                   ? fmt::format(" at all {} points", folder.points.size())
+                                   : fmt::format(" at {} of {} points", least[p], folder.points.size());
+    const std::string sure = !folder.store            ? ""
+                             : certain[p] == least[p] ? ", for certain"
+                             : certain[p] == 0        ? ", not for certain"
+                                                      : fmt::format(", for certain at {}", certain[p]);
+    text += text.empty()
+                ? fmt::format("{} has the smallest {}{}{}", folder.paradigms[p], folder.measures[0].name, points, sure)
+                : fmt::format("; {}{}{}", folder.paradigms[p], points, sure);
+  }
+  if (folder.points.size() == 1) {
+    const results::Interval& mean = folder.points[0].estimates[order[0]][0].mean;
+    text += fmt::format("{}{}{}", alone ? "; it is " : ": ", with_interval(mean.mean, mean.half_width),
+                        folder.measures[0].unit.empty() ? "" : " " + folder.measures[0].unit);
+  }
+  return text + ".";
+}
+
+std::string experiment_report_html(const ExperimentFolder& folder, const ExperimentDrives& drives,
+                                   const DiagramWindow& window) {
+  Page page(folder.name, "Report of an experiment");
+  page.section("What was asked");
+  page.lead(folder.question);
+  std::vector<std::string> axes;
+  for (std::size_t a = 0; a < folder.axes.size(); ++a)
+    axes.push_back(fmt::format("{} ({} to {})", folder.axes[a], folder.points.front().settings[a],
+                               folder.points.back().settings[a]));
+  page.facts({{"paradigms", joined(folder.paradigms)},
+              {"baseline", folder.baseline},
+              {"axes", axes.empty() ? "none" : joined(axes)},
+              {"points", std::to_string(folder.points.size())},
+              {"runs", fmt::format("{}, of which {} failed", folder.runs, folder.failed)},
+              {"measure that is asked for", folder.measures[0].with_unit()}});
+  page.section("What came out");
+  page.lead(experiment_answer(folder));
+  page.points(sentences(folder));
+  page.table(means_table(folder, 0));
+  if (folder.paradigms.size() > 1) page.table(differences_table(folder, 0));
+  page.section("Over the axes");
+  page.plot(means_plot(folder));
+  page.plot(differences_plot(folder));
+  if (folder.store) {
+    page.section("Run by run");
+    page.plot(replications_plot(folder));
+  }
+  page.section("All measures");
+  for (std::size_t m = 1; m < folder.measures.size(); ++m) {
+    page.open_details(folder.measures[m].with_unit());
+    page.table(means_table(folder, m));
+    if (folder.paradigms.size() > 1) page.table(differences_table(folder, m));
+    page.close_details();
+  }
+  one_of_each(page, folder, drives, window);
+  failures(page, folder);
+  how_made(page, folder);
+  return page.html();
+}
+
+}  // namespace ttf::report

@@ -1,0 +1,191 @@
+#include "report/paper/run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <string_view>
+
+namespace ttf::report {
+namespace {
+
+// One curve after the other, as a plot command has them.
+class Curves {
+ public:
+  void add(const std::string& curve) { text_ += (text_.empty() ? "plot " : ", \\\n  ") + curve; }
+  bool empty() const { return text_.empty(); }
+  // Nothing there is an empty panel.
+  std::string command() const {
+    return (text_.empty() ? "plot 0 with lines linecolor rgb \"#ffffff\" notitle" : text_) + "\n";
+  }
+
+ private:
+  std::string text_;
+};
+
+bool is_sensor(std::string_view kind) { return kind != "truth" && kind != "reference" && kind != "image"; }
+
+std::string table_of(const PaperRun& run, const char* what) {
+  return gnuplot_text(run.label + "_" + what + ".csv") + " skip 1";
+}
+
+std::string labels(const std::string& title, const std::string& x, const std::string& y) {
+  return fmt::format("set title {}\nset xlabel {}\nset ylabel {}\n", gnuplot_text(title), gnuplot_text(x),
+                     gnuplot_text(y));
+}
+
+std::string style_of(const std::string& kind, std::size_t nth_sensor) {
+  if (kind == "truth") return "with lines linecolor rgb \"#888888\" linewidth 1.5";
+  if (kind == "reference") return "with points pointtype 6 pointsize 0.5 linecolor rgb \"#000000\"";
+  if (kind == "image") return "with points pointtype 5 pointsize 0.35 linecolor rgb \"#0072b2\"";
+  constexpr std::pair<int, const char*> kLooks[] = {{2, "#d55e00"}, {8, "#009e73"}, {12, "#cc79a7"}, {1, "#e69f00"}};
+  const auto& [point, colour] = kLooks[nth_sensor % std::size(kLooks)];
+  return fmt::format("with points pointtype {} pointsize 0.4 linecolor rgb \"{}\"", point, colour);
+}
+
+// `x`, `y`: columns of the table; 2 time, 3 and 4 the plane.
+std::string positions_panel(const PaperRun& run, const std::string& title, int x, int y) {
+  constexpr const char* kAxes[] = {"", "", "time [s]", "x [m]", "y [m]"};
+  Curves curves;
+  std::size_t sensors = 0;
+  for (const std::string& kind : run.kinds) {
+    const std::string style = style_of(kind, is_sensor(kind) ? sensors++ : 0);
+    curves.add(fmt::format("{} using (strcol(1) eq {} ? ${} : NaN):{} {} title {}", table_of(run, "positions"),
+                           gnuplot_text(kind), x, y, style, gnuplot_text(kind)));
+  }
+  return labels(title, kAxes[x], kAxes[y]) + curves.command();
+}
+
+PaperFile positions(const PaperRun& run) {
+  GnuplotFigure figure;
+  figure.name = run.label + "_positions";
+  figure.about = {run.title + ": the tracked car as sensors, fusion and reference had it",
+                  "axes follow ISO 8855: x forward, y left; from " + run.label + "_positions.csv"};
+  figure.columns = 1;
+  figure.panel_width_cm = 17;
+  figure.panels = {positions_panel(run, run.title, 2, 3), positions_panel(run, "", 2, 4),
+                   positions_panel(run, "", 3, 4)};
+  return gnuplot_script(figure);
+}
+
+// An error with the band that the filter believed it to be in: two standard deviations.
+std::string error_panel(const PaperRun& run, const std::string& axis, int error, int sigma) {
+  const std::string of_object = fmt::format("$2=={}", run.object), table = table_of(run, "errors");
+  Curves curves;
+  if (run.errors && run.sigmas)
+    curves.add(
+        fmt::format("{0} using ({1} && valid({2}) ? $1 : NaN):(-2*${2}):(2*${2}) with filledcurves linecolor rgb "
+                    "\"#cfe3f2\" title \"±2σ of the filter\"",
+                    table, of_object, sigma));
+  if (run.errors)
+    curves.add(
+        fmt::format("{} using ({} ? $1 : NaN):{} with linespoints pointtype 7 pointsize 0.2 linecolor rgb \"#0072b2\" "
+                    "title \"error\"",
+                    table, of_object, error));
+  curves.add("0 with lines linecolor rgb \"#888888\" notitle");
+  return labels(run.title, "time [s]", axis) + curves.command();
+}
+
+// Of one instant gnuplot finds no range to draw, and complains. Whoever follows has its own.
+std::string range_of_errors(const PaperRun& run, bool any_of_one) {
+  if (!any_of_one) return "";
+  if (!run.errors || run.first_error_s < run.last_error_s) return "set xrange [*:*]\n";
+  return fmt::format("set xrange [{}:{}]\n", run.first_error_s - 0.5, run.first_error_s + 0.5);
+}
+
+PaperFile errors(const std::vector<PaperRun>& runs) {
+  const bool any_of_one = std::any_of(runs.begin(), runs.end(), [](const PaperRun& run) {
+    return run.errors && run.first_error_s == run.last_error_s;
+  });
+  GnuplotFigure figure;
+  figure.name = "errors";
+  figure.about = {"error of the image of the tracked car when it was used, against the truth, and ±2σ of the filter",
+                  "from <run>_errors.csv"};
+  figure.columns = 2;
+  for (const PaperRun& run : runs) {
+    const std::string range = range_of_errors(run, any_of_one);
+    figure.panels.push_back(range + error_panel(run, "x error [m]", 3, 7));
+    figure.panels.push_back(range + error_panel(run, "y error [m]", 4, 8));
+  }
+  return gnuplot_script(figure);
+}
+
+PaperFile nees(const std::vector<PaperRun>& runs) {
+  GnuplotFigure figure;
+  figure.name = "nees";
+  figure.about = {
+      "normalised estimation error squared of (x, y, vx, vy) over all objects, averaged over windows: 4 where the",
+      "filter knows how wrong it is. Grey is where 95 % of such averages lie around 4, if samples were",
+      "independent; they are not quite, so that more lie outside. From <run>_nees.csv"};
+  figure.settings = "set yrange [0:*]\nset autoscale xfix\n";
+  for (const PaperRun& run : runs) {
+    Curves curves;
+    if (run.nees) {
+      const std::string table = table_of(run, "nees");
+      curves.add(
+          fmt::format("{} using (($1+$2)/2):(4):1:2:5:6 with boxxyerror fillstyle solid noborder linecolor rgb "
+                      "\"#dddddd\" title \"95 % if consistent\", 4 with lines linecolor rgb \"#888888\" notitle",
+                      table));
+      curves.add(fmt::format(
+          "{} using (($1+$2)/2):4 with linespoints pointtype 7 pointsize 0.4 linecolor rgb \"#d55e00\" title "
+          "\"mean\"",
+          table));
+    }
+    figure.panels.push_back(labels(run.title, "time [s]", "NEES, 4 degrees of freedom") + curves.command());
+  }
+  figure.panel_width_cm = 17;
+  return gnuplot_script(figure);
+}
+
+std::string ages_panel(const PaperRun& run, const char* of, const std::string& axis, const char* counted) {
+  Curves curves;
+  std::size_t nth = 0;
+  for (const auto& [what, sensor] : run.ages) {
+    if (what != of) continue;
+    curves.add(fmt::format(
+        "{} using (strcol(1) eq \"{}\" && strcol(2) eq {} ? ($3+$4)/2 : NaN):5:($4-$3) with boxes title {}{}",
+        table_of(run, "ages"), of, gnuplot_text(sensor), gnuplot_text(sensor), gnuplot_colour(++nth)));
+  }
+  return labels(run.title, axis, counted) + curves.command();
+}
+
+PaperFile ages(const std::vector<PaperRun>& runs) {
+  GnuplotFigure figure;
+  figure.name = "ages";
+  figure.about = {
+      "how old measurements were when they were fused, and the newest of each sensor when an image was used",
+      "from <run>_ages.csv"};
+  figure.columns = 2;
+  double least = 0.0, most = 0.0;
+  for (const PaperRun& run : runs) least = std::min(least, run.least_age_ms), most = std::max(most, run.most_age_ms);
+  figure.settings = fmt::format(
+      "set style fill transparent solid 0.5 noborder\nset yrange [0:*]\nset offsets 0,0,graph 0.05,0\n"
+      "set xrange [{}:{}]\n",
+      least, 1.03 * most);
+  for (const PaperRun& run : runs) {
+    figure.panels.push_back(ages_panel(run, "fused", "age when fused [ms]", "measurements"));
+    figure.panels.push_back(ages_panel(run, "used", "age when used [ms]", "uses of an image"));
+  }
+  return gnuplot_script(figure);
+}
+
+}  // namespace
+
+std::string sensor_kind(const std::string& name) {
+  std::string_view last = name;  // and `sensor truth` itself is `sensor sensor truth`
+  while (last.starts_with("sensor ")) last.remove_prefix(std::string_view("sensor ").size());
+  return is_sensor(last) ? name : "sensor " + name;
+}
+
+std::vector<PaperFile> scripts_of_runs(const std::vector<PaperRun>& runs) {
+  std::vector<PaperFile> files;
+  for (const PaperRun& run : runs)
+    if (!run.kinds.empty()) files.push_back(positions(run));
+  const auto any = [&](auto has) { return std::any_of(runs.begin(), runs.end(), has); };
+  if (any([](const PaperRun& run) { return run.errors; })) files.push_back(errors(runs));
+  if (any([](const PaperRun& run) { return run.nees; })) files.push_back(nees(runs));
+  if (any([](const PaperRun& run) { return !run.ages.empty(); })) files.push_back(ages(runs));
+  return files;
+}
+
+}  // namespace ttf::report

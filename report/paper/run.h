@@ -1,0 +1,41 @@
+// A run's, or several runs', scripts for a paper: positions, errors with what the filter believed of them, consistency
+// and ages, from the tables of whoever exports them.
+//
+//   <run>_positions.csv   kind,time_s,x_m,y_m                 kinds: truth, reference, image, and a sensor's (below)
+//   <run>_errors.csv      time_s,object,x_error_m,y_error_m,vx_error_mps,vy_error_mps,x_sigma_m,...,nees
+//   <run>_nees.csv        from_s,to_s,samples,mean,low_95,high_95
+//   <run>_ages.csv        of,sensor,from_ms,to_ms,count       of: fused, used
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "report/paper/gnuplot.h"
+
+namespace ttf::report {
+
+inline constexpr const char kPositionsHead[] = "kind,time_s,x_m,y_m\n";
+inline constexpr const char kErrorsHead[] =
+    "time_s,object,x_error_m,y_error_m,vx_error_mps,vy_error_mps,x_sigma_m,y_sigma_m,vx_sigma_mps,vy_sigma_mps,nees\n";
+inline constexpr const char kNeesHead[] = "from_s,to_s,samples,mean,low_95,high_95\n";
+inline constexpr const char kAgesHead[] = "of,sensor,from_ms,to_ms,count\n";
+
+// A sensor's name, or `sensor truth` where it would be another kind.
+std::string sensor_kind(const std::string& name);
+
+// What a run's tables have. Nothing is drawn of what they have not.
+struct PaperRun {
+  std::string label;  // of its files
+  std::string title;
+  std::vector<std::string> kinds;                         // of positions
+  int object = 0;                                         // whose errors are drawn
+  bool errors = false, sigmas = false, nees = false;      // of that object; of all
+  double first_error_s = 0, last_error_s = 0;             // of that object
+  std::vector<std::pair<std::string, std::string>> ages;  // (of, sensor)
+  double least_age_ms = 0, most_age_ms = 0;               // 0 among them
+};
+
+std::vector<PaperFile> scripts_of_runs(const std::vector<PaperRun>& runs);
+
+}  // namespace ttf::report

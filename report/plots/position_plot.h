@@ -1,0 +1,118 @@
+// The paper's figures 5 to 8 from the records of a drive: the reference object's x and y over time and y over
+// x, with DGPS fixes (circles), laser (crosses), camera (triangles) and radar (diamonds) observations, the
+// fused real-time image (squares; grey where nobody used it), the truth (thin line), numbered fusion instants (boxed),
+// and arrows from each laser measurement to the fusion instant that integrated it.
+//
+// Axes follow ISO 8855 (x forward, y left, metres) and the pictures say so. Times are true times in seconds;
+// an instant known in global time is moved by the difference its record's stamp shows.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "recording/records/records.h"
+#include "report/drawing/names.h"
+
+namespace ttf::report {
+
+struct PositionOptions {
+  std::string title{};
+  std::optional<TrueTime> from{}, to{};  // the whole drive if absent
+  // The object shown: of each list the observation, and of each image the object, nearest to the truth (or,
+  // without truth, the reference) of this object at that time, and no farther away than the gate. Without
+  // truth and reference everything is shown.
+  ObjectId object{0};
+  double gate_m = 6.0;
+};
+
+enum class PositionView : std::uint8_t { kXOverTime, kYOverTime, kPlane };
+
+class PositionPlots : public records::Sink {
+ public:
+  PositionPlots(Names names, PositionOptions options);
+
+  using Sink::on;  // the kinds of record that are not shown
+  void on(const records::ObservationSeen& r) override;
+  void on(const records::ListFused& r) override;
+  void on(const records::FusionStep& r) override;
+  void on(const records::TrackState& r) override;
+  void on(const records::ImageWritten& r) override;
+  void on(const records::FeatureUsed& r) override;
+  void on(const records::ReferenceFix& r) override;
+  void on(const records::TruthState& r) override;
+
+  std::string over_time_svg() const;  // x above y over a common time axis
+  std::string plane_svg() const;      // y over x
+
+  // What a panel shows, selected and in the window. Also for tests and tables.
+  struct Sample {
+    double t = 0, x = 0, y = 0;  // s, m, m
+    MeasurementId id{};          // of an observation
+  };
+  struct Integration {  // a measurement and the fusion instant that integrated it
+    Sample measured, fused;
+    bool late = false;  // out of sequence
+  };
+  struct Instant {  // a fusion step that fused something
+    std::uint32_t step = 0;
+    Sample at;
+    bool laser = false;  // among the fused: a laser measurement
+  };
+  struct Selection {
+    std::vector<Sample> truth, reference;
+    std::vector<Sample> fusion;                     // of images that were used, at the instant they were predicted to
+    std::vector<Sample> unused;                     // of those that nobody used, or that were refused as too old
+    std::vector<std::vector<Sample>> observations;  // per sensor
+    std::vector<Integration> laser_arrows;
+    std::vector<Instant> instants;
+    bool empty() const;
+  };
+  Selection select() const;
+  const Names& names() const { return names_; }
+  const PositionOptions& options() const { return options_; }
+
+ private:
+  struct Step {
+    std::uint32_t step;
+    double t;
+  };
+  struct FusedList {
+    std::uint32_t step;
+    MeasurementId id;
+    bool late;
+    double measured;
+  };
+  struct Image {
+    std::uint32_t sequence;
+    double written;  // s
+    std::vector<Sample> objects;
+  };
+  struct Use {
+    std::uint32_t image;
+    double t;  // s
+  };
+  bool is_used(const Image& image) const;
+  struct Positioned {
+    Sample sample;
+    std::uint32_t step;
+  };
+
+  Names names_;
+  PositionOptions options_;
+  std::vector<Sample> truth_, fixes_, observations_;  // truth and fixes of the chosen object
+  std::vector<Image> images_;
+  std::vector<Use> uses_;
+  std::vector<Positioned> tracks_;
+  std::vector<Step> steps_;
+  std::vector<FusedList> fused_;
+};
+
+// One view of several drives as panels side by side over the same axes. `titles` has one entry per panel.
+std::string comparison_svg(std::span<const PositionPlots* const> plots, std::span<const std::string> titles,
+                           PositionView view = PositionView::kPlane, std::string_view title = {});
+
+}  // namespace ttf::report

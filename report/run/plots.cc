@@ -1,0 +1,175 @@
+#include "report/run/plots.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "report/drawing/axes.h"
+
+namespace ttf::report {
+namespace {
+
+constexpr std::size_t kMostPoints = 3000;  // of a curve; of a longer one the largest of neighbours
+constexpr int kBins = 40;
+constexpr std::string_view kTimeAxis = "true time [s]";
+
+using Series = std::vector<TimedValue> RunSeries::*;
+
+std::vector<Curve> curves_of(const std::vector<ToldDrive>& drives, Series series) {
+  std::vector<Curve> curves;
+  for (std::size_t d = 0; d < drives.size(); ++d) {
+    Curve curve{drives[d].drive->label, static_cast<int>(d), {}, {}, {}, {}};
+    for (const TimedValue& one : thinned(drives[d].series.*series, kMostPoints)) {
+      curve.x.push_back(one.t_s);
+      curve.y.push_back(one.value);
+    }
+    if (!curve.x.empty()) curves.push_back(std::move(curve));
+  }
+  return curves;
+}
+
+void add_view(Plot& plot, std::string label, std::string y, std::vector<Curve> curves) {
+  if (!curves.empty()) plot.views.push_back({std::move(label), std::move(y), std::move(curves)});
+}
+
+std::string sensor_name(const std::vector<ToldDrive>& drives, SensorId sensor) {
+  for (const ToldDrive& told : drives)
+    if (told.drive->log && index_of(sensor) < told.drive->log->manifest().sensor_names.size())
+      return told.drive->log->manifest().sensor_names[index_of(sensor)];
+  return "sensor " + std::to_string(index_of(sensor));
+}
+
+using Ages = std::map<SensorId, std::vector<double>> RunSeries::*;
+
+// Of all sensors together, and of each where there are several.
+void add_age_views(Plot& plot, const std::vector<ToldDrive>& drives, Ages ages, const std::string& when) {
+  std::set<SensorId> sensors;
+  std::vector<NamedValues> all;
+  for (std::size_t d = 0; d < drives.size(); ++d) {
+    NamedValues& one = all.emplace_back(NamedValues{drives[d].drive->label, static_cast<int>(d), {}});
+    for (const auto& [sensor, values] : drives[d].series.*ages) {
+      sensors.insert(sensor);
+      one.values.insert(one.values.end(), values.begin(), values.end());
+    }
+  }
+  add_view(plot, "age when " + when + ", all sensors", "share [%]", histogram(all, kBins));
+  for (const SensorId sensor : sensors) {
+    if (sensors.size() < 2) break;
+    std::vector<NamedValues> of_one;
+    for (std::size_t d = 0; d < drives.size(); ++d)
+      if (const auto found = (drives[d].series.*ages).find(sensor); found != (drives[d].series.*ages).end())
+        of_one.push_back({drives[d].drive->label, static_cast<int>(d), found->second});
+    add_view(plot, "age when " + when + ", " + sensor_name(drives, sensor), "share [%]", histogram(of_one, kBins));
+  }
+}
+
+}  // namespace
+
+std::vector<Curve> histogram(const std::vector<NamedValues>& all, int bins) {
+  Extent extent;
+  for (const NamedValues& one : all)
+    for (const double value : one.values) extent.add(value);
+  if (extent.empty()) return {};
+  const double step = nice_ticks(extent.padded(0.0, 1e-9 + 1e-6 * std::abs(extent.high)), bins).step;
+  const double first = std::floor(extent.low / step) * step;
+  // A damaged log may hold values that are far from all others, even so far that their distance is infinite.
+  const double wanted = std::floor((extent.high - first) / step) + 1.0;
+  const std::size_t count = wanted >= 1.0 && wanted < 1000.0 ? static_cast<std::size_t>(wanted) : 1000;
+  const auto bin_of = [&](double value) {
+    const double bin = (value - first) / step;
+    return bin > 0.0 ? static_cast<std::size_t>(std::min(bin, static_cast<double>(count - 1))) : 0;
+  };
+  std::vector<Curve> curves;
+  for (const NamedValues& one : all) {
+    std::vector<double> shares(count, 0.0);
+    double finite = 0.0;
+    for (const double value : one.values) {
+      if (!std::isfinite(value)) continue;
+      ++finite;
+      shares[bin_of(value)] += 1.0;
+    }
+    if (finite == 0.0) continue;
+    Curve curve{one.label, one.colour, {}, {}, {}, {}};
+    for (std::size_t b = 0; b <= count; ++b) {
+      curve.x.push_back(first + static_cast<double>(b) * step);
+      curve.y.push_back(b < count ? 100.0 * shares[b] / finite : 0.0);
+    }
+    curves.push_back(std::move(curve));
+  }
+  return curves;
+}
+
+Plot error_plot(const std::vector<ToldDrive>& drives) {
+  Plot plot{"Error over time",
+            "At each use of an image, against the truth: the root mean square over the objects that were matched.",
+            std::string(kTimeAxis),
+            Plot::Kind::kLines,
+            false,
+            false,
+            {}};
+  add_view(plot, "position", "position error [m]", curves_of(drives, &RunSeries::position_error));
+  add_view(plot, "velocity", "velocity error [m/s]", curves_of(drives, &RunSeries::velocity_error));
+  return plot;
+}
+
+Plot age_plot(const std::vector<ToldDrive>& drives) {
+  Plot plot{"Age over time",
+            "Of the newest measurement of each sensor in an image, at the instant the image is used.",
+            std::string(kTimeAxis),
+            Plot::Kind::kLines,
+            false,
+            false,
+            {}};
+  add_view(plot, "newest of the sensors", "age [ms]", curves_of(drives, &RunSeries::newest_age));
+  add_view(plot, "oldest of the sensors", "age [ms]", curves_of(drives, &RunSeries::oldest_age));
+  return plot;
+}
+
+Plot age_histogram(const std::vector<ToldDrive>& drives) {
+  Plot plot{"How old measurements are",
+            "Latency from the instant of measuring, as shares of all.",
+            "age [ms]",
+            Plot::Kind::kSteps,
+            false,
+            false,
+            {}};
+  add_age_views(plot, drives, &RunSeries::age_used, "used");
+  add_age_views(plot, drives, &RunSeries::age_fused, "fused");
+  return plot;
+}
+
+Plot precision_plot(const std::vector<ToldDrive>& drives) {
+  Plot plot{"Precision",
+            "Largest difference between any two nodes' global times, double cycle by double cycle.",
+            std::string(kTimeAxis),
+            Plot::Kind::kLines,
+            false,
+            false,
+            {}};
+  add_view(plot, "precision", "clocks apart [us]", curves_of(drives, &RunSeries::precision));
+  return plot;
+}
+
+Plot corrections_plot(const ToldDrive& told, const Names& names) {
+  Plot plot{told.drive->label + ": offset corrections",
+            "What each node corrects its clock by in a double cycle.",
+            std::string(kTimeAxis),
+            Plot::Kind::kLines,
+            false,
+            true,
+            {}};
+  std::vector<Curve> curves;
+  int colour = 0;
+  for (const auto& [node, values] : told.series.offset_corrections) {
+    Curve curve{names.node(node), colour++, {}, {}, {}, {}};
+    for (const TimedValue& one : thinned(values, kMostPoints)) {
+      curve.x.push_back(one.t_s);
+      curve.y.push_back(one.value);
+    }
+    curves.push_back(std::move(curve));
+  }
+  add_view(plot, "offset", "correction [microticks]", std::move(curves));
+  return plot;
+}
+
+}  // namespace ttf::report

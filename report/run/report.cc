@@ -1,0 +1,172 @@
+#include "report/run/report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include "core/counted.h"
+#include "recording/exports/lateness_sums.h"
+#include "recording/records/tee.h"
+#include "report/plots/lateness_picture.h"
+#include "report/page/page.h"
+#include "report/plots/position_plot.h"
+#include "report/run/tables.h"
+#include "report/run/scenario_words.h"
+#include "report/startup/diagram.h"
+
+namespace ttf::report {
+namespace {
+
+constexpr std::size_t kMostPictures = 6;  // drives
+
+// Its labels are words that tell the drives apart: strategies, or folders with them.
+void label_drives(std::vector<RunFolder>& folders) {
+  std::map<std::string, int> known;
+  for (RunFolder& folder : folders) {
+    std::filesystem::path path = std::filesystem::path(folder.path).lexically_normal();
+    if (!path.has_filename()) path = path.parent_path();
+    for (Drive& drive : folder.drives) {
+      drive.label = folders.size() == 1 ? drive.strategy : path.filename().string() + " " + drive.strategy;
+      if (const int before = known[drive.label]++; before > 0) drive.label += fmt::format(" ({})", before + 1);
+    }
+  }
+}
+
+void asked(Page& page, const std::vector<RunFolder>& folders, const std::vector<ToldDrive>& drives) {
+  page.section("What was asked");
+  std::set<std::string> described;
+  for (const ToldDrive& told : drives)
+    if (told.drive->log)
+      if (const ScenarioWords words = scenario_in(*told.drive->log);
+          !words.description.empty() && described.insert(words.description).second)
+        page.paragraph(words.description);
+  for (const RunFolder& folder : folders) {
+    const Drive& first = folder.drives.front();
+    std::vector<std::string> strategies;
+    for (const Drive& drive : folder.drives) strategies.push_back(drive.strategy);
+    std::vector<std::pair<std::string, std::string>> facts{{"folder", folder.path},
+                                                           {"scenario", first.scenario},
+                                                           {"seed", std::to_string(first.seed)},
+                                                           {"strategies", joined(strategies)}};
+    if (const auto duration = folder.summary.find("duration_s");
+        duration != folder.summary.end() && duration->is_number())
+      facts.emplace_back("duration", fmt::format("{:g} s", duration->get<double>()));
+    page.facts(facts);
+  }
+}
+
+void answered(Page& page, const std::vector<RunFolder>& folders, const std::vector<ToldDrive>& drives) {
+  const RunAnswer answer = run_answer(drives);
+  page.section("What came out");
+  page.lead(answer.answer);
+  page.points(answer.more);
+  for (const PageTable& table : repeated_tables(drives)) page.table(table);
+  PageTable table = measure_table(drives);
+  table.caption = "Errors are root mean squares at the instants an image is used";
+  if (!table.rows.empty()) page.table(table);
+  for (const RunFolder& folder : folders)
+    for (const std::string& remark : folder.remarks) page.paragraph(folder.path + ": " + remark);
+}
+
+void pictures(Page& page, const std::vector<ToldDrive>& drives) {
+  std::size_t shown = 0;
+  bool any = false;
+  const auto add = [&](std::string_view svg, const std::string& caption) {
+    if (!any) page.section("Where the car was");
+    any = true;
+    page.picture(svg, caption);
+  };
+  for (const ToldDrive& told : drives) {
+    if (!told.drive->log || shown >= kMostPictures) continue;
+    ++shown;
+    const recording::LogManifest& manifest = told.drive->log->manifest();
+    const Names names = names_of(manifest);
+    PositionOptions options;
+    options.title = fmt::format("{}, {}", told.drive->scenario, told.drive->label);
+    options.from = scenario_in(*told.drive->log).judged_from;
+    PositionPlots plots(names, options);
+    StartupExtent extent;
+    recording::LatenessSums lateness;
+    records::Tee tee({&plots, &extent, &lateness});
+    told.drive->log->read(tee);
+    if (!plots.select().empty())
+      add(plots.plane_svg(), told.drive->label + ": y over x, as truth, sensors, DGPS and the image have it");
+    if (const auto window = extent.window({manifest.cycle_ns})) {
+      StartupDiagram startup(names, {manifest.cycle_ns}, window->first, window->second);
+      told.drive->log->read(startup);
+      add(startup.svg(), told.drive->label + ": start-up, every node's states and what it sent");
+    }
+    if (const auto nodes = lateness.nodes(); !nodes.empty())
+      add(lateness_svg(nodes, names), told.drive->label + ": how late processes were woken up, in real time");
+  }
+}
+
+void made(Page& page, const std::vector<ToldDrive>& drives) {
+  if (std::ranges::none_of(drives, [](const ToldDrive& told) { return told.drive->log != nullptr; })) return;
+  page.section("How it was made");
+  PageTable table{"What each log says of itself",
+                  {"", "version", "seed", "strategy", "cluster", "content hash", "hashes of its inputs"},
+                  {}};
+  std::set<std::string> commands, texts;
+  std::vector<std::string> order;
+  for (const ToldDrive& told : drives) {
+    if (!told.drive->log) continue;
+    const recording::LogManifest& manifest = told.drive->log->manifest();
+    std::string hashes;
+    for (const auto& [what, hash] : manifest.hashes)
+      hashes += fmt::format("{}{} {}", hashes.empty() ? "" : ", ", what, hash);
+    table.rows.push_back({told.drive->label, manifest.version, std::to_string(manifest.seed), manifest.strategy,
+                          manifest.cluster_name, recording::ContentHash::text(told.drive->log->content_hash().value()),
+                          hashes});
+    const ScenarioWords words = scenario_in(*told.drive->log);
+    std::string command =
+        fmt::format("ttfusion {} {} --strategy {} --seed {}", manifest.clock.empty() ? "run" : "launch",
+                    shell_word("scenarios/" + (words.file.empty() ? manifest.scenario_name + ".yaml" : words.file)),
+                    shell_word(manifest.strategy), manifest.seed);
+    if (!manifest.recording_name.empty()) command += " --input " + shell_word(manifest.recording_name);
+    if (commands.insert(command).second) order.push_back(command);
+  }
+  if (!table.rows.empty()) page.table(table);
+  if (!order.empty()) {
+    page.paragraph(
+        "In virtual time the same version, inputs and seed give the same content hash. Where the scenario is in "
+        "another folder than scenarios/, say so:");
+    std::string all;
+    for (const std::string& command : order) all += command + '\n';
+    page.command(all);
+  }
+  for (const ToldDrive& told : drives)
+    if (told.drive->log)
+      for (const recording::Attachment& attachment : told.drive->log->attachments())
+        if (texts.insert(attachment.name + '\n' + attachment.bytes).second)
+          page.preformatted(attachment.name, attachment.bytes);
+}
+
+}  // namespace
+
+std::string run_report_html(std::vector<RunFolder> folders, const DiagramWindow& window) {
+  label_drives(folders);
+  std::vector<ToldDrive> drives;
+  std::set<std::string> scenarios;
+  for (const RunFolder& folder : folders)
+    for (const Drive& drive : folder.drives) {
+      drives.push_back(told_of(drive));
+      scenarios.insert(drive.scenario);
+    }
+  Page page(joined({scenarios.begin(), scenarios.end()}),
+            folders.size() == 1 ? "Report of a run" : fmt::format("Report of {} runs", folders.size()));
+  asked(page, folders, drives);
+  answered(page, folders, drives);
+  errors_section(page, drives);
+  timing_section(page, drives, window);
+  time_base_section(page, drives, window.most);
+  troubles_section(page, drives);
+  pictures(page, drives);
+  made(page, drives);
+  return page.html();
+}
+
+}  // namespace ttf::report

@@ -1,0 +1,14 @@
+// The page of one run, or of several side by side.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "report/run/drive_sections.h"
+#include "report/run/results_folder.h"
+
+namespace ttf::report {
+
+std::string run_report_html(std::vector<RunFolder> folders, const DiagramWindow& window);
+
+}  // namespace ttf::report

@@ -1,0 +1,121 @@
+#include "report/run/results_folder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "core/errors.h"
+#include "core/file_bytes.h"
+#include "recording/merge/stored_log.h"
+
+namespace ttf::report {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+std::string word_at(const Json& object, const char* key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+std::uint64_t count_at(const Json& object, const char* key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_number_unsigned() ? found->get<std::uint64_t>() : 0;
+}
+
+// The folder may have been moved since: a log is where its summary is.
+void find_logs(RunFolder& folder) {
+  std::error_code none;
+  for (Drive& drive : folder.drives) {
+    drive.folder = folder.path;
+    const std::string log = folder.path + "/" + drive.log_name;
+    if (drive.log_name.empty())
+      folder.remarks.push_back(fmt::format("{} kept no log: what is drawn from one is not here.", drive.strategy));
+    else if (!fs::exists(log, none))
+      folder.remarks.push_back(fmt::format("The log of {}, {}, is not there: what is drawn from it is not here.",
+                                           drive.strategy, drive.log_name));
+    else
+      drive.log = std::make_shared<const recording::MergedLogs>(std::vector<std::string>{log});
+  }
+}
+
+}  // namespace
+
+Json parse_json(std::string_view text, const std::string& file) {
+  try {
+    return Json::parse(text);
+  } catch (const Json::parse_error& error) {
+    const std::string_view before = text.substr(0, error.byte > 0 ? error.byte - 1 : 0);
+    const auto line = 1 + static_cast<int>(std::ranges::count(before, '\n'));
+    throw InputError({file, line, "", "", "must be JSON: it is damaged here, or cut off"});
+  } catch (const Json::exception&) {  // 1e999
+    throw InputError({file, 0, "", "", "must be JSON: a number in it is none"});
+  }
+}
+
+RunFolder parse_run_summary(std::string_view text, const std::string& file) {
+  RunFolder folder;
+  folder.summary = parse_json(text, file);
+  const auto bad = [&](const std::string& key, const std::string& expected) {
+    throw InputError({file, 0, key, "", expected});
+  };
+  if (!folder.summary.is_object()) bad("", "must be the summary of a run: a mapping");
+  const auto strategies = folder.summary.find("strategies");
+  if (strategies == folder.summary.end() || !strategies->is_array() || strategies->empty())
+    bad("strategies", "must be the run's strategies, at least one");
+  for (const Json& one : *strategies) {
+    if (!one.is_object() || word_at(one, "strategy").empty()) bad("strategies", "must name a strategy each");
+    Drive drive;
+    drive.scenario = word_at(folder.summary, "scenario");
+    drive.strategy = word_at(one, "strategy");
+    drive.log_name = fs::path(word_at(one, "log")).filename().string();
+    drive.seed = count_at(folder.summary, "seed");
+    drive.summary = one;
+    folder.drives.push_back(std::move(drive));
+  }
+  return folder;
+}
+
+FolderKind kind_of_folder(const std::string& path) {
+  std::error_code none;
+  if (!fs::is_directory(path, none)) throw InputError({path, 0, "", "", "must be a folder of results"});
+  if (fs::exists(path + "/answer.json", none)) return FolderKind::kExperiment;
+  if (fs::exists(path + "/summary.json", none) || !recording::logs_in(path).empty()) return FolderKind::kRun;
+  throw InputError(
+      {path, 0, "", "", "is neither a run (no summary.json, no *.mcap) nor an experiment (no answer.json)"});
+}
+
+RunFolder read_run_folder(const std::string& path) {
+  RunFolder folder;
+  std::error_code none;
+  if (const std::string summary = path + "/summary.json"; fs::exists(summary, none)) {
+    folder = parse_run_summary(read_file(summary), summary);
+    folder.path = path;
+    find_logs(folder);
+  } else {
+    folder.path = path;
+    std::vector<recording::StoredLog> logs;
+    for (const std::string& log : recording::logs_in(path)) logs.emplace_back(log);
+    for (recording::MergedLogs& run : recording::merge_by_run(std::move(logs))) {
+      const recording::LogManifest manifest = run.manifest();
+      Drive drive;
+      drive.folder = path;
+      drive.scenario = manifest.scenario_name;
+      drive.strategy = manifest.strategy;
+      drive.seed = manifest.seed;
+      drive.log = std::make_shared<const recording::MergedLogs>(std::move(run));
+      folder.drives.push_back(std::move(drive));
+    }
+    folder.remarks.push_back("There is no summary.json: figures are the log's, over the whole drive.");
+  }
+  for (const Drive& drive : folder.drives)
+    if (drive.log)
+      for (const std::string& warning : drive.log->warnings()) folder.remarks.push_back(warning);
+  return folder;
+}
+
+}  // namespace ttf::report

@@ -1,0 +1,30 @@
+#include "report/run/scenario_words.h"
+
+#include "core/errors.h"
+#include "core/strict_yaml.h"
+
+namespace ttf::report {
+
+ScenarioWords scenario_in(const recording::MergedLogs& log) {
+  ScenarioWords words;
+  for (const recording::Attachment& attachment : log.attachments()) {
+    if (attachment.media_type != "application/yaml") continue;
+    try {
+      Findings findings;
+      YamlMap root = StrictYaml::parse(attachment.bytes, attachment.name).root(findings);
+      if (!root.has("world") && !root.has("evaluate_from")) continue;
+      words.description = root.text_or("description", "");
+      const Duration from =
+          root.duration_or("evaluate_from", Duration{}, {Duration{}, Duration::milliseconds(100'000'000)});
+      words.judged_from = TrueTime{from.ns};
+      words.file = attachment.name;
+      words.text = attachment.bytes;
+      return words;
+    } catch (const InputError&) {
+      // A damaged attachment says nothing.
+    }
+  }
+  return words;
+}
+
+}  // namespace ttf::report

@@ -1,0 +1,168 @@
+#include "report/run/series.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "report/drawing/log_limits.h"
+
+namespace ttf::report {
+namespace {
+
+constexpr std::size_t kImagesKept = 8;
+
+double seconds_of(TrueTime t) { return static_cast<double>(t.ns) * 1e-9; }
+
+}  // namespace
+
+void RunSeriesSink::on(const records::ListFused& r) {
+  const bool fused = r.disposition == records::Disposition::kFused || r.disposition == records::Disposition::kFusedLate;
+  if (!fused || !possible(r.stamp.global.ns) || !possible(r.measured.ns) || !possible(r.stamp.true_time)) return;
+  series_.age_fused[r.id.sensor].push_back(in_ms(r.stamp.global - r.measured));
+  const TrueTime measured = records::true_time_of(r.stamp, r.measured);
+  const auto [newest, first] = newest_fused_.try_emplace(r.id.sensor, Fused{r.id, measured});
+  if (!first && measured > newest->second.measured) newest->second = {r.id, measured};
+}
+
+void RunSeriesSink::on(const records::ImageWritten& r) {
+  Image& image = images_.emplace_back();
+  image.sequence = r.sequence;
+  for (const MeasurementId& id : r.newest)
+    if (const auto newest = newest_fused_.find(id.sensor); newest != newest_fused_.end() && newest->second.id == id)
+      image.newest.push_back(newest->second);
+  while (images_.size() > kImagesKept) images_.pop_front();
+}
+
+void RunSeriesSink::on(const records::FeatureUsed& r) {
+  if (pending_) judge(*pending_);
+  pending_.reset();
+  if (r.stale || !possible(r.stamp.true_time)) return;
+  judge_age(r.image_sequence, r.stamp.true_time);
+  pending_ = Use{r.stamp.true_time, {}};
+  for (const records::FeatureObject& object : r.objects) {
+    const records::ImageObject& image = object.image;
+    pending_->objects.push_back(
+        {image.x, image.y, image.speed * std::cos(image.heading), image.speed * std::sin(image.heading)});
+  }
+}
+
+void RunSeriesSink::judge_age(std::uint32_t sequence, TrueTime used) {
+  const auto image =
+      std::find_if(images_.rbegin(), images_.rend(), [&](const Image& one) { return one.sequence == sequence; });
+  if (image == images_.rend() || image->newest.empty()) return;
+  Duration newest = used - image->newest.front().measured, oldest = newest;
+  for (const Fused& one : image->newest) {
+    const Duration age = used - one.measured;
+    series_.age_used[one.id.sensor].push_back(in_ms(age));
+    newest = std::min(newest, age);
+    oldest = std::max(oldest, age);
+  }
+  series_.newest_age.push_back({seconds_of(used), in_ms(newest)});
+  series_.oldest_age.push_back({seconds_of(used), in_ms(oldest)});
+}
+
+void RunSeriesSink::on(const records::TruthState& r) {
+  if (!truth_.empty() && truth_at_ != r.at) {
+    if (pending_ && truth_at_ == pending_->at) {
+      judge(*pending_);
+      pending_.reset();
+    }
+    truth_.clear();
+  }
+  if (!truth_.empty() && truth_node_ != r.node) return;  // another node recorded the same
+  truth_at_ = r.at;
+  truth_node_ = r.node;
+  truth_.push_back({r.x, r.y, r.speed * std::cos(r.heading), r.speed * std::sin(r.heading)});
+}
+
+void RunSeriesSink::judge(const Use& use) {
+  if (truth_.empty() || truth_at_ != use.at) return;
+  struct Pair {
+    double distance;
+    std::size_t truth, object;
+  };
+  std::vector<Pair> near;
+  for (std::size_t t = 0; t < truth_.size(); ++t)
+    for (std::size_t o = 0; o < use.objects.size(); ++o)
+      if (const double d = std::hypot(use.objects[o].x - truth_[t].x, use.objects[o].y - truth_[t].y); d <= gate_m_)
+        near.push_back({d, t, o});
+  std::ranges::sort(near, {}, [](const Pair& p) { return std::tuple(p.distance, p.truth, p.object); });
+  std::vector<bool> truth_taken(truth_.size()), object_taken(use.objects.size());
+  double position = 0.0, velocity = 0.0;
+  std::uint64_t pairs = 0;
+  for (const Pair& pair : near) {
+    if (truth_taken[pair.truth] || object_taken[pair.object]) continue;
+    truth_taken[pair.truth] = object_taken[pair.object] = true;
+    const double vx = use.objects[pair.object].vx - truth_[pair.truth].vx;
+    const double vy = use.objects[pair.object].vy - truth_[pair.truth].vy;
+    position += pair.distance * pair.distance;
+    velocity += vx * vx + vy * vy;
+    ++pairs;
+  }
+  series_.matched += pairs;
+  series_.missed += truth_.size() - pairs;
+  series_.spurious += use.objects.size() - pairs;
+  if (pairs == 0) return;
+  const double t = seconds_of(use.at), n = static_cast<double>(pairs);
+  series_.position_error.push_back({t, std::sqrt(position / n)});
+  series_.velocity_error.push_back({t, std::sqrt(velocity / n)});
+}
+
+void RunSeriesSink::on(const records::PrecisionSample& r) {
+  if (possible(r.at)) series_.precision.push_back({seconds_of(r.at), in_us(r.precision)});
+}
+
+void RunSeriesSink::on(const records::ClockCorrected& r) {
+  if (possible(r.stamp.true_time) && !r.offset_missing)
+    series_.offset_corrections[r.stamp.node].push_back(
+        {seconds_of(r.stamp.true_time), static_cast<double>(r.offset_microticks)});
+}
+
+void RunSeriesSink::on(const records::SlotProblem& r) { ++series_.slot_problems[r.stamp.node][r.status]; }
+
+void RunSeriesSink::on(const records::TaskRun& r) {
+  if (possible(r.end.true_time)) series_.end_s = std::max(series_.end_s, seconds_of(r.end.true_time));
+  if (!r.deadline_met) ++series_.deadlines_missed[{r.start.node, r.task}];
+}
+
+void RunSeriesSink::on(const records::FaultActivity& r) {
+  const auto [entry, first] = series_.faults.try_emplace(r.fault);
+  FaultTold& fault = entry->second;
+  if (first) {
+    fault.kind = r.kind;
+    fault.node = r.node;
+    fault.text = r.text;
+  }
+  const double at = seconds_of(r.at);
+  if (r.what == records::kFaultBegins) fault.begins_s = at;
+  if (r.what == records::kFaultEnds) fault.ends_s = at;
+  if (r.what != records::kFaultActs) return;
+  if (fault.acts++ > 0) return;
+  fault.first_act_s = at;
+  fault.text = r.text;
+}
+
+void RunSeriesSink::on(const records::GuardianIntervention& r) {
+  ++series_.guardian[std::string(r.why) + (r.cut ? ": cut" : ": blocked")];
+}
+
+RunSeries RunSeriesSink::finish() {
+  if (pending_) judge(*pending_);
+  pending_.reset();
+  return std::move(series_);
+}
+
+std::vector<TimedValue> thinned(const std::vector<TimedValue>& all, std::size_t most) {
+  if (all.size() <= most) return all;
+  const std::size_t group = (all.size() + most - 1) / most;
+  std::vector<TimedValue> some;
+  for (std::size_t i = 0; i < all.size(); i += group) {
+    const auto begin = all.begin() + static_cast<std::ptrdiff_t>(i);
+    const auto end = all.begin() + static_cast<std::ptrdiff_t>(std::min(i + group, all.size()));
+    some.push_back(*std::max_element(
+        begin, end, [](const TimedValue& a, const TimedValue& b) { return std::abs(a.value) < std::abs(b.value); }));
+  }
+  return some;
+}
+
+}  // namespace ttf::report

@@ -1,0 +1,96 @@
+// What a drive's records come to over time and as distributions, for the report's plots and tables: errors where the
+// feature service used an image, ages of measurements, precision, corrections, problems, faults.
+//
+// A sink; uses and truths are put together as evaluation/accuracy/drive_measures.h does it: an image's objects and true ones no
+// further apart than the gate, the closest pair first.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "recording/records/records.h"
+
+namespace ttf::report {
+
+struct TimedValue {
+  double t_s = 0.0, value = 0.0;
+};
+
+struct FaultTold {
+  std::string kind, text;  // text: of its first act, or of its begin where it has not acted
+  NodeId node = kNoNode;
+  std::optional<double> begins_s, first_act_s, ends_s;
+  std::uint64_t acts = 0;
+};
+
+struct RunSeries {
+  std::vector<TimedValue> position_error;  // [m] at each use of an image: root mean square over the objects matched
+  std::vector<TimedValue> velocity_error;  // [m/s]
+  std::vector<TimedValue> newest_age;      // [ms] of the newest measurement in an image, at its use
+  std::vector<TimedValue> oldest_age;      // [ms] of the sensor that was heard longest ago
+  std::map<SensorId, std::vector<double>> age_fused, age_used;                // [ms]
+  std::vector<TimedValue> precision;                                          // [us]
+  std::map<NodeId, std::vector<TimedValue>> offset_corrections;               // microticks
+  std::map<NodeId, std::map<std::uint8_t, std::uint64_t>> slot_problems;      // by the bits of their status: how many
+  std::map<std::pair<NodeId, std::uint8_t>, std::uint64_t> deadlines_missed;  // by task
+  std::map<std::uint32_t, FaultTold> faults;
+  std::map<std::string, std::uint64_t> guardian;  // what central guardians kept back, by the reason in words
+  std::uint64_t missed = 0, spurious = 0, matched = 0;
+  double end_s = 0.0;  // of the last task
+};
+
+class RunSeriesSink final : public records::Sink {
+ public:
+  explicit RunSeriesSink(double gate_m = 4.0) : gate_m_(gate_m) {}
+  RunSeries finish();
+
+  using records::Sink::on;
+  void on(const records::ListFused& r) override;
+  void on(const records::ImageWritten& r) override;
+  void on(const records::FeatureUsed& r) override;
+  void on(const records::TruthState& r) override;
+  void on(const records::PrecisionSample& r) override;
+  void on(const records::ClockCorrected& r) override;
+  void on(const records::SlotProblem& r) override;
+  void on(const records::TaskRun& r) override;
+  void on(const records::FaultActivity& r) override;
+  void on(const records::GuardianIntervention& r) override;
+
+ private:
+  struct State {
+    double x, y, vx, vy;
+  };
+  struct Fused {
+    MeasurementId id;
+    TrueTime measured{};
+  };
+  struct Image {
+    std::uint32_t sequence;
+    std::vector<Fused> newest;
+  };
+  struct Use {
+    TrueTime at;
+    std::vector<State> objects;
+  };
+  void judge_age(std::uint32_t image, TrueTime used);
+  void judge(const Use& use);
+
+  double gate_m_;
+  RunSeries series_;
+  std::map<SensorId, Fused> newest_fused_;
+  std::deque<Image> images_;    // the last few
+  std::optional<Use> pending_;  // waits for its truth
+  std::vector<State> truth_;
+  TrueTime truth_at_{};
+  NodeId truth_node_{};
+};
+
+// Of every so many neighbours the largest, where there are more than `most`: extremes stay.
+std::vector<TimedValue> thinned(const std::vector<TimedValue>& all, std::size_t most);
+
+}  // namespace ttf::report

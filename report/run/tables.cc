@@ -1,0 +1,280 @@
+#include "report/run/tables.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "core/counted.h"
+#include "experiments/results/statistics.h"
+#include "report/drawing/figures.h"
+#include "report/drawing/tables.h"
+
+namespace ttf::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kConfidence = 0.95;
+constexpr std::size_t kMostRemarked = 6;  // drives; of more of them only what went wrong is told
+
+struct MeasureRow {
+  const char* name;
+  const char* pointer;
+  int decimals;
+  double factor = 1.0;
+  bool rare = false;  // not shown where it is 0 in all
+};
+
+constexpr MeasureRow kMeasureRows[] = {
+    {"position error against truth [m]", "/rmse_truth/position_m", 3},
+    {"velocity error against truth [m/s]", "/rmse_truth/velocity_mps", 3},
+    {"position error against DGPS [m]", "/rmse_reference/position_m", 3},
+    {"velocity error against DGPS [m/s]", "/rmse_reference/velocity_mps", 3},
+    {"NEES (4 where the filter knows its error)", "/nees/mean", 2},
+    {"  95 % band from", "/nees/band_95/0", 2},
+    {"  to", "/nees/band_95/1", 2},
+    {"age when fused, mean [ms]", "/age_when_fused/mean_ms", 1},
+    {"  worst [ms]", "/age_when_fused/worst_ms", 1},
+    {"age when used, mean [ms]", "/age_when_used/mean_ms", 1},
+    {"  worst [ms]", "/age_when_used/worst_ms", 1},
+    {"observation lists received", "/observations/received", 0},
+    {"  out of sequence", "/observations/out_of_sequence", 0},
+    {"  fused late", "/observations/late", 0},
+    {"  times held back", "/observations/held", 0},
+    {"  lost", "/observations/lost", 0},
+    {"uses of an image", "/uses", 0},
+    {"  refused for its age", "/uses_refused_as_stale", 0, 1.0, true},
+    {"  with a warning", "/uses_with_warning", 0},
+    {"objects compared", "/objects/compared", 0},
+    {"  missed", "/objects/missed", 0},
+    {"  spurious", "/objects/spurious", 0},
+    {"precision of the time base [us]", "/precision_us", 3},
+    {"slot problems", "/slot_problems", 0},
+    {"deadlines missed", "/deadlines_missed", 0},
+    {"fragments refused", "/refused_fragments", 0, 1.0, true},
+    {"CAN frames refused", "/refused_can_frames", 0, 1.0, true},
+    {"FlexRay load per channel [%]", "/flexray_load", 1, 100.0},
+};
+// Of these the intervals over several runs are worth knowing.
+constexpr std::size_t kRepeatedRows[] = {0, 1, 2, 3, 4, 7, 9};
+
+// What a sound drive has none of.
+constexpr std::pair<const char*, const char*> kTroubles[] = {{"/deadlines_missed", "missed deadline"},
+                                                             {"/observations/lost", "lost observation list"},
+                                                             {"/slot_problems", "slot problem"},
+                                                             {"/objects/missed", "missed object"}};
+
+// The drives of every seed that all of the strategies drove, strategy by strategy.
+struct Repeated {
+  std::vector<std::string> strategies;
+  std::vector<std::vector<const Drive*>> runs;  // by seed, then strategy
+};
+std::map<std::string, Repeated> repeated(const std::vector<ToldDrive>& drives) {
+  std::map<std::string, std::map<std::uint64_t, std::map<std::string, const Drive*>>> by_scenario;
+  std::map<std::string, Repeated> all;
+  for (const ToldDrive& told : drives) {
+    if (told.drive->summary.is_null()) continue;
+    by_scenario[told.drive->scenario][told.drive->seed].try_emplace(told.drive->strategy, told.drive);
+    std::vector<std::string>& known = all[told.drive->scenario].strategies;
+    if (std::ranges::find(known, told.drive->strategy) == known.end()) known.push_back(told.drive->strategy);
+  }
+  for (auto& [scenario, one] : all)
+    for (const auto& [seed, runs] : by_scenario[scenario]) {
+      if (runs.size() != one.strategies.size()) continue;
+      std::vector<const Drive*>& row = one.runs.emplace_back();
+      for (const std::string& strategy : one.strategies) row.push_back(runs.at(strategy));
+    }
+  std::erase_if(all, [](const auto& entry) { return entry.second.runs.size() < 2; });
+  return all;
+}
+
+results::Interval interval(const Repeated& repeated, const char* pointer, std::size_t strategy,
+                           std::optional<std::size_t> against) {
+  results::Moments moments;
+  for (const std::vector<const Drive*>& run : repeated.runs) {
+    const auto value = measure_at(*run[strategy], pointer);
+    const auto other = against ? measure_at(*run[*against], pointer) : 0.0;
+    if (value && other) moments.add(*value - *other);
+  }
+  return results::interval_of(moments, kConfidence);
+}
+
+std::string percent_more(double value, double least) {
+  return least > 0.0 ? fmt::format(" ({:+.1f} %)", 100.0 * (value / least - 1.0)) : "";
+}
+
+// The answer of one draw: no interval can be had from it.
+std::string single_answer(const std::vector<ToldDrive>& drives) {
+  struct Ranked {
+    double error;
+    std::string label;
+  };
+  const bool one_folder = std::ranges::all_of(
+      drives, [&](const ToldDrive& told) { return told.drive->folder == drives.front().drive->folder; });
+  std::vector<Ranked> ranked;
+  for (const ToldDrive& told : drives)
+    if (const double error = position_rmse(told); std::isfinite(error))
+      ranked.push_back({error, one_folder ? told.drive->strategy : told.drive->label});
+  if (ranked.empty()) return "No position was compared with the truth.";
+  std::ranges::stable_sort(ranked, {}, &Ranked::error);
+  if (ranked.size() == 1)
+    return fmt::format("{} is off by {} m in position (root mean square against the truth, when the image is used).",
+                       ranked[0].label, brief(ranked[0].error));
+  std::string text = fmt::format(
+      "{} has the smallest position error here: {} m (root mean square against the truth, when "
+      "the image is used); ",
+      ranked[0].label, brief(ranked[0].error));
+  for (std::size_t i = 1; i < ranked.size(); ++i)
+    text += fmt::format("{}{} {} m{}", i > 1 ? ", " : "", ranked[i].label, brief(ranked[i].error),
+                        percent_more(ranked[i].error, ranked[0].error));
+  return text + ".";
+}
+
+std::string repeated_answer(const std::string& scenario, const Repeated& runs) {
+  const char* const pointer = kMeasureRows[0].pointer;
+  std::size_t best = 0;
+  std::vector<double> means;
+  for (std::size_t s = 0; s < runs.strategies.size(); ++s) {
+    means.push_back(interval(runs, pointer, s, std::nullopt).mean);
+    if (!(means[best] <= means[s]) && std::isfinite(means[s])) best = s;  // the first may have none
+  }
+  if (!std::isfinite(means[best]))
+    return fmt::format("Over {} runs of {}: No position was compared with the truth.", runs.runs.size(), scenario);
+  const results::Interval least = interval(runs, pointer, best, std::nullopt);
+  std::string text =
+      fmt::format("Over {} runs of {}, {} has the smallest position error on average: {} m (95 %)", runs.runs.size(),
+                  scenario, runs.strategies[best], with_interval(least.mean, least.half_width));
+  for (std::size_t s = 0; s < runs.strategies.size(); ++s) {
+    if (s == best) continue;
+    const results::Interval more = interval(runs, pointer, s, best);
+    if (!std::isfinite(more.mean)) {
+      text += fmt::format("; of {} there is no figure", runs.strategies[s]);
+      continue;
+    }
+    text += fmt::format("; {} {} m, {}", runs.strategies[s], with_interval(more.mean, more.half_width, true),
+                        verdict(more.mean, more.half_width) == "more" ? "for certain" : "which is not certain");
+  }
+  return text + ".";
+}
+
+// 0 where there is no count.
+std::uint64_t count_at(const Drive& drive, const char* pointer) {
+  if (!drive.summary.is_object()) return 0;
+  const Json::json_pointer at(pointer);
+  if (!drive.summary.contains(at) || !drive.summary.at(at).is_number_unsigned()) return 0;
+  return drive.summary.at(at).get<std::uint64_t>();
+}
+
+// `ordinary`: what is worth knowing of a sound drive, too.
+void remark_on(const ToldDrive& told, bool ordinary, std::vector<std::string>& more) {
+  const Drive& drive = *told.drive;
+  const auto at = [&](const char* pointer) { return measure_at(drive, pointer); };
+  if (const auto mean = at("/age_when_used/mean_ms"), worst = at("/age_when_used/worst_ms"); ordinary && mean && worst)
+    more.push_back(fmt::format("{}: a measurement is {:.1f} ms old on average when it is used, {:.1f} ms at worst.",
+                               drive.label, *mean, *worst));
+  if (const auto nees = at("/nees/mean"), low = at("/nees/band_95/0"), high = at("/nees/band_95/1");
+      ordinary && nees && low && high && (*nees < *low || *nees > *high))
+    more.push_back(fmt::format("{}: its filter is {} than it believes: NEES {:.2f}, outside {:.2f}..{:.2f}.",
+                               drive.label, *nees < *low ? "better" : "worse", *nees, *low, *high));
+  for (const auto& [pointer, what] : kTroubles)
+    if (const std::uint64_t count = count_at(drive, pointer); count > 0)
+      more.push_back(fmt::format("{}: {}.", drive.label, counted(count, what)));
+  if (const auto& faults = told.series.faults; !faults.empty()) {
+    std::uint64_t acts = 0;
+    for (const auto& [index, fault] : faults) acts += fault.acts;
+    more.push_back(fmt::format("{}: {} injected, which acted {} in all.", drive.label,
+                               faults.size() == 1 ? "one fault was" : fmt::format("{} faults were", faults.size()),
+                               counted(acts, "time")));
+  }
+}
+
+}  // namespace
+
+std::optional<double> measure_at(const Drive& drive, const char* pointer) {
+  if (!drive.summary.is_object()) return std::nullopt;
+  const Json::json_pointer at(pointer);
+  if (!drive.summary.contains(at) || !drive.summary.at(at).is_number()) return std::nullopt;
+  return drive.summary.at(at).get<double>();
+}
+
+double position_rmse(const ToldDrive& told) {
+  if (const auto error = measure_at(*told.drive, kMeasureRows[0].pointer)) return *error;
+  if (!told.drive->summary.is_null() || told.series.position_error.empty()) return std::nan("");
+  double squares = 0.0;
+  for (const TimedValue& one : told.series.position_error) squares += one.value * one.value;
+  return std::sqrt(squares / static_cast<double>(told.series.position_error.size()));
+}
+
+PageTable measure_table(const std::vector<ToldDrive>& drives) {
+  PageTable table{"", {"measure"}, {}};
+  for (const ToldDrive& told : drives) table.header.push_back(told.drive->label);
+  for (const MeasureRow& row : kMeasureRows) {
+    std::vector<std::string> cells{row.name};
+    bool any = false;
+    for (const ToldDrive& told : drives) {
+      const auto value = measure_at(*told.drive, row.pointer);
+      cells.push_back(value ? cell(*value * row.factor, row.decimals) : "-");
+      any = any || (value && (*value != 0.0 || !row.rare));
+    }
+    if (any) table.rows.push_back(std::move(cells));
+  }
+  return table;
+}
+
+std::vector<PageTable> repeated_tables(const std::vector<ToldDrive>& drives) {
+  std::vector<PageTable> tables;
+  for (const auto& [scenario, runs] : repeated(drives)) {
+    PageTable table{fmt::format("{}: means of {} runs, 95 % intervals; differences are paired, run by run", scenario,
+                                runs.runs.size()),
+                    {"measure"},
+                    {}};
+    for (const std::string& strategy : runs.strategies) table.header.push_back(strategy);
+    for (std::size_t s = 1; s < runs.strategies.size(); ++s)
+      table.header.push_back(fmt::format("{} − {}", runs.strategies[s], runs.strategies[0]));
+    for (const std::size_t index : kRepeatedRows) {
+      const MeasureRow& row = kMeasureRows[index];
+      std::vector<std::string> cells{row.name};
+      for (std::size_t s = 0; s < runs.strategies.size(); ++s) {
+        const results::Interval mean = interval(runs, row.pointer, s, std::nullopt);
+        cells.push_back(with_interval(mean.mean, mean.half_width));
+      }
+      for (std::size_t s = 1; s < runs.strategies.size(); ++s) {
+        const results::Interval difference = interval(runs, row.pointer, s, 0);
+        cells.push_back(fmt::format("{} {}", with_interval(difference.mean, difference.half_width, true),
+                                    verdict(difference.mean, difference.half_width)));
+      }
+      table.rows.push_back(std::move(cells));
+    }
+    tables.push_back(std::move(table));
+  }
+  return tables;
+}
+
+RunAnswer run_answer(const std::vector<ToldDrive>& drives) {
+  RunAnswer answer;
+  const auto several = repeated(drives);
+  std::map<std::string, std::vector<ToldDrive>> by_scenario;
+  for (const ToldDrive& told : drives) by_scenario[told.drive->scenario].push_back(told);
+  bool single = false;
+  for (const auto& [scenario, of_one] : by_scenario) {
+    std::string& place = answer.answer.empty() ? answer.answer : answer.more.emplace_back();
+    const auto runs = several.find(scenario);
+    if (runs != several.end()) {
+      place = repeated_answer(scenario, runs->second);
+    } else {
+      place = (by_scenario.size() > 1 ? scenario + ": " : "") + single_answer(of_one);
+      single = single || of_one.size() > 1;
+    }
+  }
+  if (single)
+    answer.more.push_back(
+        "One drive is one draw of the noise, so none of its differences is certain by it: an interval takes "
+        "several runs with other seeds in one report, or an experiment.");
+  for (const ToldDrive& told : drives) remark_on(told, drives.size() <= kMostRemarked, answer.more);
+  return answer;
+}
+
+}  // namespace ttf::report

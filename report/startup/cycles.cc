@@ -1,0 +1,61 @@
+#include "report/startup/cycles.h"
+
+#include <algorithm>
+
+#include "recording/records/records.h"
+#include "report/drawing/log_limits.h"
+
+namespace ttf::report {
+namespace {
+
+// The node's last symbol that ended before it led anybody.
+std::optional<TrueTime> last_cas(const StartupData& data, std::optional<NodeId> node, TrueTime before) {
+  std::optional<TrueTime> end;
+  for (const auto& s : data.symbols)
+    if (s.kind == records::kSymbolCas && (!node || s.node == *node) && s.end <= before)
+      end = end ? std::max(*end, s.end) : s.end;
+  return end;
+}
+
+}  // namespace
+
+std::optional<LeadingNode> leading_node(const StartupData& data) {
+  for (const auto& c : data.changes)
+    if (c.from == kStateConsistencyCheck && c.to == kStateNormalActive)
+      if (const auto cas = last_cas(data, c.node, c.at)) return LeadingNode{c.node, *cas};
+  std::optional<LeadingNode> last;
+  for (const auto& s : data.symbols)
+    if (s.kind == records::kSymbolCas && (!last || s.end > last->cas)) last = LeadingNode{s.node, s.end};
+  return last;
+}
+
+std::map<std::int64_t, TrueTime> cycles_of(const StartupData& data, const LeadingNode& leader, Duration cycle,
+                                           TrueTime end) {
+  std::map<std::int64_t, TrueTime> starts;
+  if (cycle.ns <= 0 || end < leader.cas || (end - leader.cas).ns / cycle.ns > kMostCycleLines) return starts;
+  // Its frames in the slot of the first one: the key slot.
+  std::map<std::int64_t, TrueTime> sent;
+  std::optional<std::uint16_t> key_slot;
+  for (const auto& f : data.frames) {
+    if (f.node != leader.node || f.start < leader.cas) continue;
+    if (!key_slot) {
+      if (f.cycle != 0) break;
+      key_slot = f.slot;
+    }
+    if (f.slot == *key_slot) sent.try_emplace(f.cycle, f.start);
+  }
+  const Duration place = sent.empty() ? Duration{} : sent.begin()->second - leader.cas;
+  const Duration half{cycle.ns / 2};
+  TrueTime at = leader.cas;
+  for (std::int64_t c = 0; at <= end; ++c, at += cycle) {
+    // A frame half a cycle off its place is of another schedule: the node began anew.
+    if (const auto k = sent.find(c); k != sent.end()) {
+      const TrueTime by_frame = k->second - place;
+      if (by_frame - at < half && at - by_frame < half) at = by_frame;
+    }
+    starts[c] = at;
+  }
+  return starts;
+}
+
+}  // namespace ttf::report

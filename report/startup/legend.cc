@@ -1,0 +1,42 @@
+#include <algorithm>
+#include <set>
+
+#include "recording/records/records.h"
+#include "report/startup/painter.h"
+
+namespace ttf::report {
+
+std::vector<LegendEntry> startup_legend(const StartupData& data, const std::vector<StateSpan>& spans, TrueTime from,
+                                        TrueTime to) {
+  using K = LegendEntry::Kind;
+  const auto visible = [&](TrueTime start, TrueTime end) { return start < to && end >= from; };
+  std::vector<LegendEntry> legend;
+  std::set<std::string_view> phases;
+  for (const StateSpan& span : spans)
+    if (const StatePhase phase = phase_of(span.state);
+        visible(span.start, span.end) && phases.insert(phase.words).second)
+      legend.push_back({K::kBox, std::string(phase.words), phase.colour, {}, true});
+  bool startup = false, null = false, other = false;
+  for (const auto& f : data.frames) {
+    if (!visible(f.start, f.end)) continue;
+    (f.startup ? startup : f.null_frame ? null : other) = true;
+  }
+  if (startup) legend.push_back({K::kBox, "startup frame", std::string(kStartupFrameFill), {}, true});
+  if (null) legend.push_back({K::kBox, "null frame", std::string(kGrey), {}, false});
+  if (other) legend.push_back({K::kBox, "other frame", std::string(kOtherFrameFill), {}, true});
+  if (std::ranges::any_of(data.symbols, [&](const auto& s) { return visible(s.start, s.end); }))
+    legend.push_back({K::kBox, "symbol", std::string(kBlack), {}, true});
+  const auto power = [&](bool on) {
+    return std::ranges::any_of(data.power, [&](const auto& p) { return p.on == on && visible(p.at, p.at); });
+  };
+  if (power(true)) legend.push_back({K::kMarker, "power on", std::string(kGreen), Marker::kTriangle, true});
+  if (power(false)) legend.push_back({K::kMarker, "power off", std::string(kVermilion), Marker::kDownTriangle, true});
+  if (const auto faults = faults_within(data.faults, from, to); !faults.empty()) {
+    legend.push_back({K::kBox, "fault, from its begin to its end", std::string(kFaultFill), {}, true});
+    const auto acts = [&](const auto& f) { return f.what == records::kFaultActs && visible(f.at, f.at); };
+    if (std::ranges::any_of(faults, acts)) legend.push_back({K::kLine, "the fault acts", std::string(kVermilion)});
+  }
+  return legend;
+}
+
+}  // namespace ttf::report

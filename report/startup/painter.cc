@@ -1,0 +1,278 @@
+#include "report/startup/painter.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "recording/records/records.h"
+#include "report/startup/cycles.h"
+
+namespace ttf::report {
+namespace {
+
+std::string_view symbol_name(std::uint8_t kind) {
+  return kind == records::kSymbolCas ? "CAS" : kind == records::kSymbolWakeup ? "wake-up pattern" : "media test symbol";
+}
+
+// Everything needed to draw one picture; lives for one call of svg().
+class StartupPainter {
+  // A double cycle holds the longest name of a state that lasts one.
+  static constexpr double kPixelsPerCycle = 78, kPixelsPerMs = 14, kLeastPlot = 900, kMostPlot = 5600;
+  static constexpr double kTop = 74, kNodeLane = 62, kLaneOffFlexRay = 34, kFaultLane = 22, kText = 9.5;
+  // Within a node's lane, from its top.
+  static constexpr double kNotes = 10, kBar = 14, kBarHeight = 16, kChannels[] = {38, 49}, kRowHeight = 8;
+
+ public:
+  StartupPainter(const Names& names, const StartupData& data, Duration cycle, TrueTime from, TrueTime to)
+      : names_(names), data_(data), from_(from), to_(to), spans_(state_spans(data, from, to)),
+        faults_(faults_within(data.faults, from, to)), leader_(leading_node(data)),
+        legend_(startup_legend(data, spans_, from, to)) {
+    if (leader_) cycles_ = cycles_of(data, *leader_, cycle, to);
+    for (const auto& c : data.changes) on_flexray_.insert(c.node);
+    for (const auto& f : data.frames) on_flexray_.insert(f.node);
+    for (const auto& s : data.symbols) on_flexray_.insert(s.node);
+    std::set<NodeId> nodes = on_flexray_;
+    for (const auto& p : data.power) nodes.insert(p.node);
+    plot_.x = 40;
+    plot_.y = kTop;
+    double y = kTop;
+    for (const auto& f : faults_) {
+      if (!fault_top_.try_emplace(f.fault, y).second) continue;
+      y += kFaultLane;
+      plot_.x = std::max(plot_.x, text_width(fault_label(f), 11) + 24);
+    }
+    for (const NodeId node : nodes) {
+      node_top_[node] = y;
+      y += on_flexray_.count(node) != 0 ? kNodeLane : kLaneOffFlexRay;
+      plot_.x = std::max(plot_.x, text_width(names.node(node), 11) + 24);
+    }
+    plot_.height = y - kTop;
+    const double ms = (to - from).seconds() * 1e3;
+    const double per_ms = cycle.ns > 0 ? kPixelsPerCycle / (cycle.seconds() * 1e3) : kPixelsPerMs;
+    plot_.width = std::clamp(ms * per_ms, kLeastPlot, kMostPlot);
+  }
+
+  std::string picture() {
+    const double legend_width = plot_.width + plot_.x - 24;
+    const double legend_top = plot_.y + plot_.height + 46;
+    // Nobody starts a cluster up that began integrated.
+    const bool integrated = !leader_ && !active_from_the_start(data_).empty();
+    const std::string title =
+        fmt::format("{}: {}, {} ms to {} ms", names_.run.empty() ? "Run" : names_.run,
+                    integrated ? "changes of state" : "start-up", number(in_ms(from_)), number(in_ms(to_)));
+    Svg svg(plot_.x + plot_.width + 24, legend_top + legend_height(legend_, legend_width) + 12, title);
+    svg_ = &svg;
+    svg.text({24, 22}, title, {.size = 14, .bold = true});
+    if (leader_)
+      svg.text({24, 42},
+               fmt::format("Cycles count from the collision avoidance symbol of {}, which leads.",
+                           names_.node(leader_->node)),
+               {.size = 11});
+    grid();
+    lanes();
+    svg.open_group("events", plot_);
+    faults();
+    states();
+    frames();
+    symbols();
+    power();
+    svg.close_group();
+    labels();
+    svg.rect(plot_, {.stroke = kBlack, .width = 0.8});
+    draw_time_axis(svg, plot_, {in_ms(from_), in_ms(to_)});
+    draw_legend(svg, {24, legend_top}, legend_width, legend_);
+    return svg.str();
+  }
+
+ private:
+  double x(TrueTime t) const {
+    return plot_.x + static_cast<double>((t - from_).ns) / static_cast<double>((to_ - from_).ns) * plot_.width;
+  }
+  bool visible(TrueTime start, TrueTime end) const { return start < to_ && end >= from_; }
+  double stay_inside(double px) const { return std::clamp(px, plot_.x, plot_.x + plot_.width); }
+  double top(NodeId node) const { return node_top_.at(node); }
+  std::string fault_label(const StartupData::Fault& f) const {
+    return f.node == kNoNode ? f.kind : fmt::format("{}, {}", f.kind, names_.node(f.node));
+  }
+
+  // A cycle's number stands in its middle, where there is room.
+  void grid() {
+    svg_->open_group("grid");
+    LabelSpace above;
+    for (auto it = cycles_.begin(); it != cycles_.end(); ++it) {
+      const auto next = std::next(it);
+      if (next == cycles_.end() && it->second >= to_) break;
+      const TrueTime end = next != cycles_.end() ? next->second : to_;
+      if (!visible(it->second, end)) continue;
+      const double left = stay_inside(x(it->second)), right = stay_inside(x(end));
+      if (it->first % 2 != 0) svg_->rect({left, plot_.y, right - left, plot_.height}, {.fill = "#f4f4f4"}, {}, "cycle");
+      if (it->second >= from_)
+        svg_->line({left, plot_.y - 4}, {left, plot_.y + plot_.height}, {.stroke = "#b8b8b8", .width = 0.7}, "cycle");
+      const std::string label = fmt::format("{}", it->first);
+      const TextStyle style{.size = 10, .anchor = Anchor::kMiddle, .fill = "#444444"};
+      const Point at{(left + right) / 2, plot_.y - 7};
+      Area area = text_area(at, label, style);
+      area.x -= 4, area.width += 8;
+      if (area.x >= plot_.x && area.x + area.width <= plot_.x + plot_.width && above.claim(area))
+        svg_->text(at, label, style);
+    }
+    if (!cycles_.empty())
+      svg_->text({plot_.x - 10, plot_.y - 7}, "cycle", {.size = 10, .anchor = Anchor::kEnd, .fill = "#444444"});
+    svg_->close_group();
+  }
+
+  void lanes() {
+    svg_->open_group("lanes");
+    const auto line_at = [&](double y) {
+      svg_->line({12, y}, {plot_.x + plot_.width, y}, {.stroke = "#999999", .width = 0.8});
+    };
+    std::set<std::uint32_t> labelled;
+    for (const auto& f : faults_)
+      if (labelled.insert(f.fault).second)
+        svg_->text({plot_.x - 10, fault_top_.at(f.fault) + 15}, fault_label(f), {.size = 11, .anchor = Anchor::kEnd});
+    for (const auto& [node, y] : node_top_) {
+      if (y > plot_.y) line_at(y);
+      svg_->text({plot_.x - 10, y + kBar + 12}, names_.node(node), {.size = 11, .anchor = Anchor::kEnd});
+      if (on_flexray_.count(node) == 0) continue;
+      for (int c = 0; c < 2; ++c) {
+        const double centre = y + kChannels[c];
+        svg_->line({plot_.x, centre}, {plot_.x + plot_.width, centre}, {.stroke = "#e0e0e0", .width = 0.7});
+        svg_->text({plot_.x - 10, centre + 3}, c == 0 ? "A" : "B",
+                   {.size = 8.5, .anchor = Anchor::kEnd, .fill = "#444444"});
+      }
+    }
+    svg_->close_group();
+  }
+
+  // From its begin to its end, or to the end of the window.
+  void faults() {
+    const auto bar = [&](const StartupData::Fault& f, TrueTime start, TrueTime end) {
+      const double left = stay_inside(x(start)), right = stay_inside(x(end));
+      if (visible(start, end))
+        svg_->rect({left, fault_top_.at(f.fault) + 4, std::max(1.5, right - left), 14},
+                   {.fill = kFaultFill, .stroke = kVermilion, .width = 0.7}, f.text, "fault");
+    };
+    std::map<std::uint32_t, const StartupData::Fault*> open;
+    for (const auto& f : faults_) {
+      if (f.what == records::kFaultBegins) open[f.fault] = &f;
+      if (f.what != records::kFaultEnds) continue;
+      if (const auto o = open.find(f.fault); o != open.end()) {
+        bar(*o->second, o->second->at, f.at);
+        open.erase(o);
+      }
+    }
+    for (const auto& [fault, begin] : open) bar(*begin, begin->at, to_);
+    for (const auto& f : faults_)
+      if (f.what == records::kFaultActs && visible(f.at, f.at))
+        svg_->rect({x(f.at) - 0.7, fault_top_.at(f.fault) + 4, 1.4, 14}, {.fill = kVermilion}, f.text, "acts");
+  }
+
+  void states() {
+    for (const StateSpan& s : spans_) {
+      if (!visible(s.start, s.end)) continue;
+      const double left = stay_inside(x(s.start)), right = stay_inside(x(s.end));
+      const std::string hover =
+          s.why.empty() ? s.name : fmt::format("{} from {} ms on: {}", s.name, number(in_ms(s.start)), s.why);
+      svg_->rect({left, top(s.node) + kBar, right - left, kBarHeight},
+                 {.fill = phase_of(s.state).colour, .stroke = "#444444", .width = 0.6}, hover, "state");
+    }
+  }
+
+  Area row(NodeId node, std::uint8_t channel, TrueTime start, TrueTime end, double least) const {
+    const double centre = top(node) + kChannels[channel == 0 ? 0 : 1];
+    return {x(start), centre - kRowHeight / 2, std::max(least, x(end) - x(start)), kRowHeight};
+  }
+
+  void frames() {
+    for (const auto& f : data_.frames) {
+      if (!visible(f.start, f.end)) continue;
+      const std::string hover =
+          fmt::format("{}{}slot {}, cycle {}, {} ms", f.startup ? "startup frame, " : "",
+                      f.null_frame ? "null frame, " : "", f.slot, f.cycle, number(in_ms(f.start)));
+      if (f.null_frame && !f.startup)
+        svg_->rect(row(f.node, f.channel, f.start, f.end, 1.5), {.fill = "#ffffff", .stroke = kGrey, .width = 0.5},
+                   hover, "null");
+      else
+        svg_->rect(row(f.node, f.channel, f.start, f.end, f.startup ? 2.0 : 1.2),
+                   {.fill = f.startup ? kStartupFrameFill : kOtherFrameFill}, hover, f.startup ? "startup" : "frame");
+    }
+  }
+
+  // Wider than it lasts to the left: the frame of cycle 0 follows at once.
+  void symbols() {
+    for (const auto& s : data_.symbols) {
+      if (!visible(s.start, s.end)) continue;
+      Area area = row(s.node, s.channel, s.start, s.end, 2.5);
+      area.x = x(s.end) - area.width;
+      svg_->rect(area, {.fill = kBlack}, fmt::format("{}, {} ms", symbol_name(s.kind), number(in_ms(s.start))),
+                 "symbol");
+    }
+  }
+
+  void power() {
+    for (const auto& p : data_.power)
+      if (visible(p.at, p.at))
+        svg_->marker(p.on ? Marker::kTriangle : Marker::kDownTriangle, {x(p.at), top(p.node) + kNotes - 2}, 9,
+                     {.fill = p.on ? kGreen : kVermilion, .stroke = "#ffffff", .width = 0.6},
+                     fmt::format("{} {} at {} ms", names_.node(p.node), p.on ? "powered on" : "powered off",
+                                 number(in_ms(p.at))),
+                     "power");
+  }
+
+  // In bars where they fit, in full or short; notes only where nothing is in the way.
+  void labels() {
+    svg_->open_group("labels");
+    for (const StateSpan& s : spans_) {
+      if (!visible(s.start, s.end)) continue;
+      const double left = stay_inside(x(s.start)), right = stay_inside(x(s.end));
+      const std::string colour = phase_of(s.state).colour;
+      for (const std::string_view text : {std::string_view(s.name), short_name(s.state)}) {
+        if (text.empty() || right - left < text_width(text, kText) + 5) continue;
+        note(text, {.size = kText, .anchor = Anchor::kMiddle, .fill = text_colour_on(colour)},
+             {(left + right) / 2, top(s.node) + kBar + 11.5});
+        break;
+      }
+    }
+    for (const auto& p : data_.power)  // no note on a marker
+      if (visible(p.at, p.at)) space_.take({x(p.at) - 5, top(p.node) + kNotes - 8, 10, 11});
+    std::optional<std::pair<NodeId, TrueTime>> noted;
+    for (const auto& s : data_.symbols) {
+      if (!visible(s.start, s.end) || noted == std::pair(s.node, s.start)) continue;  // one note for both channels
+      noted = std::pair(s.node, s.start);
+      note(symbol_name(s.kind), {.size = kText}, {x(s.start), top(s.node) + kNotes});
+    }
+    svg_->close_group();
+  }
+
+  void note(std::string_view text, const TextStyle& style, Point at) {
+    const std::array<Point, 1> candidates{at};
+    if (const auto p = space_.place(text, style, candidates, plot_)) svg_->text(*p, text, style);
+  }
+
+  const Names& names_;
+  const StartupData& data_;
+  TrueTime from_, to_;
+  std::vector<StateSpan> spans_;
+  std::vector<StartupData::Fault> faults_;
+  std::optional<LeadingNode> leader_;
+  std::vector<LegendEntry> legend_;
+  std::map<std::int64_t, TrueTime> cycles_;
+  std::map<std::uint32_t, double> fault_top_;
+  std::map<NodeId, double> node_top_;
+  std::set<NodeId> on_flexray_;
+  Area plot_;
+  LabelSpace space_;
+  Svg* svg_ = nullptr;
+};
+
+}  // namespace
+
+std::string paint_startup(const Names& names, const StartupData& data, Duration cycle, TrueTime from, TrueTime to) {
+  return StartupPainter(names, data, cycle, from, to).picture();
+}
+
+}  // namespace ttf::report

@@ -1,0 +1,22 @@
+// Draws what a start-up diagram has collected (report/startup/diagram.h says what it shows).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "report/drawing/axes.h"
+#include "report/drawing/names.h"
+#include "report/startup/data.h"
+#include "report/startup/states.h"
+
+namespace ttf::report {
+
+inline constexpr std::string_view kStartupFrameFill = kBlue, kOtherFrameFill = kStatusFrame, kFaultFill = "#f2b8a0";
+
+std::string paint_startup(const Names& names, const StartupData& data, Duration cycle, TrueTime from, TrueTime to);
+
+// What the picture explains: only what occurs in the window.
+std::vector<LegendEntry> startup_legend(const StartupData& data, const std::vector<StateSpan>& spans, TrueTime from,
+                                        TrueTime to);
+
+}  // namespace ttf::report

@@ -1,0 +1,128 @@
+#include "report/startup/states.h"
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <utility>
+
+#include "recording/records/records.h"
+#include "report/drawing/axes.h"
+
+namespace ttf::report {
+namespace {
+
+std::string sentence(const StartupData::Change& c) {
+  return c.consequence.empty() ? c.why : c.why + "; " + c.consequence;
+}
+
+}  // namespace
+
+std::set<NodeId> active_from_the_start(const StartupData& data) {
+  struct Sign {
+    TrueTime at{};
+    bool active = false;
+  };
+  std::map<NodeId, Sign> first;  // of the node's states
+  for (const StartupData::Power& p : data.power) first.try_emplace(p.node, Sign{p.at, !p.on});
+  for (const StartupData::Change& c : data.changes)
+    if (const auto [sign, is_first] = first.try_emplace(c.node, Sign{c.at, false}); !is_first && c.at < sign->second.at)
+      sign->second = {c.at, false};
+  for (const StartupData::Frame& f : data.frames) first.try_emplace(f.node, Sign{f.start, true});
+  std::set<NodeId> nodes;
+  for (const auto& [node, sign] : first)
+    if (sign.active) nodes.insert(node);
+  return nodes;
+}
+
+std::vector<StateSpan> state_spans(const StartupData& data, TrueTime begin, TrueTime end) {
+  std::vector<StateSpan> spans;
+  std::map<NodeId, StateSpan> now;
+  for (const NodeId node : active_from_the_start(data))
+    now[node] = {node, kStateNormalActive, begin, end, "normal active", "the run began with the node integrated"};
+  const auto leave = [&](NodeId node, TrueTime at) {
+    const auto found = now.find(node);
+    if (found == now.end()) return;
+    found->second.end = std::min(at, end);
+    if (found->second.start < found->second.end) spans.push_back(found->second);
+    now.erase(found);
+  };
+  // Both lists are in the order of the log; the supply goes before the state of an instant.
+  auto power = data.power.begin();
+  const auto supply_until = [&](TrueTime at) {
+    for (; power != data.power.end() && power->at <= at; ++power)
+      if (!power->on) leave(power->node, power->at);
+  };
+  std::map<NodeId, bool> seen;
+  for (const StartupData::Change& c : data.changes) {
+    supply_until(c.at);
+    if (!seen[c.node] && c.from != kStateDefaultConfig) now[c.node] = {c.node, c.from, begin, end, c.from_name, ""};
+    seen[c.node] = true;
+    leave(c.node, c.at);
+    now[c.node] = {c.node, c.to, c.at, end, c.to_name, sentence(c)};
+  }
+  supply_until(end);
+  while (!now.empty()) leave(now.begin()->first, end);
+  std::stable_sort(spans.begin(), spans.end(),
+                   [](const StateSpan& a, const StateSpan& b) { return a.start < b.start; });
+  return spans;
+}
+
+StatePhase phase_of(std::uint8_t state) {
+  switch (state) {
+    case kStateDefaultConfig:
+    case kStateConfig:
+    case kStateReady: return {"is configured", "#e2e2e2"};
+    case kStateWakeupListen:
+    case kStateWakeupSend:
+    case kStateWakeupDetect: return {"wakes the cluster", tint(kPurple, 0.35)};
+    case kStateColdstartListen:
+    case kStateIntegrationListen: return {"listens", tint(kSkyBlue, 0.6)};
+    case kStateCollisionResolution:
+    case kStateConsistencyCheck:
+    case kStateColdstartGap: return {"leads", tint(kOrange, 0.35)};
+    case kStateInitialiseSchedule:
+    case kStateIntegrationColdstartCheck:
+    case kStateColdstartJoin:
+    case kStateIntegrationConsistencyCheck: return {"joins", tint(kYellow, 0.35)};
+    case kStateNormalActive: return {"normal active", tint(kGreen, 0.45)};
+    case kStateNormalPassive: return {"normal passive", tint(kBlue, 0.45)};
+    case kStateHalt: return {"halt", tint(kVermilion, 0.25)};
+    default: return {"other state", "#ffffff"};
+  }
+}
+
+std::string_view short_name(std::uint8_t state) {
+  switch (state) {
+    case kStateWakeupListen:
+    case kStateColdstartListen:
+    case kStateIntegrationListen: return "listen";
+    case kStateCollisionResolution: return "resolution";
+    case kStateConsistencyCheck:
+    case kStateIntegrationColdstartCheck:
+    case kStateIntegrationConsistencyCheck: return "check";
+    case kStateColdstartGap: return "gap";
+    case kStateColdstartJoin: return "join";
+    case kStateInitialiseSchedule: return "initialise";
+    case kStateNormalActive: return "active";
+    case kStateNormalPassive: return "passive";
+    default: return "";
+  }
+}
+
+std::vector<StartupData::Fault> faults_within(const std::vector<StartupData::Fault>& faults, TrueTime from,
+                                              TrueTime to) {
+  std::map<std::uint32_t, std::pair<TrueTime, TrueTime>> spans;  // from its first record to its end
+  for (const StartupData::Fault& f : faults) {
+    auto& [begin, end] = spans.try_emplace(f.fault, f.at, to).first->second;
+    begin = std::min(begin, f.at);
+    if (f.what == records::kFaultEnds) end = f.at;
+  }
+  std::vector<StartupData::Fault> there;
+  std::copy_if(faults.begin(), faults.end(), std::back_inserter(there), [&](const StartupData::Fault& f) {
+    const auto& [begin, end] = spans.at(f.fault);
+    return begin < to && end >= from;
+  });
+  return there;
+}
+
+}  // namespace ttf::report

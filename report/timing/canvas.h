@@ -1,0 +1,42 @@
+// Where things are in a timing diagram that is being drawn: lanes from top to bottom, time along them.
+#pragma once
+
+#include <algorithm>
+#include <map>
+#include <string>
+
+#include "core/time.h"
+#include "report/drawing/names.h"
+#include "report/drawing/svg.h"
+#include "report/timing/data.h"
+#include "report/timing/tags.h"
+#include "report/timing/ways.h"
+
+namespace ttf::report {
+
+struct TimingCanvas {
+  const Names& names;
+  const TimingData& data;
+  TrueTime from, to;
+  TimingTags tags;
+  Area plot;
+  std::map<LaneKey, double> centres;
+
+  static constexpr double kBox = 14, kText = 9.5;  // height of slots and tasks, size of what is written in them
+
+  double x(TrueTime t) const {
+    return plot.x + static_cast<double>((t - from).ns) / static_cast<double>((to - from).ns) * plot.width;
+  }
+  double y(const LaneKey& lane) const { return centres.at(lane); }
+  bool visible(TrueTime start, TrueTime end) const { return start < to && end >= from; }
+  double inside(double px) const { return std::clamp(px, plot.x, plot.x + plot.width); }
+  // In a hover's words, which a page's script adds itself.
+  std::string times(TrueTime start, TrueTime end) const;
+};
+
+double lane_height(const Lane& lane);
+
+// A measurement's arrows, or an image's.
+void draw_way(Svg& svg, const TimingCanvas& canvas, const Way& way);
+
+}  // namespace ttf::report

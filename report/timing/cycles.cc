@@ -1,0 +1,89 @@
+#include "report/timing/cycles.h"
+
+#include <algorithm>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "report/drawing/log_limits.h"
+#include "schedules/model/round.h"
+
+namespace ttf::report {
+namespace {
+
+std::int64_t rounded(std::int64_t a, std::int64_t b) {
+  const std::int64_t shifted = a + b / 2;
+  return shifted / b - (shifted % b < 0 ? 1 : 0);
+}
+
+// What a frame says: that a cycle of its sender's count began then.
+struct Told {
+  std::int64_t cycle;
+  TrueTime start;
+  std::int64_t count;       // what the sender counts at the window's begin
+  std::int64_t rounds = 0;  // how far that is ahead of what most frames say
+};
+
+// In the order of the records.
+std::vector<Told> what_frames_tell(const TimingData& data, Duration cycle, TrueTime from) {
+  std::vector<Told> all;
+  std::map<std::int64_t, std::size_t> frames;  // by count
+  for (const auto& f : data.slot_frames) {
+    if (!f.by_the_cluster) continue;
+    const TrueTime start = f.start - Duration{f.global.ns - f.cycle * cycle.ns};
+    all.push_back({f.cycle, start, f.cycle - rounded((start - from).ns, cycle.ns)});
+    ++frames[all.back().count];
+  }
+  if (all.empty()) return all;
+  const auto usual =
+      std::max_element(frames.begin(), frames.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  // In a window clocks drift from true time by far less than a cycle, and by nothing like a round.
+  for (Told& told : all) told.rounds = rounded(told.count - usual->first, schedules::kCycles);
+  return all;
+}
+
+// Of the counts that most cycles speak for, or at least two, the one that is ahead of all.
+std::int64_t oldest_count(const std::vector<Told>& all) {
+  std::map<std::int64_t, std::set<std::int64_t>> cycles;
+  std::size_t most = 0;
+  for (const Told& told : all) {
+    auto& of_count = cycles[told.rounds];
+    of_count.insert(told.cycle);
+    most = std::max(most, of_count.size());
+  }
+  std::int64_t oldest = cycles.begin()->first;
+  for (const auto& [rounds, told] : cycles)
+    if (told.size() >= std::min<std::size_t>(most, 2)) oldest = rounds;
+  return oldest;
+}
+
+}  // namespace
+
+std::map<std::int64_t, TrueTime> cycle_starts(const TimingData& data, Duration cycle, TrueTime from, TrueTime to) {
+  std::map<std::int64_t, TrueTime> known, all;
+  if (cycle.ns <= 0 || (to - from).ns / cycle.ns > kMostCycleLines) return all;
+  const std::vector<Told> told = what_frames_tell(data, cycle, from);
+  if (!told.empty()) {
+    const std::int64_t oldest = oldest_count(told);
+    // Those of the count itself come first: a frame of another may be a mistake.
+    for (const bool same : {true, false})
+      for (const Told& one : told)
+        if ((one.rounds == oldest) == same)
+          known.try_emplace(one.cycle + (oldest - one.rounds) * schedules::kCycles, one.start);
+  }
+  const auto [number, start] =
+      known.empty() ? std::pair<std::int64_t, TrueTime>{} : std::pair<std::int64_t, TrueTime>(*known.begin());
+  const Duration half{cycle.ns / 2};
+  const std::int64_t before = (start - from).ns / cycle.ns + 1;
+  TrueTime at = start - cycle * before;
+  for (std::int64_t c = number - before; at <= to + cycle; ++c, at += cycle) {
+    // A frame that is half a cycle off its place says nothing of where the cycle began.
+    if (const auto k = known.find(c); k != known.end() && (k->second - at < half && at - k->second < half))
+      at = k->second;
+    all[c] = at;
+  }
+  return all;
+}
+
+}  // namespace ttf::report

@@ -1,0 +1,109 @@
+#include "report/timing/faults.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "recording/records/records.h"
+
+namespace ttf::report {
+namespace {
+
+std::string state_words(std::uint8_t state) {
+  struct Word {
+    std::uint8_t bit;
+    const char* words;
+  };
+  static constexpr Word kWords[] = {{records::kChannelHeaderCrc, "header CRC wrong"},
+                                    {records::kChannelFrameCrc, "frame CRC wrong"},
+                                    {records::kChannelCoding, "nobody can make it out"},
+                                    {records::kChannelCut, "it breaks off"}};
+  std::string text;
+  for (const Word& one : kWords)
+    if ((state & one.bit) != 0) text += fmt::format("{}{}", text.empty() ? "" : ", ", one.words);
+  return text.empty() ? "sound" : text;
+}
+
+}  // namespace
+
+FaultLanes::FaultLanes(const TimingData& data, const Names& names, TrueTime from, TrueTime to) : from_(from), to_(to) {
+  for (const auto& f : data.faults) {
+    if (f.what == records::kFaultBegins)
+      lanes_.try_emplace(f.fault, Lane{f.node == kNoNode ? f.kind : fmt::format("{}, {}", f.kind, names.node(f.node)),
+                                       f.text,
+                                       f.at,
+                                       to,
+                                       false,
+                                       {}});
+    const auto lane = lanes_.find(f.fault);
+    if (lane == lanes_.end()) continue;  // of a log that lost its begin
+    if (f.what == records::kFaultEnds) {
+      lane->second.end = f.at;
+      lane->second.ends = true;
+    }
+    if (f.what == records::kFaultActs && f.at >= from && f.at < to) lane->second.acts.push_back(&f);
+  }
+  std::erase_if(lanes_, [&](const auto& one) {
+    return one.second.acts.empty() && (one.second.start >= to || one.second.end < from);
+  });
+}
+
+double FaultLanes::label_width() const {
+  double width = 0;
+  for (const auto& [fault, lane] : lanes_) width = std::max(width, text_width(lane.label, 11));
+  return width;
+}
+
+void FaultLanes::draw_labels(Svg& svg, const Area& plot) const {
+  double y = plot.y;
+  for (const auto& [fault, lane] : lanes_) {
+    svg.text({plot.x - 10, y + 15}, lane.label, {.size = 11, .anchor = Anchor::kEnd});
+    y += kHeight;
+  }
+  if (!lanes_.empty()) svg.line({12, y}, {plot.x + plot.width, y}, {.stroke = "#999999", .width = 0.8});
+}
+
+void FaultLanes::draw(Svg& svg, const Area& plot, const std::function<double(TrueTime)>& x,
+                      const TimingTags& tags) const {
+  double y = plot.y;
+  for (const auto& [fault, lane] : lanes_) {
+    const double left = x(std::max(lane.start, from_)), right = x(std::min(lane.end, to_));
+    if (lane.start < to_ && lane.end >= from_) {
+      svg.tag_next(tags.span(lane.start, lane.end) + (lane.ends ? "" : tags.beyond()));
+      svg.rect({left, y + 4, std::max(1.5, right - left), 14}, {.fill = kFaultSpan, .stroke = kVermilion, .width = 0.7},
+               lane.text, "fault");
+    }
+    for (const auto* act : lane.acts) {
+      svg.tag_next(tags.at(act->at));
+      svg.rect({x(act->at) - 0.7, y + 4, 1.4, 14}, {.fill = kVermilion}, act->text, "acts");
+    }
+    y += kHeight;
+  }
+}
+
+void FaultLanes::add_to(std::vector<LegendEntry>& legend) const {
+  using K = LegendEntry::Kind;
+  if (lanes_.empty()) return;
+  legend.push_back({K::kBox, "fault, from its begin to its end", std::string(kFaultSpan), {}, true});
+  if (std::ranges::any_of(lanes_, [](const auto& one) { return !one.second.acts.empty(); }))
+    legend.push_back({K::kLine, "the fault acts", std::string(kVermilion)});
+}
+
+ChannelMark channel_mark(const TimingData::OnChannel& r, const Names& names) {
+  ChannelMark mark{r.start, r.end, r.channel, (r.state & records::kChannelNothing) != 0, {}};
+  if (mark.missing) {
+    mark.start = r.sent;
+    mark.end = r.sent + std::max(r.end - r.start, Duration{});
+    mark.channel = r.sent_channel;
+  }
+  std::string whose = "nobody sent it";
+  if (r.slot != 0)
+    whose = fmt::format("slot {} of {}", r.slot, names.node(r.sender));
+  else if (r.sender != kNoNode)
+    whose = fmt::format("{}, but its controller did not send it", names.node(r.sender));
+  mark.words = mark.missing ? fmt::format("{}: nothing of it reached anybody", whose)
+                            : fmt::format("{}: {}", whose, state_words(r.state));
+  return mark;
+}
+
+}  // namespace ttf::report

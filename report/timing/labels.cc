@@ -1,0 +1,102 @@
+#include "report/timing/labels.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "report/drawing/axes.h"
+
+namespace ttf::report {
+namespace {
+
+class LabelPainter {
+ public:
+  LabelPainter(Svg& svg, const TimingCanvas& canvas) : svg_(svg), canvas_(canvas) {}
+
+  void draw(const std::vector<Transfer>& transfers) {
+    svg_.open_group("labels");
+    for (const auto& m : canvas_.data.measurements) {
+      if (!canvas_.visible(m.at, m.at)) continue;
+      const double px = canvas_.x(m.at), py = canvas_.y({LaneKey::Kind::kSensor, index_of(m.id.sensor), 0});
+      const std::string text = fmt::format("{}", m.id.sequence);
+      const std::array<Point, 2> at{Point{px + 7, py + 4}, Point{px - 7 - text_width(text, kText), py + 4}};
+      label(text, {.size = kText, .halo = true}, at, m.at);
+    }
+    for (const auto& s : canvas_.data.steps) {
+      const TimingData::Run* box = nullptr;
+      for (const auto& r : canvas_.data.runs)
+        if (r.node == s.node && r.start.ns <= s.at.ns + 2000 && s.at.ns <= r.end.ns + 2000 &&
+            (box == nullptr || r.start > box->start))
+          box = &r;
+      if (box == nullptr) continue;
+      in_box(fmt::format("{}", s.step), box->start, box->end,
+             canvas_.y({LaneKey::Kind::kTask, index_of(box->node), box->task}), "#c9d7e6");
+    }
+    for (const Transfer& t : transfers) {
+      if (!canvas_.visible(t.start, t.end)) continue;
+      const std::string full = fmt::format("{} {}", canvas_.names.pdu(t.pdu), t.sequence),
+                        brief = fmt::format("{}", t.sequence);
+      if (t.lane.kind == LaneKey::Kind::kCan) {
+        const std::string behind = tint(pdu_colour(canvas_.names, t.pdu), 0.55);
+        if (!in_box(full, t.start, t.end, canvas_.y(t.lane), behind) && !canvas_.tags.on())
+          in_box(brief, t.start, t.end, canvas_.y(t.lane), behind);
+        continue;
+      }
+      // Where channel A carries the same list, B needs no label of its own.
+      if (t.lane.index == 1 && std::ranges::any_of(transfers, [&](const Transfer& o) {
+            return o.lane.kind == t.lane.kind && o.lane.index == 0 && o.pdu == t.pdu && o.sequence == t.sequence &&
+                   o.start == t.start;
+          }))
+        continue;
+      const double baseline = canvas_.y(t.lane) + 4 - kBox / 2 - 4;
+      const std::array<Point, 1> at{Point{canvas_.inside(canvas_.x(t.start)), baseline}};
+      const TextStyle style{.size = 9, .halo = true};
+      if (canvas_.tags.on())
+        label(full, style, at, t.start);
+      else if (const auto p = space_.place(full, style, at, canvas_.plot))
+        svg_.text(*p, full, style);
+      else
+        label(brief, style, at, t.start);
+    }
+    svg_.close_group();
+  }
+
+ private:
+  static constexpr double kBox = TimingCanvas::kBox, kText = TimingCanvas::kText;
+
+  void label(const std::string& text, const TextStyle& style, std::span<const Point> candidates, TrueTime at) {
+    const auto p = space_.place(text, style, candidates, canvas_.plot);
+    if (!p && !canvas_.tags.on()) return;
+    svg_.tag_next(canvas_.tags.at(at) + canvas_.tags.label(text_width(text, style.size), p.has_value()));
+    svg_.text(p.value_or(candidates.front()), text, style);
+  }
+
+  bool in_box(const std::string& text, TrueTime start, TrueTime end, double centre, std::string_view behind) {
+    const double left = canvas_.inside(canvas_.x(start)), right = canvas_.inside(canvas_.x(end));
+    const bool fits = right - left >= text_width(text, kText) + 5;
+    if (!fits && !canvas_.tags.on()) return false;
+    const TextStyle style{.size = kText, .anchor = Anchor::kMiddle, .fill = text_colour_on(behind)};
+    const std::array<Point, 1> at{Point{(left + right) / 2, centre + 3.5}};
+    const auto p = fits ? space_.place(text, style, at, canvas_.plot) : std::nullopt;
+    if (!p && !canvas_.tags.on()) return false;
+    svg_.tag_next(canvas_.tags.span(start, end) + canvas_.tags.label(text_width(text, kText), p.has_value()));
+    svg_.text(at.front(), text, style);
+    return p.has_value();
+  }
+
+  Svg& svg_;
+  const TimingCanvas& canvas_;
+  LabelSpace space_;
+};
+
+}  // namespace
+
+void draw_labels(Svg& svg, const TimingCanvas& canvas, const std::vector<Transfer>& transfers) {
+  LabelPainter(svg, canvas).draw(transfers);
+}
+
+}  // namespace ttf::report

@@ -1,0 +1,14 @@
+// What is written in a timing diagram.
+#pragma once
+
+#include <vector>
+
+#include "report/drawing/svg.h"
+#include "report/timing/canvas.h"
+
+namespace ttf::report {
+
+// Last, and only where nothing is in the way.
+void draw_labels(Svg& svg, const TimingCanvas& canvas, const std::vector<Transfer>& transfers);
+
+}  // namespace ttf::report

@@ -1,0 +1,63 @@
+#include "report/timing/problems.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "recording/records/records.h"
+
+namespace ttf::report {
+namespace {
+
+std::optional<LaneKey> lane_of(const TimingData::Problem& p, const std::vector<Lane>& lanes) {
+  const auto found = std::ranges::find_if(lanes, [&](const Lane& lane) {
+    if (p.slot != 0) return lane.key.kind == LaneKey::Kind::kChannel && lane.key.index == p.channel;
+    return lane.key.kind == LaneKey::Kind::kTask && lane.key.index == index_of(p.node);
+  });
+  return found == lanes.end() ? std::nullopt : std::optional(found->key);
+}
+
+std::string words_of(const TimingData::Problem& p, const Names& names) {
+  const std::string by = number(static_cast<double>(p.late.ns) * 1e-3);
+  const std::string slot = fmt::format("slot {} of cycle {}", p.slot, p.cycle);
+  switch (p.what) {
+    case records::kLateWakeUp: return fmt::format("{}: woken up {} us late", names.node(p.node), by);
+    case records::kSlotMissed: return fmt::format("{}: missed its {}, {} us late", names.node(p.node), slot, by);
+    case records::kLateFrame: return fmt::format("{}: the frame of {} came {} us late", names.node(p.node), slot, by);
+    case records::kEarlyFrame:
+      return fmt::format("{}: the frame of {} came {} us early", names.node(p.node), slot,
+                         number(static_cast<double>(p.late.ns) * -1e-3));
+    case records::kFramesLost:
+      return fmt::format("{}: {} of slot {} never came", names.node(p.node),
+                         p.count == 1 ? "a frame" : fmt::format("{} frames", p.count), p.slot);
+  }
+  return names.node(p.node);
+}
+
+}  // namespace
+
+ProblemMarks::ProblemMarks(const TimingData& data, const Names& names, const std::vector<Lane>& lanes, TrueTime from,
+                           TrueTime to) {
+  for (const TimingData::Problem& p : data.problems) {
+    if (p.at < from || p.at >= to) continue;
+    if (const auto lane = lane_of(p, lanes)) marks_.push_back({*lane, p.at, words_of(p, names)});
+  }
+}
+
+void ProblemMarks::draw(Svg& svg, const std::function<Point(const LaneKey&, TrueTime)>& place,
+                        const TimingTags& tags) const {
+  for (const Mark& mark : marks_) {
+    svg.tag_next(tags.at(mark.at));
+    svg.marker(Marker::kDiamond, place(mark.lane, mark.at), 9, {.fill = kVermilion, .stroke = "#ffffff", .width = 0.8},
+               mark.words, "problem");
+  }
+}
+
+void ProblemMarks::add_to(std::vector<LegendEntry>& legend) const {
+  if (!marks_.empty())
+    legend.push_back({LegendEntry::Kind::kMarker, "late, early or lost in real time", std::string(kVermilion),
+                      Marker::kDiamond, true});
+}
+
+}  // namespace ttf::report

@@ -1,0 +1,222 @@
+#include "schedules/analysis/ages.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "schedules/analysis/age_stages.h"
+#include "schedules/model/round.h"
+#include "schedules/analysis/settled.h"
+
+namespace ttf::schedules {
+namespace {
+
+// One extreme walk from the measurement on: the share of each stage, and their sum.
+struct Extreme {
+  std::vector<std::int64_t> shares;
+  std::int64_t sum = 0;
+  std::int64_t on_grid = 0;  // of the sum, from the first stage on the grid on
+};
+
+class Ages {
+ public:
+  explicit Ages(const Cluster& cluster) : cluster_(cluster), clocks_(clock_bounds(cluster)) {}
+
+  std::optional<AgePath> of(SensorId id) {
+    const Path path = path_of(cluster_, id);
+    if (path.stages.empty()) return std::nullopt;
+    AgePath ages;
+    ages.sensor = id;
+    bounds(path, id, path.available, ages.fusion_best, ages.fusion_worst, &ages.to_fusion);
+    bounds(path, id, path.fused, ages.fused_best, ages.fused_worst, nullptr);
+    ages.reaches_use = path.used != 0;
+    if (!ages.reaches_use) return ages;
+    bounds(path, id, path.used, ages.use_best, ages.use_worst, &ages.to_use);
+    ages.newest_worst = ages.use_worst + until_next_newest(path, id);
+    return ages;
+  }
+
+  // BUFF lets the oldest of the measurements that wait for a sensor go at `at`, `age` after it was made.
+  struct Release {
+    GlobalTime at{};
+    Duration age{};
+  };
+  void releases(SensorId sensor, std::vector<Release>& all) const {
+    const auto round = settled_round(cluster_, sensor);
+    if (!round) return;
+    const std::vector<Settled>& settled = round->instants;
+    // The youngest that an instant settles is followed by the oldest that the next one does.
+    for (std::size_t i = 0; i < settled.size(); ++i) {
+      const GlobalTime next = i + 1 < settled.size() ? settled[i + 1].at : settled.front().at + round->round;
+      all.push_back({next, next - settled[i].measured});
+    }
+  }
+
+  // On arrival: what no sensor's slowest list can precede any more goes with the next list of the sensor whose lists
+  // are the least apart when they come.
+  Duration held_for_arrivals(const std::vector<AgePath>& paths) const {
+    Duration slowest{};
+    std::optional<Duration> apart;
+    for (const AgePath& path : paths) {
+      slowest = std::max(slowest, path.fused_worst);
+      if (!path_of(cluster_, path.sensor).on_arrival) continue;
+      const Duration one = longest_between(path.sensor) + path.fused_worst - path.fused_best;
+      apart = std::min(apart.value_or(one), one);
+    }
+    return slowest + apart.value_or(Duration{});
+  }
+
+  void buffer(AgePath& ages, const std::vector<Release>& releases, Duration held_for_arrivals) {
+    const Path path = path_of(cluster_, ages.sensor);
+    const std::size_t gate = path.available;
+    std::int64_t fused = 0, used = 0;
+    const std::size_t last = std::max(path.used, path.fused);
+    if (path.on_arrival) return buffer(ages, path, held_for_arrivals);
+    // Not activated by time: there are no fusion instants to hold a list for.
+    if (gate >= path.stages.size() || path.stages[gate].kind != Stage::Kind::kActivation) return;
+    for (const Release& release : releases) {
+      const auto instants = walk(cluster_, path, gate, last, release.at.ns, true, true);
+      const std::int64_t measured = (release.at - release.age).ns;
+      fused = std::max(fused, instants[path.fused - gate - 1] - measured);
+      if (path.used != 0) used = std::max(used, instants.back() - measured);
+    }
+    const auto with_clocks = [&](std::int64_t sum) { return Duration{sum + clocks_.apart_ns + clocks_.drift_ns(sum)}; };
+    ages.buffered_fused_worst = with_clocks(fused);
+    if (path.used == 0) return;
+    ages.buffered_use_worst = with_clocks(used);
+    ages.buffered_newest_worst = ages.buffered_use_worst + until_next_newest(path, ages.sensor);
+  }
+
+ private:
+  void buffer(AgePath& ages, const Path& path, Duration held) const {
+    const auto with_clocks = [&](Duration sum) { return sum + Duration{clocks_.apart_ns + clocks_.drift_ns(sum.ns)}; };
+    ages.buffered_fused_worst = with_clocks(held);
+    if (path.used == 0) return;
+    ages.buffered_use_worst = with_clocks(held + fusion_to_use(path));
+    ages.buffered_newest_worst = ages.buffered_use_worst + until_next_newest(path, ages.sensor);
+  }
+
+  // At worst, whatever the phase.
+  Duration fusion_to_use(const Path& path) const {
+    std::int64_t spans = 0, rest = 0;
+    std::size_t gate = path.fused;
+    for (; gate < path.used && !path.stages[gate].on_grid(true); ++gate) spans += path.stages[gate].worst.ns;
+    if (gate == path.used) return {spans};
+    for (const std::int64_t start : entries(cluster_, path.stages[gate], kFromCycle, true))
+      rest = std::max(rest, walk(cluster_, path, gate, path.used, start, true, true).back() - start);
+    return {spans + rest};
+  }
+
+  // Two measurements of a sensor, in global time.
+  Duration longest_between(SensorId id) const {
+    const Sensor& sensor = cluster_.sensor(id);
+    const Duration period = sensor.longest_period();
+    return period + Duration{sensor.scheduled ? 0 : clocks_.drift_ns(period.ns)};
+  }
+
+  // The next measurement is first used at the latest one period and the bound of a first use after this one; the use
+  // before that, a use period earlier, is the last that still shows this measurement as the newest.
+  Duration until_next_newest(const Path& path, SensorId id) const {
+    const std::int64_t between_uses =
+        path.use.repetition > 0 ? cluster_.cycle().ns * path.use.repetition - clocks_.apart_ns : 0;
+    return {std::max<std::int64_t>(0, longest_between(id).ns - between_uses)};
+  }
+
+  Extreme extreme(const Path& path, const Sensor& sensor, std::size_t last, bool latest) const {
+    Extreme found;
+    std::vector<std::int64_t> before;
+    const auto consider = [&](const std::vector<std::int64_t>& shares) {
+      std::int64_t sum = 0;
+      for (const std::int64_t share : shares) sum += share;
+      if (!found.shares.empty() && (latest ? sum <= found.sum : sum >= found.sum)) return;
+      found = {shares, sum, sum};
+      for (const std::int64_t share : before) found.on_grid -= share;
+    };
+    // Up to the first stage on the grid, a free-running sensor's stages are spans.
+    std::size_t gate = 0;
+    if (!sensor.scheduled)
+      for (; gate < last && !path.stages[gate].on_grid(latest); ++gate) {
+        const Stage& stage = path.stages[gate];
+        before.push_back(latest                              ? stage.worst.ns
+                         : stage.kind == Stage::Kind::kSlots ? stage.shortest.ns
+                                                             : stage.best.ns);
+      }
+    std::vector<std::int64_t> starts;
+    if (sensor.scheduled) {
+      for (std::int64_t cycle = kFromCycle; cycle < kFromCycle + kCycles; ++cycle)
+        if (in_cycle(sensor.at, cycle)) starts.push_back(time_of(cluster_.flexray, cycle, sensor.at.offset).ns);
+    } else if (gate < last) {
+      starts = entries(cluster_, path.stages[gate], kFromCycle, latest);
+    } else {
+      starts.push_back(0);
+    }
+    for (const std::int64_t start : starts) {
+      std::vector<std::int64_t> shares = before;
+      std::int64_t at = start;
+      for (const std::int64_t instant : walk(cluster_, path, gate, last, start, latest, !sensor.scheduled)) {
+        shares.push_back(instant - at);
+        at = instant;
+      }
+      consider(shares);
+    }
+    return found;
+  }
+
+  void bounds(const Path& path, SensorId id, std::size_t last, Duration& best, Duration& worst,
+              std::vector<Contribution>* contributions) const {
+    const Sensor& sensor = cluster_.sensor(id);
+    const Extreme low = extreme(path, sensor, last, false), high = extreme(path, sensor, last, true);
+    // Spans before the grid have their drift against any clock in them already.
+    const std::int64_t clocks_low = std::min(low.sum, clocks_.apart_ns + clocks_.drift_ns(low.on_grid));
+    const std::int64_t clocks_high = clocks_.apart_ns + clocks_.drift_ns(high.on_grid);
+    best = {low.sum - clocks_low};
+    worst = {high.sum + clocks_high};
+    if (contributions == nullptr) return;
+    for (std::size_t i = 0; i < last; ++i)
+      contributions->push_back({path.stages[i].name, {low.shares[i]}, {high.shares[i]}});
+    contributions->push_back({"clocks differ", {-clocks_low}, {clocks_high}});
+  }
+
+  const Cluster& cluster_;
+  ClockBounds clocks_;
+};
+
+}  // namespace
+
+std::vector<AgePath> measurement_ages(const Cluster& cluster) {
+  Ages ages(cluster);
+  std::vector<AgePath> paths;
+  for (std::size_t s = 0; s < cluster.sensors.size(); ++s)
+    if (auto path = ages.of(static_cast<SensorId>(s))) paths.push_back(std::move(*path));
+  std::vector<Ages::Release> releases;
+  for (const AgePath& path : paths) ages.releases(path.sensor, releases);
+  const Duration held = ages.held_for_arrivals(paths);
+  for (AgePath& path : paths) ages.buffer(path, releases, held);
+  return paths;
+}
+
+std::string ages_text(const Cluster& cluster) {
+  std::string text = fmt::format("{:<52}{:>10}{:>10}\n", "age of a measurement [ms]", "best", "worst");
+  const auto row = [&](const std::string& name, Duration best, Duration worst) {
+    text += fmt::format("{:<52}{:>10.3f}{:>10.3f}\n", name, in_ms(best), in_ms(worst));
+  };
+  const auto bound = [&](const std::string& name, Duration worst) {
+    text += fmt::format("{:<52}{:>10}{:>10.3f}\n", name, "", in_ms(worst));
+  };
+  for (const AgePath& path : measurement_ages(cluster)) {
+    text += fmt::format("{}\n", cluster.sensor(path.sensor).name);
+    for (const Contribution& part : path.reaches_use ? path.to_use : path.to_fusion)
+      row("    " + part.name, part.best, part.worst);
+    row("  available to the fusion", path.fusion_best, path.fusion_worst);
+    row("  fused", path.fused_best, path.fused_worst);
+    if (path.reaches_use) row("  used first", path.use_best, path.use_worst);
+    if (path.reaches_use) bound("  newest one at any use", path.newest_worst);
+    bound("  fused, if held for order (BUFF)", path.buffered_fused_worst);
+    if (path.reaches_use) bound("  used first, if held for order (BUFF)", path.buffered_use_worst);
+    if (path.reaches_use) bound("  newest one at any use, if held (BUFF)", path.buffered_newest_worst);
+  }
+  return text;
+}
+
+}  // namespace ttf::schedules

@@ -1,0 +1,99 @@
+#include "schedules/analysis/can_load.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/check.h"
+#include "core/int128.h"
+
+namespace ttf::schedules {
+namespace {
+
+constexpr int kStuffedClassic = 34;        // SOF to the end of the CRC, without data
+constexpr int kUnstuffed = 13;             // CRC delimiter to the end of the intermission
+constexpr std::int64_t kIntermission = 3;  // of these bits
+constexpr int kArbitrationFd = 17;         // SOF, identifier, RRS, IDE, FDF, res, BRS
+constexpr int kStuffedFd = 14;             // of them up to IDE: FDF, res and BRS alternate, so no run goes on
+constexpr int kControlFd = 5;              // ESI, DLC
+
+}  // namespace
+
+std::optional<int> can_data_length(bool flexible_data_rate, int bytes) {
+  constexpr std::array<int, 7> kLong{12, 16, 20, 24, 32, 48, 64};
+  if (bytes < 0 || bytes > (flexible_data_rate ? 64 : 8)) return std::nullopt;
+  if (bytes <= 8) return bytes;
+  return *std::lower_bound(kLong.begin(), kLong.end(), bytes);
+}
+
+CanBits can_unstuffed_bits(const CanBus& bus, int bytes) {
+  const auto length = can_data_length(bus.flexible_data_rate, bytes);
+  TTF_CHECK(length.has_value(), "{} bytes in a frame on {}", bytes, bus.name);
+  const int payload = 8 * *length;
+  if (!bus.flexible_data_rate) return {kStuffedClassic + payload + kUnstuffed, 0};
+  const int check = *length <= 16 ? 4 + 17 + 6 : 4 + 21 + 7;
+  return {kArbitrationFd + kUnstuffed, kControlFd + payload + check};
+}
+
+Duration can_duration(const CanBus& bus, CanBits bits) {
+  const Int128 rates = static_cast<Int128>(bus.nominal_bit_rate) * bus.data_bit_rate;
+  const Int128 work =
+      (static_cast<Int128>(bits.nominal) * bus.data_bit_rate + static_cast<Int128>(bits.data) * bus.nominal_bit_rate) *
+      1'000'000'000;
+  return {static_cast<std::int64_t>((work + rates - 1) / rates)};
+}
+
+Duration can_worst_case(const CanBus& bus, int bytes) {
+  CanBits bits = can_unstuffed_bits(bus, bytes);
+  const int payload = 8 * *can_data_length(bus.flexible_data_rate, bytes);
+  // After the first bit, every fourth can need a stuff bit.
+  if (bus.flexible_data_rate) {
+    bits.nominal += (kStuffedFd - 1) / 4;
+    bits.data += (1 + kControlFd + payload - 1) / 4;  // BRS begins a run
+  } else {
+    bits.nominal += (kStuffedClassic + payload - 1) / 4;
+  }
+  return can_duration(bus, bits);
+}
+
+Duration can_best_case(const CanBus& bus, int bytes) { return can_duration(bus, can_unstuffed_bits(bus, bytes)); }
+
+Duration can_soonest_arrival(const CanBus& bus, int bytes) {
+  return can_best_case(bus, bytes) - Duration{kIntermission * 1'000'000'000 / bus.nominal_bit_rate};
+}
+
+Duration can_list_worst_case(const CanBus& bus, const PduLayout& layout) {
+  return can_worst_case(bus, layout.fragment_bytes) * layout.max_fragments();
+}
+
+double can_worst_load(const Cluster& cluster, const CanBus& bus) {
+  double load = bus.other_load;
+  for (const CanMessage& message : bus.messages)
+    load += can_list_worst_case(bus, cluster.pdu(message.pdu)).seconds() / message.shortest_period.seconds();
+  return load;
+}
+
+std::optional<Duration> can_worst_response(const Cluster& cluster, const CanBus& bus, const CanMessage& message) {
+  if (can_worst_load(cluster, bus) >= 1.0) return std::nullopt;
+  Duration fixed = can_list_worst_case(bus, cluster.pdu(message.pdu));
+  Duration blocking{};
+  for (const CanMessage& other : bus.messages)
+    if (other.identifier > message.identifier)
+      blocking = std::max(blocking, can_worst_case(bus, cluster.pdu(other.pdu).fragment_bytes));
+  // Traffic that is not described may be of any priority: as if it had the highest.
+  if (bus.other_load > 0.0) blocking += can_worst_case(bus, bus.flexible_data_rate ? 64 : 8);
+  fixed += blocking;
+  // Davis et al., equation 3, iterated to its fixed point from below; it ends because the load is below one.
+  Duration response = fixed;
+  while (true) {
+    Duration next = fixed;
+    for (const CanMessage& other : bus.messages)
+      if (other.identifier < message.identifier)
+        next += can_list_worst_case(bus, cluster.pdu(other.pdu)) * (response.ns / other.shortest_period.ns + 1);
+    next.ns = static_cast<std::int64_t>(std::ceil(static_cast<double>(next.ns) / (1.0 - bus.other_load)));
+    if (next == response) return response;
+    response = next;
+  }
+}
+
+}  // namespace ttf::schedules

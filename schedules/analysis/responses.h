@@ -1,0 +1,55 @@
+// How long a node's tasks take at worst from their activation to their end, other tasks' turns included, and how soon
+// they may be activated again.
+//
+// One processor per node, no preemption, first come first served. Whatever runs before a job was activated after the
+// last instant at which the node was idle, and at or before the job; so a job activated a after that instant ends at
+// the latest
+//   W(a) - a
+// after its activation, W(a) being the work activated in a closed window of length a (J. Y. Le Boudec, P. Thiran:
+// Network Calculus, Springer 2001, section 1.4: the horizontal distance for a FIFO server of rate one). The bound is
+// the largest over all a up to the longest busy time, the smallest A with W(A) <= A. In W:
+//   by time      the exact instants of 64 cycles, at the distances that the node's corrections can shrink them to
+//   by messages  at most floor((a + J) / T) + 1 in a window, T the shortest time between two lists where they are sent
+//   and J and sensors  by how much their way may differ from one to the next (schedules/analysis/activation_bounds.h) by a sensor  that
+//   waits for the task's end (schedules/analysis/sensor_loop.h): the next comes R after that end at the soonest, so that follows
+//   the executions between activations in a window are at most a C / (C + R), and one C more; C the worst case after
+//   other  with the task they follow: a chain's work comes at its beginning at the earliest
+// A task that follows another starts its own account when that one ends. What may then be before it was activated since
+// the other's activation; of every task at most one activation is pending, which is what the checker demands of all (an
+// end before the next activation) and what makes these bounds hold one after the other. Durations are the node's own
+// time, in which executions and deadlines are counted.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/ids.h"
+#include "core/time.h"
+#include "schedules/analysis/activation_bounds.h"
+#include "schedules/model/cluster.h"
+
+namespace ttf::schedules {
+
+struct TaskResponse {
+  Duration worst{};  // from activation to end
+  // Shortest between two activations; nothing where nothing is known of them, or where the next waits for the task's
+  // end.
+  std::optional<Duration> gap;
+  std::optional<Duration> written;  // shortest between two ends
+};
+
+// By task, in file order; nothing for a node that may be busy without end, or whose chains lead back to no beginning.
+// No two tasks that time activates may overlap, as the checker demands first.
+std::optional<std::vector<TaskResponse>> worst_responses(const Cluster& cluster, NodeId node,
+                                                         WritersOfLists writers = WritersOfLists::kKnown);
+
+// The same of one task, where of some others more is known: `ahead`, by task, is how long before this task's activation
+// the newest activation of the other was at the latest (zero: nothing is known). For a task that messages activate.
+std::optional<Duration> worst_response(const Cluster& cluster, NodeId node, std::size_t task,
+                                       std::span<const Duration> ahead);
+
+// The longest time a node may be busy without a break that worst_responses() looks into.
+Duration longest_busy_time(const Cluster& cluster, const Node& node);
+
+}  // namespace ttf::schedules

@@ -1,0 +1,187 @@
+// The checker's rules about where lists come from and go to.
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "schedules/check/checker.h"
+
+namespace ttf::schedules {
+namespace {
+
+using Medium = std::pair<PduId, std::ptrdiff_t>;  // CAN index, -1 for FlexRay
+Medium medium_of(const PortBinding& binding) {
+  return {binding.pdu, binding.can_bus ? static_cast<std::ptrdiff_t>(*binding.can_bus) : -1};
+}
+
+struct End {
+  NodeId node;
+  const Task* task;
+  const PortBinding* binding;
+};
+
+std::string end_path(const Cluster& cluster, const End& end, std::string_view direction) {
+  return fmt::format("{}.{}.{}", task_path(cluster.node(end.node), *end.task), direction, end.binding->port);
+}
+
+std::string medium_name(const Cluster& cluster, const Medium& medium) {
+  return fmt::format("{} on {}", cluster.pdu(medium.first).name,
+                     medium.second < 0 ? "flexray" : cluster.can_buses[static_cast<std::size_t>(medium.second)].name);
+}
+
+// Who may send the list on its medium: the message's sender, or the owner of its slots.
+std::optional<NodeId> sender_of(const Cluster& cluster, const Medium& medium) {
+  if (medium.second >= 0) {
+    for (const CanMessage& message : cluster.can_buses[static_cast<std::size_t>(medium.second)].messages)
+      if (message.pdu == medium.first) return message.sender;
+  } else {
+    for (const FrameSlot& frame : cluster.frames)
+      if (frame.pdu == medium.first) return frame.sender;
+  }
+  return std::nullopt;
+}
+
+// A reader on FlexRay is attached to a channel of every frame of the list.
+void check_hears(const Cluster& cluster, const End& end, const std::string& name, ClusterFindings& findings) {
+  const Node& node = cluster.node(end.node);
+  if (!node.flexray)
+    return findings.at(end.binding->line, end_path(cluster, end, "reads"), name, "needs a node on FlexRay");
+  for (const FrameSlot& frame : cluster.frames) {
+    if (frame.pdu != end.binding->pdu || share_a_channel(frame.channels, node.flexray->pChannels)) continue;
+    return findings.at(
+        end.binding->line, end_path(cluster, end, "reads"), name,
+        fmt::format("must be sent on {}: {} is attached to no other channel (pChannels), and slot {} (line {}) "
+                    "is on {} only",
+                    channels_text(node.flexray->pChannels), node.name, frame.slot, frame.line,
+                    channels_text(frame.channels)));
+  }
+}
+
+void check_sensor(const Cluster& cluster, SensorId id, ClusterFindings& findings) {
+  const Sensor& sensor = cluster.sensor(id);
+  const std::string path = "sensors." + sensor.name;
+  int measuring = 0;
+  bool writes = false, host_reads = false;
+  for (const Task& task : cluster.node(sensor.device).tasks) {
+    if (task.activation.kind != ActivationKind::kSensor || task.activation.sensor != id) continue;
+    ++measuring;
+    for (const PortBinding& binding : task.writes) writes |= cluster.pdu(binding.pdu).sensor == id;
+  }
+  for (const Task& task : cluster.node(sensor.host).tasks)
+    for (const PortBinding& binding : task.reads) host_reads |= cluster.pdu(binding.pdu).sensor == id;
+  if (measuring != 1)
+    findings.at(sensor.line, path + ".device", cluster.node(sensor.device).name,
+                fmt::format("must have exactly one task that {} activates; it has {}", sensor.name, measuring));
+  else if (!writes)
+    findings.at(sensor.line, path + ".device", cluster.node(sensor.device).name,
+                fmt::format("must write a PDU of the sensor {}", sensor.name));
+  if (!host_reads)
+    findings.at(sensor.line, path + ".host", cluster.node(sensor.host).name,
+                fmt::format("must read a PDU of the sensor {}", sensor.name));
+  if (!cluster.node(sensor.host).flexray)
+    findings.at(sensor.line, path + ".host", cluster.node(sensor.host).name,
+                "must be on FlexRay: it stamps the measurements with global time");
+}
+
+// A sensor's lists go one way: followed from any task over what it writes, they never come back to it.
+class RingFinder {
+ public:
+  RingFinder(const Cluster& cluster, const std::map<Medium, std::vector<End>>& readers, SensorId sensor,
+             ClusterFindings& findings)
+      : cluster_(cluster), readers_(readers), sensor_(sensor), findings_(findings) {
+    for (const Node& node : cluster.nodes) state_.emplace_back(node.tasks.size(), State::kNew);
+  }
+
+  void run() {
+    for (std::size_t n = 0; n < state_.size(); ++n)
+      for (const Task& task : cluster_.nodes[n].tasks) visit(static_cast<NodeId>(n), task);
+  }
+
+ private:
+  enum class State : std::uint8_t { kNew, kOnTheWay, kDone };
+
+  State& state(NodeId node, const Task& task) {
+    return state_[index_of(node)][static_cast<std::size_t>(&task - cluster_.node(node).tasks.data())];
+  }
+
+  void visit(NodeId node, const Task& task) {
+    if (state(node, task) != State::kNew) return;
+    state(node, task) = State::kOnTheWay;
+    for (const PortBinding& binding : task.writes) {
+      const auto ends = readers_.find(medium_of(binding));
+      if (cluster_.pdu(binding.pdu).sensor != sensor_ || ends == readers_.end()) continue;
+      for (const End& end : ends->second) {
+        if (state(end.node, *end.task) == State::kOnTheWay)
+          findings_.at(binding.line, end_path(cluster_, {node, &task, &binding}, "writes"),
+                       medium_name(cluster_, ends->first),
+                       fmt::format("leads back to {}: a sensor's lists must not go round in a ring",
+                                   task_path(cluster_.node(end.node), *end.task)));
+        visit(end.node, *end.task);
+      }
+    }
+    state(node, task) = State::kDone;
+  }
+
+  const Cluster& cluster_;
+  const std::map<Medium, std::vector<End>>& readers_;
+  SensorId sensor_;
+  ClusterFindings& findings_;
+  std::vector<std::vector<State>> state_;  // by node and task
+};
+
+}  // namespace
+
+void check_flow(const Cluster& cluster, ClusterFindings& findings) {
+  std::map<Medium, std::vector<End>> writers, readers;
+  for (std::size_t n = 0; n < cluster.nodes.size(); ++n)
+    for (const Task& task : cluster.nodes[n].tasks) {
+      for (const PortBinding& b : task.reads) readers[medium_of(b)].push_back({static_cast<NodeId>(n), &task, &b});
+      for (const PortBinding& b : task.writes) writers[medium_of(b)].push_back({static_cast<NodeId>(n), &task, &b});
+    }
+  for (const auto& [medium, ends] : readers)
+    for (const End& end : ends) {
+      const std::string name = medium_name(cluster, medium);
+      if (!writers.contains(medium))
+        findings.at(end.binding->line, end_path(cluster, end, "reads"), name, "is read, but no task writes it");
+      else if (sender_of(cluster, medium) == end.node)
+        findings.at(end.binding->line, end_path(cluster, end, "reads"), name,
+                    "is sent by the same node: a controller does not hear itself");
+      if (medium.second < 0) check_hears(cluster, end, name, findings);
+    }
+  for (const auto& [medium, ends] : writers) {
+    const std::string name = medium_name(cluster, medium);
+    if (!readers.contains(medium))
+      findings.at(ends[0].binding->line, end_path(cluster, ends[0], "writes"), name,
+                  "is written, but no task reads it");
+    if (ends.size() > 1)
+      findings.at(ends[1].binding->line, end_path(cluster, ends[1], "writes"), name,
+                  fmt::format("has a writer already: {}", end_path(cluster, ends[0], "writes")));
+    const auto sender = sender_of(cluster, medium);
+    if (!sender || *sender != ends[0].node)
+      findings.at(ends[0].binding->line, end_path(cluster, ends[0], "writes"), name,
+                  medium.second < 0 ? fmt::format("must have slots that {} owns", cluster.node(ends[0].node).name)
+                                    : fmt::format("must be a message that {} sends", cluster.node(ends[0].node).name));
+  }
+  std::set<Medium> sent;
+  for (const FrameSlot& frame : cluster.frames)
+    if (frame.pdu != kNoPdu && sent.insert({frame.pdu, -1}).second && !writers.contains({frame.pdu, -1}))
+      findings.at(frame.line, fmt::format("frames.slot {}", frame.slot), cluster.pdu(frame.pdu).name,
+                  "has slots, but no task writes it");
+  for (std::size_t b = 0; b < cluster.can_buses.size(); ++b)
+    for (const CanMessage& message : cluster.can_buses[b].messages)
+      if (!writers.contains({message.pdu, static_cast<std::ptrdiff_t>(b)}))
+        findings.at(message.line,
+                    fmt::format("can.{}.messages.{}", cluster.can_buses[b].name, cluster.pdu(message.pdu).name), "",
+                    "is a message, but no task writes it");
+  for (std::size_t s = 0; s < cluster.sensors.size(); ++s) {
+    check_sensor(cluster, static_cast<SensorId>(s), findings);
+    RingFinder(cluster, readers, static_cast<SensorId>(s), findings).run();
+  }
+}
+
+}  // namespace ttf::schedules

@@ -1,0 +1,34 @@
+// The checker's rules about sensors that follow their hosts: the loop is closed, and `longest` is longer than it.
+#include <fmt/format.h>
+
+#include "schedules/check/checker.h"
+#include "schedules/analysis/sensor_loop.h"
+
+namespace ttf::schedules {
+
+void check_loops(const Cluster& cluster, ClusterFindings& findings) {
+  const bool sound = findings.size() == 0;  // rounds are known of what passed all other rules
+  for (std::size_t s = 0; s < cluster.sensors.size(); ++s) {
+    const Sensor& sensor = cluster.sensors[s];
+    if (!sensor.follows()) continue;
+    const std::string path = "sensors." + sensor.name;
+    const auto loop = loop_of(cluster, static_cast<SensorId>(s));
+    if (!loop || !loop->raw->can_bus) {
+      findings.parameter(
+          path + ".after", sensor.after,
+          fmt::format("must be a task of {} that a list over a CAN from the measuring task of {} activates, and "
+                      "that no other task follows",
+                      cluster.node(sensor.host).name, cluster.node(sensor.device).name));
+      continue;
+    }
+    const auto longest = sound ? longest_round(cluster, *loop) : std::nullopt;
+    if (longest && sensor.longest < *longest)
+      findings.parameter(
+          path + ".longest_period", ms(sensor.longest),
+          fmt::format("must be at least {}: from one measurement to the next, if everything takes as long as it "
+                      "may; the device must not measure by itself where nothing is lost",
+                      ms(*longest)));
+  }
+}
+
+}  // namespace ttf::schedules

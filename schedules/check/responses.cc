@@ -1,0 +1,65 @@
+// The checker's rules about waiting: every task ends by its deadline and before it is activated again, and lists are
+// not sent more often than their CAN is told.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/int128.h"
+#include "schedules/check/checker.h"
+#include "schedules/analysis/clock_bounds.h"
+#include "schedules/analysis/responses.h"
+
+namespace ttf::schedules {
+namespace {
+
+void check_task(const Node& node, const Task& task, const TaskResponse& response, ClusterFindings& findings) {
+  const std::string path = task_path(node, task);
+  if (response.worst > task.deadline)
+    findings.parameter(path + ".deadline", ms(task.deadline),
+                       fmt::format("must be at least {}: from its activation to its end, other tasks' turns included",
+                                   ms(response.worst)));
+  if (response.gap && response.worst >= *response.gap)
+    findings.parameter(
+        path + ".worst_case", ms(task.worst_case),
+        fmt::format("must let the task end, at worst {} after its activation, before the next one, at the "
+                    "shortest {} after it",
+                    ms(response.worst), ms(*response.gap)));
+}
+
+// In true time: the node's clock may be slow.
+void check_written(const Cluster& cluster, const Node& node, const Task& task, Duration written,
+                   ClusterFindings& findings) {
+  const Duration shortest{static_cast<std::int64_t>(static_cast<Int128>(written.ns) *
+                                                    (1'000'000'000 - worst_drift_ppb(node)) / 1'000'000'000)};
+  for (const PortBinding& binding : task.writes) {
+    if (!binding.can_bus) continue;
+    const CanBus& bus = cluster.can_buses[*binding.can_bus];
+    for (const CanMessage& message : bus.messages)
+      if (message.pdu == binding.pdu && message.shortest_period > shortest)
+        findings.at(message.line,
+                    fmt::format("can.{}.messages.{}.shortest_period", bus.name, cluster.pdu(message.pdu).name),
+                    ms(message.shortest_period),
+                    fmt::format("must be at most {}: the shortest time between two lists of {}", ms(shortest),
+                                task_path(node, task)));
+  }
+}
+
+}  // namespace
+
+void check_responses(const Cluster& cluster, NodeId id, ClusterFindings& findings) {
+  const Node& node = cluster.node(id);
+  const auto responses = worst_responses(cluster, id);
+  if (!responses) {
+    findings.at(node.line, fmt::format("nodes.{}.tasks", node.name), "",
+                fmt::format("must leave the node idle at least once in {}: its tasks may take more time than there is",
+                            ms(longest_busy_time(cluster, node))));
+    return;
+  }
+  for (std::size_t t = 0; t < node.tasks.size(); ++t) {
+    const TaskResponse& response = (*responses)[t];
+    check_task(node, node.tasks[t], response, findings);
+    if (response.written) check_written(cluster, node, node.tasks[t], *response.written, findings);
+  }
+}
+
+}  // namespace ttf::schedules

@@ -1,0 +1,405 @@
+#include "schedules/file/loader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "core/strict_yaml.h"
+#include "schedules/check/checker.h"
+#include "schedules/model/limits.h"
+#include "schedules/file/parameter_table.h"
+
+namespace ttf::schedules {
+namespace {
+
+constexpr Duration kLongest = Duration::milliseconds(10'000);
+constexpr Duration kWidestArrival = Duration::milliseconds(1'000);  // before or after an action point
+constexpr Range<Duration> kExecution{Duration::microseconds(1), kLongest};
+
+const Choices<Channels> kChannels{{"A", Channels::kA}, {"B", Channels::kB}, {"AB", Channels::kAB}};
+
+class Loader {
+ public:
+  Loader(const StrictYaml& file, Findings& findings) : root_(file.root(findings)) {
+    cluster_.file = file.name();
+    cluster_.text = file.text();
+  }
+
+  Cluster load() {
+    cluster_.name = root_.text("name");
+    cluster_.synchronisation = root_.boolean("synchronisation");
+    cluster_.topology =
+        root_.choice_or("topology", Topology::kBus, {{"bus", Topology::kBus}, {"star", Topology::kStar}});
+    cluster_.guardian = root_.boolean_or("guardian", false);
+    for (const char* key : {"topology", "guardian", "real_time"}) remember(root_, key);
+    if (auto window = root_.map_if("real_time")) load_arrival_window(*window);
+    YamlMap globals = root_.map("flexray");
+    load_globals(globals);
+    YamlMap shared = root_.map("node_parameters");
+    auto nodes = root_.named_maps("nodes");
+    auto sensors = root_.named_maps("sensors");
+    auto pdus = root_.named_maps("pdus");
+    auto cans = root_.named_maps("can");
+    limit("nodes", nodes.size(), kMostNamed);
+    limit("sensors", sensors.size(), kMostNamed);
+    limit("pdus", pdus.size(), kMostNamed);
+    limit("can", cans.size(), kMostCans);
+    remember(root_, "nodes");
+    // Names first: everything may refer to everything.
+    for (auto& [name, map] : nodes) cluster_.nodes.emplace_back().name = name;
+    for (auto& [name, map] : sensors) cluster_.sensors.emplace_back().name = name;
+    for (auto& [name, map] : pdus) cluster_.pdus.emplace_back().name = name;
+    for (auto& [name, map] : cans) cluster_.can_buses.emplace_back().name = name;
+    for (std::size_t i = 0; i < pdus.size(); ++i) load_pdu(pdus[i].second, cluster_.pdus[i]);
+    for (std::size_t i = 0; i < sensors.size(); ++i) load_sensor(sensors[i].second, cluster_.sensors[i]);
+    for (std::size_t i = 0; i < cans.size(); ++i) load_can(cans[i].second, cluster_.can_buses[i]);
+    for (std::size_t i = 0; i < nodes.size(); ++i) load_node(nodes[i].second, shared, cluster_.nodes[i]);
+    shared.finish();
+    for (YamlMap& map : root_.maps("frames")) load_frame(map);
+    std::stable_sort(cluster_.frames.begin(), cluster_.frames.end(), [](const FrameSlot& a, const FrameSlot& b) {
+      return std::pair{a.slot, a.base_cycle} < std::pair{b.slot, b.base_cycle};
+    });
+    root_.finish();
+    return std::move(cluster_);
+  }
+
+ private:
+  void limit(std::string_view key, std::size_t count, std::size_t most) {
+    if (count > most) root_.fail(key, fmt::format("must have at most {} entries; it has {}", most, count));
+  }
+
+  template <class Id> Id reference(YamlMap& map, std::string_view key, std::optional<Id> found, std::string_view what) {
+    if (found) return *found;
+    if (map.has(key)) map.fail(key, fmt::format("is not the name of a {} in this file", what));
+    return Id{};
+  }
+  NodeId node(YamlMap& map, std::string_view key) {
+    return reference(map, key, cluster_.find_node(map.text(key)), "node");
+  }
+  PduId pdu(YamlMap& map, std::string_view key) { return reference(map, key, cluster_.find_pdu(map.text(key)), "PDU"); }
+  SensorId sensor(YamlMap& map, std::string_view key) {
+    return reference(map, key, cluster_.find_sensor(map.text(key)), "sensor");
+  }
+
+  void load_globals(YamlMap& map) {
+    GlobalParameters& global = cluster_.flexray;
+    for (const auto& p : kGlobalIntegers) {
+      global.*p.member = static_cast<int>(map.integer(p.name, {p.low, p.high}, p.unit));
+      remember(map, p.name);
+    }
+    for (const auto& p : kGlobalScaled) {
+      global.*p.member = map.scaled(p.name, p.scale, {p.low, p.high}, p.unit);
+      remember(map, p.name);
+    }
+    map.finish();
+  }
+
+  void load_arrival_window(YamlMap& map) {
+    ArrivalWindow& window = cluster_.arrival_window.emplace();
+    window.early = map.duration("early", {Duration{}, kWidestArrival});
+    window.late = map.duration("late", {Duration{1}, kWidestArrival});
+    remember(map, "early");
+    remember(map, "late");
+    map.finish();
+  }
+
+  void remember(const YamlMap& map, std::string_view key) {
+    cluster_.parameter_lines[map.path().empty() ? std::string(key) : fmt::format("{}.{}", map.path(), key)] =
+        map.line(key);
+  }
+
+  // A node's own value, or else the one shared by all nodes.
+  NodeParameters load_node_parameters(YamlMap& own, YamlMap& shared) {
+    NodeParameters local;
+    const auto from = [&](std::string_view key) -> YamlMap& {
+      const bool in_shared = shared.has(key);  // asked in any case: it is a known key there
+      YamlMap& map = own.has(key) || !in_shared ? own : shared;
+      cluster_.parameter_lines[fmt::format("{}.{}", own.path(), key)] = map.line(key);
+      return map;
+    };
+    for (const auto& p : kNodeIntegers) {
+      YamlMap& map = from(p.name);
+      local.*p.member = static_cast<int>(p.otherwise ? map.integer_or(p.name, *p.otherwise, {p.low, p.high}, p.unit)
+                                                     : map.integer(p.name, {p.low, p.high}, p.unit));
+    }
+    for (const auto& p : kNodeScaled) local.*p.member = from(p.name).scaled(p.name, p.scale, {p.low, p.high}, p.unit);
+    local.pChannels = from("pChannels").choice_or("pChannels", local.pChannels, kChannels);
+    local.pWakeupChannel =
+        from("pWakeupChannel")
+            .choice_or("pWakeupChannel", default_wakeup(local.pChannels), {{"A", Channel::kA}, {"B", Channel::kB}});
+    for (const auto& p : kNodeFlags) local.*p.member = from(p.name).boolean(p.name);
+    own.finish();
+    return local;
+  }
+
+  void load_signals(YamlMap& map, std::string_view key, std::vector<Signal>& signals, int& total_bits) {
+    int offset = 0;
+    for (YamlMap& entry : map.maps(key)) {
+      Signal signal;
+      signal.name = entry.text("name");
+      signal.unit = entry.text_or("unit", "");
+      signal.bits = static_cast<int>(entry.integer("bits", {1, kMostSignalBits}));
+      signal.resolution = entry.number_or("resolution", 1.0, {kFinestResolution, kCoarsestResolution});
+      signal.low = entry.number_or("low", 0.0, {-kLargestLow, kLargestLow});
+      const double top = signal.low + (std::ldexp(1.0, signal.bits) - 1.0) * signal.resolution;
+      signal.high = entry.number_or("high", top, {-kLargestLow, kLargestHigh});
+      if (signal.high <= signal.low || signal.high > top + 0.5 * signal.resolution)
+        entry.fail("high", fmt::format("must be above {} and at most {}: more does not fit {} bits", signal.low, top,
+                                       signal.bits));
+      signal.bit_offset = offset;
+      offset += signal.bits;
+      if (signal.name != "spare" && find_signal(signals, signal.name))
+        entry.fail("name", "is the name of an earlier signal");
+      entry.finish();
+      signals.push_back(std::move(signal));
+    }
+    total_bits = offset;
+  }
+
+  void load_pdu(YamlMap& map, PduLayout& layout) {
+    layout.line = map.line();
+    if (map.has("sensor")) layout.sensor = sensor(map, "sensor");
+    layout.fragment_bytes = static_cast<int>(map.integer("fragment_bytes", {1, kMostFragmentBytes}, "bytes"));
+    layout.max_elements = static_cast<int>(map.integer("max_elements", {1, 65535}));
+    layout.elements_per_fragment = static_cast<int>(map.integer("elements_per_fragment", {1, 8 * kMostFragmentBytes}));
+    load_signals(map, "header", layout.header, layout.header_bits);
+    load_signals(map, "element", layout.element, layout.element_bits);
+    layout.header_bits = (layout.header_bits + 7) / 8 * 8;
+    if (layout.element.empty()) map.fail("element", "must have at least one signal");
+    const auto needs = [&](std::string_view name, std::int64_t largest) {
+      const auto found = find_signal(layout.header, name);
+      if (!found)
+        map.fail("header", fmt::format("must have a signal {}", name));
+      else if (largest >= std::int64_t{1} << layout.header[*found].bits)
+        map.fail("header", fmt::format("must give {} enough bits for {}", name, largest));
+    };
+    if (layout.max_fragments() > kMostFragments)
+      map.fail("max_elements", fmt::format("must be at most {}: {} fragments of {} elements",
+                                           kMostFragments * layout.elements_per_fragment, kMostFragments,
+                                           layout.elements_per_fragment));
+    // Two sequence numbers must differ by less than half the range to be told apart.
+    needs("sequence", 4);
+    needs("fragment", layout.max_fragments() - 1);
+    needs("count", layout.max_elements);
+    const int bits = layout.header_bits + layout.elements_per_fragment * layout.element_bits;
+    if (bits > 8 * layout.fragment_bytes)
+      map.fail("fragment_bytes", fmt::format("must be at least {}: header and {} elements take {} bits", (bits + 7) / 8,
+                                             layout.elements_per_fragment, bits));
+    map.finish();
+  }
+
+  CycleInstant load_instant(YamlMap& map) {
+    CycleInstant at;
+    load_multiplexing(map, at.base_cycle, at.repetition);
+    at.offset = {map.integer("offset", {0, std::max(cluster_.flexray.gMacroPerCycle - 1, 0)}, "macroticks")};
+    return at;
+  }
+
+  void load_multiplexing(YamlMap& map, int& base_cycle, int& repetition) {
+    base_cycle = static_cast<int>(map.integer("base_cycle", {0, 63}));
+    repetition = static_cast<int>(map.integer("repetition", {1, 64}, "cycles"));
+    bool usable = true;
+    if ((repetition & (repetition - 1)) != 0) {
+      map.fail("repetition", "must be one of 1, 2, 4, 8, 16, 32, 64");
+      usable = false;
+    }
+    if (base_cycle >= repetition) {
+      map.fail("base_cycle", fmt::format("must be below repetition, 0..{}", repetition - 1));
+      usable = false;
+    }
+    if (!usable) base_cycle = 0, repetition = 1;
+  }
+
+  void load_sensor(YamlMap& map, Sensor& item) {
+    item.line = map.line();
+    item.kind = map.choice<SensorKind>(
+        "kind", {{"laser", SensorKind::kLaser}, {"camera", SensorKind::kCamera}, {"radar", SensorKind::kRadar}});
+    item.device = node(map, "device");
+    item.host = node(map, "host");
+    enum class Measures : std::uint8_t { kFreely, kScheduled, kFollowing };
+    const auto when = map.choice<Measures>(
+        "measurement",
+        {{"free", Measures::kFreely}, {"scheduled", Measures::kScheduled}, {"completion", Measures::kFollowing}});
+    item.scheduled = when == Measures::kScheduled;
+    if (item.scheduled) {
+      item.at = load_instant(map);
+      item.period = cluster_.cycle() * item.at.repetition;
+    } else {
+      const bool follows = when == Measures::kFollowing;
+      item.period = map.duration(follows ? "shortest_period" : "period", {Duration::milliseconds(1), kLongest});
+      if (follows) {
+        item.after = map.text("after");
+        item.longest = map.duration("longest_period", {item.period, kLongest});
+      }
+      if (map.has("phase")) item.phase = map.duration("phase", {Duration{}, item.period - Duration{1}});
+    }
+    for (const char* key : {"after", "longest_period"}) remember(map, key);
+    map.finish();
+  }
+
+  void load_can(YamlMap& map, CanBus& bus) {
+    bus.line = map.line();
+    bus.flexible_data_rate = map.boolean("flexible_data_rate");
+    bus.nominal_bit_rate = map.integer("nominal_bit_rate", {kSlowestCan, kFastestNominal}, "bit/s");
+    bus.data_bit_rate = bus.nominal_bit_rate;
+    if (bus.flexible_data_rate)
+      bus.data_bit_rate = map.integer("data_bit_rate", {bus.nominal_bit_rate, kFastestData}, "bit/s");
+    bus.other_load = map.number("other_load", {0.0, 0.95});
+    for (YamlMap& entry : map.maps("messages")) {
+      CanMessage message;
+      message.line = entry.line();
+      message.pdu = pdu(entry, "pdu");
+      message.identifier = static_cast<std::uint32_t>(entry.integer("identifier", {0, 2047}));
+      message.sender = node(entry, "sender");
+      message.shortest_period = entry.duration("shortest_period", {Duration::microseconds(100), kLongest});
+      entry.finish();
+      bus.messages.push_back(message);
+    }
+    map.finish();
+  }
+
+  std::vector<PortBinding> load_ports(YamlMap& task, std::string_view key) {
+    std::vector<PortBinding> bindings;
+    if (!task.has(key)) return bindings;
+    auto texts = task.named_texts(key);
+    YamlMap lines = *task.map_if(key);
+    for (auto& [port, text] : texts) {
+      PortBinding binding;
+      binding.port = port;
+      binding.line = lines.line(port);
+      const auto on = text.find(" on ");
+      const auto found = cluster_.find_pdu(std::string_view(text).substr(0, on));
+      const std::string medium = on == std::string::npos ? "" : text.substr(on + 4);
+      const auto bus = std::find_if(cluster_.can_buses.begin(), cluster_.can_buses.end(),
+                                    [&](const CanBus& candidate) { return candidate.name == medium; });
+      if (bus != cluster_.can_buses.end()) binding.can_bus = static_cast<std::size_t>(bus - cluster_.can_buses.begin());
+      if (!found || (medium != "flexray" && bus == cluster_.can_buses.end())) {
+        lines.fail(port, "must be PDU on flexray or PDU on CAN, with the names of a PDU and a CAN of this file");
+        continue;
+      }
+      binding.pdu = *found;
+      bindings.push_back(std::move(binding));
+    }
+    return bindings;
+  }
+
+  Activation load_activation(YamlMap map) {
+    Activation activation;
+    activation.kind = map.choice<ActivationKind>("kind", {{"time", ActivationKind::kTime},
+                                                          {"message", ActivationKind::kMessage},
+                                                          {"sensor", ActivationKind::kSensor},
+                                                          {"completion", ActivationKind::kCompletion}});
+    switch (activation.kind) {
+      case ActivationKind::kTime: activation.at = load_instant(map); break;
+      case ActivationKind::kMessage: activation.port = map.text("port"); break;
+      case ActivationKind::kSensor: activation.sensor = sensor(map, "sensor"); break;
+      case ActivationKind::kCompletion: activation.after = map.text("after"); break;
+    }
+    for (const char* key : {"port", "sensor", "after"}) remember(map, key);
+    map.finish();
+    return activation;
+  }
+
+  void load_task(YamlMap& map, Task& task) {
+    task.line = map.line();
+    task.step = map.text("step");
+    task.activation = load_activation(map.map("activation"));
+    task.best_case = map.duration("best_case", kExecution);
+    task.worst_case = map.duration("worst_case", kExecution);
+    if (task.worst_case < task.best_case) map.fail("worst_case", "must not be below best_case");
+    task.draw =
+        map.choice<ExecutionDraw>("draw", {{"uniform", ExecutionDraw::kUniform}, {"worst", ExecutionDraw::kWorst}});
+    task.deadline = map.duration("deadline", kExecution);
+    task.reads = load_ports(map, "reads");
+    task.writes = load_ports(map, "writes");
+    for (const char* key : {"activation", "worst_case", "deadline"}) remember(map, key);
+    map.finish();
+  }
+
+  void load_node(YamlMap& map, YamlMap& shared, Node& item) {
+    item.line = map.line();
+    if (auto own = map.map_if("flexray")) {
+      item.flexray = load_node_parameters(*own, shared);
+      item.microtick_ps = item.flexray->pdMicrotick_ps;
+    } else {
+      item.microtick_ps = map.scaled("microtick", 1'000, {2'000, 1'000'000}, "ns");
+    }
+    constexpr std::int64_t kMostDrift = 1'500'000;  // cClockDeviationMax
+    item.max_drift_ppb = map.scaled("max_drift_ppm", 1'000, {0, kMostDrift}, "ppm");
+    if (map.has("drift_ppm")) item.drift_ppb = map.scaled("drift_ppm", 1'000, {-kMostDrift, kMostDrift}, "ppm");
+    remember(map, "drift_ppm");
+    auto tasks = map.named_maps("tasks");
+    if (tasks.size() > kMostTasks) map.fail("tasks", fmt::format("must have at most {} entries", kMostTasks));
+    for (auto& [name, entry] : tasks) {
+      item.tasks.emplace_back().name = name;
+      load_task(entry, item.tasks.back());
+    }
+    map.finish();
+  }
+
+  void load_frame(YamlMap& map) {
+    FrameSlot frame;
+    frame.line = map.line();
+    frame.slot = static_cast<int>(map.integer("slot", {1, kLastSlot}));
+    frame.channels = map.choice("channels", kChannels);
+    frame.sender = node(map, "sender");
+    load_multiplexing(map, frame.base_cycle, frame.repetition);
+    std::int64_t fragments = 1;
+    int step = 1;
+    if (map.has("pdu")) {
+      frame.pdu = pdu(map, "pdu");
+      fragments = map.integer("fragments", {1, kLastStaticSlot});
+      frame.fragment = static_cast<int>(map.integer_or("first_fragment", 0, {0, kLastStaticSlot - 1}));
+      step = static_cast<int>(map.integer_or("fragment_step", step, {1, 2}));
+    }
+    frame.network_management = map.boolean_or("network_management", false);
+    if (map.has("message_id")) frame.message_id = static_cast<std::uint16_t>(map.integer("message_id", {0, 65535}));
+    const bool dynamic = is_dynamic(cluster_.flexray, frame);
+    if (const int last = dynamic ? kLastSlot : kLastStaticSlot; frame.slot + fragments - 1 > last) {
+      map.fail("fragments", fmt::format("must be at most {}: {} slots end at {}", last - frame.slot + 1,
+                                        dynamic ? "dynamic" : "static", last));
+      fragments = 1;
+    }
+    map.finish();
+    for (std::int64_t f = 0; f < fragments; ++f) {
+      cluster_.frames.push_back(frame);
+      ++frame.slot;
+      frame.fragment += step;
+    }
+  }
+
+  YamlMap root_;
+  Cluster cluster_;
+};
+
+Cluster load(const StrictYaml& file) {
+  Findings met;
+  Cluster cluster = Loader(file, met).load();
+  // What nodes share is read once per node; a mistake in it is one mistake.
+  Findings findings;
+  std::set<std::pair<int, std::string>> known;
+  for (const Finding& finding : met.list())
+    if (known.insert({finding.line, finding.sentence()}).second) findings.add(finding);
+  findings.throw_if_any();
+  return cluster;
+}
+
+}  // namespace
+
+Cluster parse_cluster(std::string text, std::string name) {
+  return load(StrictYaml::parse(std::move(text), std::move(name)));
+}
+
+Cluster load_cluster(const std::string& path) { return load(StrictYaml::load(path)); }
+
+Cluster load_checked_cluster(const std::string& path) {
+  Cluster cluster = load_cluster(path);
+  if (auto findings = check(cluster); !findings.empty()) throw InputError(std::move(findings));
+  return cluster;
+}
+
+}  // namespace ttf::schedules

@@ -1,0 +1,83 @@
+#include "schedules/model/cluster.h"
+
+#include <algorithm>
+
+#include "core/check.h"
+#include "core/int128.h"
+
+namespace ttf::schedules {
+
+namespace {
+
+template <class Id, class Item> std::optional<Id> find_named(const std::vector<Item>& items, std::string_view name) {
+  const auto found = std::find_if(items.begin(), items.end(), [&](const Item& item) { return item.name == name; });
+  if (found == items.end()) return std::nullopt;
+  return static_cast<Id>(found - items.begin());
+}
+
+}  // namespace
+
+std::string_view channels_text(Channels channels) {
+  return channels == Channels::kA ? "A" : channels == Channels::kB ? "B" : "AB";
+}
+
+bool share_a_cycle(const FrameSlot& a, const FrameSlot& b) {
+  // Repetitions are powers of two, so the longer one is a multiple of the shorter.
+  const int shorter = std::min(a.repetition, b.repetition);
+  return a.base_cycle % shorter == b.base_cycle % shorter;
+}
+
+bool activates(const Task& task, const PortBinding& read) {
+  return task.activation.kind == ActivationKind::kMessage && task.activation.port == read.port;
+}
+
+bool continues(const FrameSlot& before, const FrameSlot& frame, int step) {
+  return frame.pdu != kNoPdu && frame.pdu == before.pdu && frame.slot == before.slot + 1 &&
+         frame.fragment == before.fragment + step && frame.sender == before.sender &&
+         frame.channels == before.channels && frame.base_cycle == before.base_cycle &&
+         frame.repetition == before.repetition && frame.network_management == before.network_management &&
+         frame.message_id == before.message_id;
+}
+
+std::optional<NodeId> Cluster::find_node(std::string_view node_name) const {
+  return find_named<NodeId>(nodes, node_name);
+}
+
+std::optional<PduId> Cluster::find_pdu(std::string_view pdu_name) const { return find_named<PduId>(pdus, pdu_name); }
+
+std::optional<SensorId> Cluster::find_sensor(std::string_view sensor_name) const {
+  return find_named<SensorId>(sensors, sensor_name);
+}
+
+bool is_on_can(const Node& node, std::size_t can_bus) {
+  const auto leads_there = [can_bus](const PortBinding& port) { return port.can_bus == can_bus; };
+  return std::any_of(node.tasks.begin(), node.tasks.end(), [&](const Task& task) {
+    return std::any_of(task.reads.begin(), task.reads.end(), leads_there) ||
+           std::any_of(task.writes.begin(), task.writes.end(), leads_there);
+  });
+}
+
+GlobalTime time_of(const GlobalParameters& flexray, std::int64_t cycle, Macroticks offset) {
+  const Int128 ps =
+      static_cast<Int128>(cycle) * flexray.cycle_ps() + static_cast<Int128>(offset.value) * flexray.gdMacrotick_ps;
+  // Rounded up: a clock that shows this nanosecond has reached the macrotick.
+  const Int128 ns = ps / 1000;
+  return {static_cast<std::int64_t>(ns * 1000 < ps ? ns + 1 : ns)};
+}
+
+Occurrence next_occurrence(const GlobalParameters& flexray, const CycleInstant& at, GlobalTime from) {
+  TTF_CHECK(at.repetition > 0 && at.base_cycle >= 0 && at.base_cycle < at.repetition, "base {} repetition {}",
+            at.base_cycle, at.repetition);
+  const std::int64_t repetition = at.repetition;
+  std::int64_t cycle = at.base_cycle;
+  if (from.ns > 0) {
+    // A round that surely ends at or before `from`; from there, at most two steps.
+    const Int128 round_ps = static_cast<Int128>(repetition) * flexray.cycle_ps();
+    const auto rounds = static_cast<std::int64_t>(static_cast<Int128>(from.ns) * 1000 / round_ps);
+    cycle += std::max<std::int64_t>(rounds - 1, 0) * repetition;
+  }
+  while (time_of(flexray, cycle, at.offset) < from) cycle += repetition;
+  return {cycle, time_of(flexray, cycle, at.offset)};
+}
+
+}  // namespace ttf::schedules

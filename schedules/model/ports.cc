@@ -1,0 +1,67 @@
+#include "schedules/model/ports.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+
+#include "core/errors.h"
+
+namespace ttf::schedules {
+namespace {
+
+struct Direction {
+  std::string_view key;  // "reads" or "writes"
+  const std::vector<PortBinding>& bound;
+  const std::vector<std::string_view>& needed;
+  bool any;  // sensors' names are ports too
+};
+
+void bind_direction(const Cluster& cluster, const std::string& path, const Task& task, const Direction& direction,
+                    Findings& findings) {
+  for (const std::string_view port : direction.needed)
+    if (std::none_of(direction.bound.begin(), direction.bound.end(),
+                     [&](const PortBinding& binding) { return binding.port == port; }))
+      findings.add({cluster.file, task.line, fmt::format("{}.{}", path, direction.key), "",
+                    fmt::format("must bind the port {}: step {} needs it", port, task.step)});
+  for (const PortBinding& binding : direction.bound) {
+    const bool known =
+        std::find(direction.needed.begin(), direction.needed.end(), binding.port) != direction.needed.end();
+    const auto sensor = direction.any ? cluster.find_sensor(binding.port) : std::nullopt;
+    const std::string key = fmt::format("{}.{}.{}", path, direction.key, binding.port);
+    if (sensor && !known && cluster.pdu(binding.pdu).sensor != *sensor)
+      findings.add({cluster.file, binding.line, key, cluster.pdu(binding.pdu).name,
+                    fmt::format("must be a PDU of the sensor {}, as its port is called", binding.port)});
+    if (known || sensor) continue;
+    findings.add({cluster.file, binding.line, key, "",
+                  fmt::format("is not a port of step {} (ports: {}{})", task.step, fmt::join(direction.needed, ", "),
+                              direction.any ? std::string("the sensors' names") : std::string())});
+  }
+  if (direction.any && direction.bound.empty())
+    findings.add({cluster.file, task.line, fmt::format("{}.{}", path, direction.key), "",
+                  fmt::format("must bind at least one sensor's list: step {} fuses them", task.step)});
+}
+
+}  // namespace
+
+void bind_ports(const Cluster& cluster, std::span<const StepPorts> steps) {
+  Findings findings;
+  std::vector<std::string_view> names;
+  for (const StepPorts& step : steps) names.push_back(step.step);
+  for (const Node& node : cluster.nodes)
+    for (const Task& task : node.tasks) {
+      const std::string path = fmt::format("nodes.{}.tasks.{}", node.name, task.name);
+      const auto step = std::find_if(steps.begin(), steps.end(),
+                                     [&](const StepPorts& candidate) { return candidate.step == task.step; });
+      if (step == steps.end()) {
+        findings.add({cluster.file, task.line, path + ".step", task.step,
+                      fmt::format("must be one of {}", fmt::join(names, ", "))});
+        continue;
+      }
+      bind_direction(cluster, path, task, {"reads", task.reads, step->reads, step->any_reads}, findings);
+      bind_direction(cluster, path, task, {"writes", task.writes, step->writes, false}, findings);
+    }
+  findings.throw_if_any();
+}
+
+}  // namespace ttf::schedules

@@ -1,0 +1,14 @@
+#include "schedules/model/sensor_lines.h"
+
+namespace ttf::schedules {
+
+std::optional<std::size_t> can_of_lines(const Cluster& cluster, SensorId sensor) {
+  for (const Task& task : cluster.node(cluster.sensor(sensor).device).tasks) {
+    if (task.activation.kind != ActivationKind::kSensor || task.activation.sensor != sensor) continue;
+    for (const PortBinding& port : task.writes)
+      if (port.can_bus) return port.can_bus;
+  }
+  return std::nullopt;
+}
+
+}  // namespace ttf::schedules

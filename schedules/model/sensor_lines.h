@@ -1,0 +1,31 @@
+// A sensor's two wires to its host as CAN frames, for media that carry nothing else: a trigger to the device, and a
+// strobe back at the instant of measuring, whose arrival is the measurement's time stamp. Both go over the CAN that the
+// device sends its raw data on, before all else there: with the lowest identifiers, which no message of that CAN may
+// have in real time (schedules/check/real_time_rules.h, W6).
+//
+//   trigger   identifier 2 s + 2   no data
+//   strobe    identifier 2 s + 1   the measurement's number, 4 bytes, most significant first (bus/wire/strobe.h)
+//
+// of sensor s, by its place in the cluster file, from 0. Both are classic CAN frames, on CAN FD as well.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "core/ids.h"
+#include "schedules/model/cluster.h"
+#include "schedules/model/limits.h"
+
+namespace ttf::schedules {
+
+inline constexpr std::size_t kStrobeBytes = 4;
+
+constexpr std::uint32_t strobe_identifier(SensorId sensor) { return 2 * static_cast<std::uint32_t>(sensor) + 1; }
+constexpr std::uint32_t trigger_identifier(SensorId sensor) { return 2 * static_cast<std::uint32_t>(sensor) + 2; }
+static_assert(trigger_identifier(static_cast<SensorId>(kMostNamed - 1)) < 0x7FF, "as a CAN identifier of 11 bits");
+
+// The CAN that its device sends raw data on; nothing where it sends none.
+std::optional<std::size_t> can_of_lines(const Cluster& cluster, SensorId sensor);
+
+}  // namespace ttf::schedules

@@ -1,0 +1,36 @@
+// Times on the wire at their longest against macroticks at their shortest: what the constraints of FlexRay 2.1A, annex
+// B, are made of. Integers: picoseconds, scaled so that cClockDeviationMax is whole.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "core/int128.h"
+#include "schedules/model/flexray_parameters.h"
+
+namespace ttf::schedules {
+
+// cClockDeviationMax = 0.0015, in parts of 10000; cChannelIdleDelimiter in gdBit.
+inline constexpr std::int64_t kDeviation = 15, kWhole = 10'000;
+inline constexpr std::int64_t kIdleDelimiterBits = 11;
+
+// a, b > 0.
+constexpr std::int64_t ceil_div(Int128 a, Int128 b) { return static_cast<std::int64_t>((a + b - 1) / b); }
+
+// In picoseconds times kWhole.
+constexpr Int128 longest_bits(const GlobalParameters& flexray, std::int64_t bits) {
+  return static_cast<Int128>(bits) * flexray.gdBit_ps * (kWhole + kDeviation);
+}
+constexpr Int128 scaled(std::int64_t ps) { return static_cast<Int128>(ps) * kWhole; }
+constexpr Int128 shortest_macroticks(const GlobalParameters& flexray, std::int64_t macroticks) {
+  return static_cast<Int128>(macroticks) * flexray.gdMacrotick_ps * (kWhole - kDeviation);
+}
+
+// adActionPointDifference: the dynamic segment's first action point lies no earlier in it than a static slot's does.
+constexpr int action_point_difference(const GlobalParameters& flexray) {
+  return flexray.gNumberOfMinislots == 0
+             ? 0
+             : std::max(0, flexray.gdActionPointOffset - flexray.gdMinislotActionPointOffset);
+}
+
+}  // namespace ttf::schedules

@@ -1,0 +1,39 @@
+// A node as the others see it: when its next turn is. All who see the same arrivals at it and hear the same promises
+// come to the same answer, the node itself included.
+#pragma once
+
+#include <algorithm>
+
+#include "core/time.h"
+#include "nodes/host/promise.h"
+
+namespace ttf::sim {
+
+class Outlook {
+ public:
+  using Promise = nodes::Promise;
+
+  // Its promise ends then: it has to say something, if only that it goes on being silent. Promise::kNever: it is off.
+  Microticks turn() const { return turn_; }
+
+  void begins(Microticks now) { promises({now, Microticks{}, Microticks{}, Microticks{}}); }
+  void ends() { promises({Promise::kNever}); }
+  void promises(const Promise& promise) {
+    promise_ = promise;
+    turn_ = promise.silent_until;
+  }
+
+  void hears_flexray(Microticks now) { moves(now, promise_.after_flexray); }
+  void hears_can(Microticks now) { moves(now, promise_.after_can); }
+  void hears_trigger(Microticks now) { moves(now, promise_.after_trigger); }
+
+ private:
+  void moves(Microticks now, Microticks after) {
+    if (after != Promise::kNever) turn_ = std::min(turn_, now + after);
+  }
+
+  Promise promise_{Promise::kNever};
+  Microticks turn_ = Promise::kNever;
+};
+
+}  // namespace ttf::sim

@@ -1,0 +1,25 @@
+// Sessions for tests: each its own, also when several test programs run at once.
+#pragma once
+
+#include <unistd.h>
+
+#include <cstdint>
+#include <string>
+
+#include "bus/dds/common/session.h"
+
+namespace ttf::test {
+
+// Not the domain that everybody else uses by default.
+inline constexpr std::uint32_t kTestDomain = 17;
+
+inline dds::Session session(std::size_t members) {
+  static int made = 0;
+  dds::Session session;
+  session.domain = kTestDomain;
+  session.name = "test-" + std::to_string(getpid()) + "-" + std::to_string(made++);
+  for (std::size_t i = 0; i < members; ++i) session.members.push_back(NodeId{static_cast<std::uint8_t>(i)});
+  return session;
+}
+
+}  // namespace ttf::test

@@ -1,0 +1,229 @@
+// When frames of other hosts have arrived: what is asked is how far the instants are from those at which frames would
+// have come had nothing but the network's least delay been on their way. The delays are the test's own.
+#include "bus/dds/live/arrival_instant.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "bus/dds/live/least_delay.h"
+
+namespace ttf::dds {
+namespace {
+
+constexpr std::int64_t kUs = 1'000, kMs = 1'000'000, kSecond = 1'000'000'000;
+constexpr std::int64_t kLeast = 60 * kUs;          // on the network
+constexpr std::int64_t kApart = -1'000 * kSecond;  // what the other clock shows beyond this one at the begin
+
+// A host afar, and how late this host's kernel takes its frames in: never early, exponential, now and then by a slice
+// of the scheduler's. One frame after the other, in order, as a socket hands them over.
+class Afar {
+ public:
+  Afar(std::uint64_t seed, double drift_ppm, double jitter_us)
+      : random_(seed), drift_ppm_(drift_ppm), jitter_us_(jitter_us) {}
+
+  struct Frame {
+    std::int64_t left = 0;  // by this host's clock
+    std::int64_t sent = 0;  // by the other's
+    std::int64_t received = 0;
+  };
+  Frame at(std::int64_t left) {
+    double late_us = -jitter_us_ * std::log(1.0 - uniform());
+    if (uniform() < 0.02) late_us += 4'000 * uniform();
+    last_ = std::max(last_, left + kLeast + static_cast<std::int64_t>(late_us * 1e3));
+    return {left, left + kApart + set_ + std::llround(static_cast<double>(left) * drift_ppm_ * 1e-6), last_};
+  }
+  void set(std::int64_t by) { set_ += by; }
+
+ private:
+  double uniform() { return static_cast<double>(random_() >> 11) * 0x1p-53; }
+  std::mt19937_64 random_;
+  double drift_ppm_, jitter_us_;
+  std::int64_t set_ = 0, last_ = 0;
+};
+
+// Errors [ns] of the instants of frames that leave from `from` to `to`: positive is too late.
+struct Errors {
+  std::int64_t earliest = 0, latest = 0, median = 0;
+};
+constexpr NodeId kFarSender{3};
+constexpr std::uint64_t kFarHost = 77;
+
+Errors errors(ArrivalInstant& instants, Afar& afar, std::int64_t from, std::int64_t to, std::int64_t every) {
+  std::vector<std::int64_t> all;
+  for (std::int64_t left = from; left < to; left += every) {
+    const Afar::Frame frame = afar.at(left);
+    const bus::HostTime at = instants.of(kFarSender, kFarHost, frame.sent, bus::HostTime{frame.received});
+    EXPECT_LE(at.ns, frame.received);
+    all.push_back(at.ns - (left + kLeast));
+  }
+  std::ranges::sort(all);
+  return {all.front(), all.back(), all[all.size() / 2]};
+}
+
+class DdsArrivalInstant : public testing::TestWithParam<std::uint64_t> {};
+
+// Mean wake-ups 200 us late: none of it is left in the instants, but for the least of some hundred.
+TEST_P(DdsArrivalInstant, OneSidedJitterVanishes) {
+  ArrivalInstant instants(4);
+  Afar afar(GetParam(), 0, 200);
+  errors(instants, afar, 0, kSecond, 5 * kMs);
+  const Errors settled = errors(instants, afar, kSecond, 10 * kSecond, 5 * kMs);
+  EXPECT_GE(settled.earliest, 0);
+  EXPECT_LE(settled.latest, 12 * kUs);
+  EXPECT_LE(settled.median, 2 * kUs);
+  EXPECT_GE(errors(instants, afar, 10 * kSecond, 60 * kSecond, 5 * kMs).earliest, -3 * kUs);
+}
+
+// Either clock off by 100 ppm at most, known or not.
+TEST_P(DdsArrivalInstant, DriftIsFollowedAndThenKnown) {
+  for (const double ppm : {-200.0, -100.0, -20.0, 20.0, 100.0, 200.0}) {
+    SCOPED_TRACE(ppm);
+    ArrivalInstant instants(4);
+    Afar afar(GetParam(), ppm, 200);
+    errors(instants, afar, 0, kSecond, 5 * kMs);
+    // Until it is known, the least delay of a second ago is taken where delays grow: the other's clock is slow.
+    const Errors unknown = errors(instants, afar, kSecond, 8 * kSecond, 5 * kMs);
+    EXPECT_GE(unknown.earliest, std::min(0.0, ppm * 1e3) - 1e3);
+    EXPECT_LE(unknown.latest, 100 * kUs);
+    errors(instants, afar, 8 * kSecond, 20 * kSecond, 5 * kMs);
+    const Errors known = errors(instants, afar, 20 * kSecond, 60 * kSecond, 5 * kMs);
+    EXPECT_GE(known.earliest, -6 * kUs);
+    EXPECT_LE(known.latest, 15 * kUs);
+    EXPECT_LE(std::abs(known.median), 4 * kUs);
+  }
+}
+
+// Set ahead: at the next frame that is hardly delayed. Set back: within a window.
+TEST_P(DdsArrivalInstant, AClockThatIsSetIsFollowed) {
+  for (const std::int64_t by : {5 * kSecond, 3 * kMs, -3 * kMs, -5 * kSecond}) {
+    SCOPED_TRACE(by);
+    ArrivalInstant instants(4);
+    Afar afar(GetParam(), 0, 200);
+    errors(instants, afar, 0, 20 * kSecond, 5 * kMs);
+    afar.set(by);
+    const Errors meanwhile = errors(instants, afar, 20 * kSecond, 21 * kSecond + 40 * kMs, 5 * kMs);
+    EXPECT_GE(meanwhile.earliest, std::min<std::int64_t>(by, 0) - 3 * kUs);
+    const Errors then = errors(instants, afar, 21 * kSecond + 40 * kMs, 60 * kSecond, 5 * kMs);
+    EXPECT_GE(then.earliest, -3 * kUs);
+    EXPECT_LE(then.latest, 15 * kUs);
+  }
+}
+
+// What was the least of one boot is nothing to the next.
+TEST_P(DdsArrivalInstant, AHostThatWasStartedAnewBeginsAnew) {
+  ArrivalInstant instants(1);
+  Afar before(GetParam(), 0, 200);
+  errors(instants, before, 0, 5 * kSecond, 5 * kMs);
+  bus::HostTime last{};
+  for (std::int64_t i = 0; i < 1000; ++i) {
+    const std::int64_t left = 6 * kSecond + i * 5 * kMs;
+    const Afar::Frame frame = before.at(left);
+    const bus::HostTime at = instants.of(kFarSender, kFarHost + 1, left - 6 * kSecond, bus::HostTime{frame.received});
+    if (i == 0) {
+      EXPECT_EQ(at.ns, frame.received);
+    }
+    EXPECT_GE(at.ns, left + kLeast);
+    EXPECT_LE(at.ns, frame.received);
+    EXPECT_GE(at, last);
+    last = at;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Drawn, DdsArrivalInstant, testing::Range<std::uint64_t>(1, 11));
+
+// As long as there is no drift known, it is the least of a second, but for what shares a bin with its begin.
+TEST(DdsLeastDelay, IsTheLeastOfASecond) {
+  std::mt19937_64 random(3);
+  LeastDelay least;
+  std::vector<std::pair<std::int64_t, std::int64_t>> frames;  // received, delay
+  const auto of_the_last = [&frames](std::int64_t span) {
+    std::int64_t found = frames.back().second;
+    for (const auto& [received, delay] : frames)
+      if (received > frames.back().first - span) found = std::min(found, delay);
+    return found;
+  };
+  for (std::int64_t received = 0; received < 9 * kSecond;
+       received += static_cast<std::int64_t>(random() % (40 * kMs))) {
+    frames.emplace_back(received, static_cast<std::int64_t>(random() % (2 * kMs)) - kMs);
+    const std::int64_t said = least.least(bus::HostTime{received}, Duration{frames.back().second}).ns;
+    ASSERT_GE(said, of_the_last(LeastDelay::kWindow.ns)) << received;
+    ASSERT_LE(said, of_the_last(LeastDelay::kWindow.ns - LeastDelay::kWindow.ns / 32)) << received;
+  }
+}
+
+// The first has arrived when it was in hand, and from then on nobody later than the least delayed so far.
+//
+//   left       0     10    20    30    40 ms
+//   delayed    900   300   500   60    700 us
+TEST(DdsArrivalInstantBegin, TheLeastDelayedSoFarIsTheMeasure) {
+  ArrivalInstant instants(1);
+  std::int64_t least = 1'000 * kUs;
+  std::int64_t left = 0;
+  for (const std::int64_t delayed : {900 * kUs, 300 * kUs, 500 * kUs, 60 * kUs, 700 * kUs}) {
+    least = std::min(least, delayed);
+    EXPECT_EQ(instants.of(kFarSender, kFarHost, left + kApart + kSecond, bus::HostTime{left + delayed + kSecond}).ns,
+              left + least + kSecond);
+    left += 10 * kMs;
+  }
+}
+
+// L2: a burst that was taken at once after a stop, and the first that is not delayed right behind it.
+TEST(DdsArrivalInstantOrder, OfOneSenderNothingComesBeforeWhatCameBefore) {
+  ArrivalInstant instants(1);
+  const bus::HostTime first = instants.of(NodeId{1}, kFarHost, 1'000 * kUs, bus::HostTime{kSecond});
+  EXPECT_EQ(first.ns, kSecond);
+  const bus::HostTime next = instants.of(NodeId{1}, kFarHost, 1'010 * kUs, bus::HostTime{kSecond});
+  EXPECT_EQ(next, first);
+  // Another's, that left in between, is where the better minimum puts it.
+  const bus::HostTime other = instants.of(NodeId{2}, kFarHost, 1'005 * kUs, bus::HostTime{kSecond + kUs});
+  EXPECT_LT(other, next);
+  EXPECT_EQ(other.ns, kSecond - 5 * kUs);
+}
+
+// Hosts have minima of their own; of more than there is room for, who was silent for longest is forgotten.
+TEST(DdsArrivalInstantHosts, HaveTheirOwnMinima) {
+  ArrivalInstant instants(2);
+  const auto delayed = [&](std::uint64_t host, std::int64_t by) {
+    static std::int64_t left = kSecond;
+    left += kMs;
+    return instants.of(NodeId{static_cast<std::uint8_t>(host)}, host, left, bus::HostTime{left + by}).ns - left;
+  };
+  EXPECT_EQ(delayed(1, 100), 100);
+  EXPECT_EQ(delayed(2, 300), 300);
+  EXPECT_EQ(delayed(1, 500), 100);
+  EXPECT_EQ(delayed(2, 500), 300);
+  EXPECT_EQ(delayed(3, 400), 400);  // 1 is forgotten
+  EXPECT_EQ(delayed(2, 500), 300);
+  EXPECT_EQ(delayed(1, 500), 500);  // and now 3
+  EXPECT_EQ(delayed(2, 500), 300);
+}
+
+// Whatever a stamp says: in order, never after it was in hand, and the same again.
+TEST(DdsArrivalInstantProperty, HoldsForAnyStamps) {
+  std::mt19937_64 random(5);
+  ArrivalInstant one(3), again(3);
+  std::array<bus::HostTime, 8> last{};
+  std::int64_t received = 0;
+  for (int i = 0; i < 200'000; ++i) {
+    received += static_cast<std::int64_t>(random() % (1ull << (random() % 36)));
+    const NodeId sender{static_cast<std::uint8_t>(random() % 8)};
+    const std::uint64_t host = 1 + random() % 5;
+    const auto sent = random() % 4 == 0 ? static_cast<std::int64_t>(random() % 4'000'000'000'000'000'000)
+                                        : received + static_cast<std::int64_t>(random() % 1'000'000);
+    const bus::HostTime at = one.of(sender, host, sent, bus::HostTime{received});
+    ASSERT_LE(at.ns, received) << i;
+    ASSERT_GE(at, last[index_of(sender)]) << i;
+    ASSERT_EQ(at, again.of(sender, host, sent, bus::HostTime{received})) << i;
+    last[index_of(sender)] = at;
+  }
+}
+
+}  // namespace
+}  // namespace ttf::dds

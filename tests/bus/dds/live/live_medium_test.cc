@@ -1,0 +1,184 @@
+// The medium in real time over DDS, between participants of one process: the laws of its port, with strangers among
+// them.
+#include "bus/dds/live/medium.h"
+
+#include <dds/dds.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bus/dds/common/host_identity.h"
+#include "bus/dds/live/live_sample.h"
+#include "core/check.h"
+#include "tests/bus/dds/live/live_lines.h"
+#include "tests/bus/dds/common/sessions.h"
+#include "tests/laws/live_medium_laws.h"
+
+namespace ttf::laws {
+namespace {
+
+using namespace std::chrono_literals;
+
+// Somebody else on a line of the session, who says what it likes.
+class Stranger {
+ public:
+  Stranger(const dds::Session& session, const dds::LiveLinePlan& plan) : participant_(session.domain, session.lease) {
+    dds_qos_t* const within = dds_create_qos();
+    dds_qset_partition1(within, session.name.c_str());
+    dds_qset_reliability(within, DDS_RELIABILITY_RELIABLE, 0);
+    const auto topic =
+        dds_create_topic(participant_.handle(), &ttf_LiveSample_desc, plan.topic.c_str(), nullptr, nullptr);
+    const auto publisher = dds_create_publisher(participant_.handle(), within, nullptr);
+    writer_ = dds_create_writer(publisher, topic, within, nullptr);
+    dds_delete_qos(within);
+    TTF_CHECK(writer_ > 0);
+    const auto deadline = std::chrono::steady_clock::now() + 10s;
+    while (dds_get_matched_subscriptions(writer_, nullptr, 0) < static_cast<int>(plan.nodes.size()))
+      TTF_CHECK(std::chrono::steady_clock::now() < deadline);
+  }
+  void say(ttf_LiveSample sample, std::size_t size) {
+    std::vector<std::uint8_t> bytes(size + 1);
+    sample.bytes._buffer = bytes.data();
+    sample.bytes._length = sample.bytes._maximum = static_cast<std::uint32_t>(size);
+    TTF_CHECK(dds_write(writer_, &sample) == 0);
+  }
+
+ private:
+  dds::Participant participant_;
+  dds_entity_t writer_ = 0;
+};
+
+template <std::size_t kMembers, dds::Delivery kDelivery> class DdsLiveBench : public LiveBench {
+ public:
+  DdsLiveBench() : session_(test::session(kMembers)), plans_(test::live_lines(kMembers)) {
+    for (const NodeId node : session_.members)
+      members_.push_back(std::make_unique<dds::LiveMedium>(session_, node, test::lines_of(plans_, node), kDelivery));
+    for (const auto& member : members_) member->wait_ready(30s);
+  }
+  std::size_t members() const override { return kMembers; }
+  bus::LiveMedium& member(std::size_t index) override { return *members_[index]; }
+  std::vector<bool> can_buses() const override { return {false, true}; }
+  bool on(std::size_t member, bus::Line line) const override {
+    return test::is_on(plans_[line], NodeId{static_cast<std::uint8_t>(member)});
+  }
+  bool intrude(bus::Line line, Intruder what) override {
+    ttf_LiveSample sample{};
+    sample.sender = what == Intruder::kForeign ? 200 : 0;
+    sample.slot = 1;
+    sample.kind = what == Intruder::kForeign ? (line < 2 ? 0 : 4) : 77;
+    Stranger(session_, plans_[line]).say(sample, 8);
+    std::this_thread::sleep_for(quiet());
+    return true;
+  }
+  std::size_t flood() const override { return 3 * dds::LiveQueue::kRoom; }
+  std::chrono::milliseconds quiet() const override { return 50ms; }
+
+ private:
+  dds::Session session_;
+  std::vector<dds::LiveLinePlan> plans_;
+  std::vector<std::unique_ptr<dds::LiveMedium>> members_;
+};
+
+using DdsLiveBenches =
+    testing::Types<DdsLiveBench<2, dds::Delivery::kBestEffort>, DdsLiveBench<5, dds::Delivery::kBestEffort>,
+                   DdsLiveBench<2, dds::Delivery::kReliable>, DdsLiveBench<5, dds::Delivery::kReliable>>;
+INSTANTIATE_TYPED_TEST_SUITE_P(Dds, LiveMediumLaws, DdsLiveBenches);
+
+// Each is counted and never handed over; what is sound in between is heard.
+TEST(DdsLiveMalformed, IsCountedInAllItsForms) {
+  const dds::Session session = test::session(2);
+  const auto plans = test::live_lines(2);
+  dds::LiveMedium medium(session, NodeId{1}, test::lines_of(plans, NodeId{1}));
+  auto heard_by_one = plans;
+  for (auto& plan : heard_by_one) plan.nodes = {NodeId{1}};
+  Stranger on_a(session, heard_by_one[0]), on_can(session, heard_by_one[2]);
+  auto form = [number = 0u](auto&& change) mutable {
+    ttf_LiveSample sample{};
+    sample.slot = 1;
+    sample.number = number++;
+    change(sample);
+    return sample;
+  };
+  std::uint64_t said = 0;
+  const auto malformed = [&](Stranger& stranger, std::size_t size, auto&& change) {
+    stranger.say(form(change), size);
+    ++said;
+  };
+  using Sample = ttf_LiveSample;
+  malformed(on_a, 8, [](Sample& s) { s.slot = 0; });
+  malformed(on_a, 8, [](Sample& s) { s.slot = 2048; });
+  malformed(on_a, 8, [](Sample& s) { s.kind = 4; });  // a CAN frame here
+  malformed(on_a, 8, [](Sample& s) { s.tells_late = 2; });
+  malformed(on_a, 7, [](Sample&) {});
+  malformed(on_a, 263, [](Sample&) {});
+  malformed(on_a, 60'000, [](Sample&) {});
+  malformed(on_a, 0, [](Sample& s) { s.kind = 1; });  // a symbol of no duration
+  malformed(on_a, 0, [](Sample& s) { s.kind = 2, s.duration = 9, s.tells_late = 1; });
+  malformed(on_a, 1, [](Sample& s) { s.kind = 3, s.duration = 9; });
+  malformed(on_a, 8, [](Sample& s) { s.sent = -1; });  // of no clock
+  malformed(on_a, 8, [](Sample& s) { s.sent = INT64_MAX; });
+  malformed(on_a, 8, [](Sample& s) { s.tells_late = 1, s.late = INT64_MIN; });
+  malformed(on_a, 8, [](Sample& s) { s.tells_late = 1, s.late = INT64_MAX; });
+  malformed(on_a, 0, [](Sample& s) { s.kind = 1, s.duration = INT64_MAX; });
+  malformed(on_can, 8, [](Sample&) {});  // a FlexRay frame here
+  malformed(on_can, 8, [](Sample& s) { s.kind = 4, s.identifier = 0x800; });
+  malformed(on_can, 9, [](Sample& s) { s.kind = 5; });
+  malformed(on_can, 12, [](Sample& s) { s.kind = 4; });
+  malformed(on_can, 65, [](Sample& s) { s.kind = 5; });
+  on_a.say(form([](Sample&) {}), 262);
+  on_can.say(form([](Sample& s) { s.kind = 5, s.identifier = 0x7FF; }), 64);
+  const auto deadline = std::chrono::steady_clock::now() + 10s;
+  for (std::size_t heard = 0; heard < 2 && std::chrono::steady_clock::now() < deadline;) {
+    const auto arrival = medium.receive();
+    if (!arrival) continue;
+    EXPECT_EQ(arrival->signal.bytes.size() + arrival->can.data.size(), heard++ == 0 ? 262u : 64u);
+  }
+  EXPECT_FALSE(medium.receive());
+  EXPECT_EQ(medium.counts().malformed, said);
+  EXPECT_EQ(medium.counts().received, 2u);
+}
+
+// By the one clock that two processes share; never later than it was here.
+TEST(DdsLiveTransit, IsKnownOfWhatComesFromThisHost) {
+  const dds::Session session = test::session(2);
+  const auto plans = test::live_lines(2);
+  dds::LiveMedium medium(session, NodeId{1}, test::lines_of(plans, NodeId{1}));
+  auto heard_by_one = plans;
+  for (auto& plan : heard_by_one) plan.nodes = {NodeId{1}};
+  Stranger on_a(session, heard_by_one[0]);
+  const std::uint64_t here = dds::host_identity();
+  const bus::HostTime now = bus::host_now(), ahead = now + Duration::milliseconds(1'000'000);
+  struct Said {
+    std::uint64_t host;
+    bus::HostTime sent;
+  };
+  const std::vector<Said> all{{here, now - Duration::milliseconds(5)}, {here + 1, now}, {0, now}, {here, ahead}};
+  for (const Said& said : all) {
+    ttf_LiveSample sample{};
+    sample.slot = 1;
+    sample.number = static_cast<std::uint64_t>(&said - all.data());
+    sample.host = said.host;
+    sample.sent = said.sent.ns;
+    on_a.say(sample, 8);
+  }
+  std::size_t heard = 0;
+  const auto deadline = std::chrono::steady_clock::now() + 10s;
+  while (heard < all.size() && std::chrono::steady_clock::now() < deadline) {
+    const auto arrival = medium.receive();
+    if (!arrival) continue;
+    const Said& said = all[heard++];
+    EXPECT_EQ(arrival->left.has_value(), said.host == here) << heard;
+    if (arrival->left) {
+      EXPECT_EQ(*arrival->left, std::min(said.sent, arrival->received)) << heard;
+    }
+    EXPECT_GE(arrival->received, now);
+  }
+  EXPECT_EQ(heard, all.size());
+}
+
+}  // namespace
+}  // namespace ttf::laws

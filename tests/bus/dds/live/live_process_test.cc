@@ -1,0 +1,176 @@
+// The medium in real time over DDS between processes: they talk, they are stopped, killed and started anew, and nobody
+// else notices.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <set>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "bus/dds/live/medium.h"
+#include "tests/bus/dds/live/live_lines.h"
+#include "tests/bus/dds/common/sessions.h"
+#include "tests/support/child_process.h"
+
+namespace ttf::dds {
+namespace {
+
+using namespace std::chrono_literals;
+
+struct LiveReport {
+  std::uint64_t lost = 0, longest_us = 0;
+  std::string wrong;
+  std::vector<std::uint64_t> heard;  // by member, on both channels
+};
+
+LiveReport report_of(const test::ChildProcess& child, std::size_t members) {
+  LiveReport report;
+  std::string word;
+  std::istringstream lines(child.said_after_ready());
+  lines >> word >> report.lost >> word >> report.longest_us >> word;
+  std::getline(lines, report.wrong);
+  report.heard.resize(members);
+  for (std::size_t node = 0; lines >> node && node < members;) lines >> report.heard[node];
+  return report;
+}
+
+// Members of a session as processes, of whom some are going to be spoilt.
+class LiveProcesses {
+ public:
+  LiveProcesses(const Session& session, std::size_t count, std::set<std::size_t> spoilt = {},
+                const std::string& delivery = "best-effort")
+      : session_(session), count_(count), spoilt_(std::move(spoilt)), delivery_(delivery) {
+    for (std::size_t i = 0; i < session.members.size(); ++i) members_.push_back(start(i));
+    for (auto& member : members_) member->await_ready();
+    for (auto& member : members_) member->tell("begin");
+  }
+  test::ChildProcess& member(std::size_t index) { return *members_[index]; }
+  void start_anew(std::size_t index) {
+    members_[index] = start(index);
+    members_[index]->await_ready();
+    members_[index]->tell("begin");
+  }
+  LiveReport end(std::size_t spoilt) {
+    members_[spoilt]->tell("end");
+    EXPECT_EQ(members_[spoilt]->wait(), 0) << members_[spoilt]->said();
+    return report_of(*members_[spoilt], members_.size());
+  }
+  // All others have heard everything of each other, and nobody made them wait. Nothing is lost, or
+  // only what the spoilt said.
+  enum class Lost { kNothing, kButOfSpoilt };
+  std::vector<LiveReport> expect_undisturbed(Lost lost = Lost::kNothing) {
+    std::vector<LiveReport> reports(members_.size());
+    for (std::size_t i = 0; i < members_.size(); ++i) {
+      if (spoilt_.contains(i)) continue;
+      EXPECT_EQ(members_[i]->wait(), 0) << "member " << i << ": " << members_[i]->said();
+      reports[i] = report_of(*members_[i], members_.size());
+      EXPECT_EQ(reports[i].wrong, " -") << i;
+      if (lost == Lost::kNothing) {
+        EXPECT_EQ(reports[i].lost, 0u) << i;
+      }
+      EXPECT_LT(reports[i].longest_us, 500'000u) << i;
+      for (std::size_t other = 0; other < members_.size(); ++other) {
+        if (other == i || spoilt_.contains(other)) continue;
+        EXPECT_EQ(reports[i].heard[other], 2 * count_) << i << " of " << other;
+      }
+    }
+    return reports;
+  }
+
+ private:
+  std::unique_ptr<test::ChildProcess> start(std::size_t self) const {
+    std::vector<std::string> words{TTF_DDS_LIVE_MEMBER,
+                                   std::to_string(session_.domain),
+                                   session_.name,
+                                   std::to_string(self),
+                                   std::to_string(session_.members.size()),
+                                   std::to_string(session_.lease.count()),
+                                   delivery_,
+                                   std::to_string(count_)};
+    for (const std::size_t node : spoilt_) words.push_back(std::to_string(node));
+    return std::make_unique<test::ChildProcess>(words);
+  }
+
+  Session session_;
+  std::size_t count_;
+  std::set<std::size_t> spoilt_;
+  std::string delivery_;
+  std::vector<std::unique_ptr<test::ChildProcess>> members_;
+};
+
+class DdsLiveProcesses : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Delivery, DdsLiveProcesses, testing::Values("best-effort", "reliable"),
+                         [](const auto& instance) { return instance.param[0] == 'r' ? "Reliable" : "BestEffort"; });
+
+TEST_P(DdsLiveProcesses, HearEachOther) {
+  LiveProcesses processes(test::session(4), 2000, {}, GetParam());
+  processes.expect_undisturbed();
+}
+
+TEST_P(DdsLiveProcesses, DoNotNoticeThatOneIsKilledAndHearItStartedAnew) {
+  LiveProcesses processes(test::session(4), 4000, {2}, GetParam());
+  std::this_thread::sleep_for(700ms);
+  processes.member(2).signal(SIGKILL);
+  EXPECT_EQ(processes.member(2).wait(), -SIGKILL);
+  std::this_thread::sleep_for(300ms);
+  processes.start_anew(2);
+  std::this_thread::sleep_for(1s);
+  const LiveReport anew = processes.end(2);
+  EXPECT_EQ(anew.lost, 0u);
+  for (const std::size_t i : {0, 1, 3}) EXPECT_GT(anew.heard[i], 500u) << i;
+  const auto reports = processes.expect_undisturbed();  // a new beginning is no gap
+  for (const std::size_t i : {0, 1, 3}) EXPECT_GT(reports[i].heard[2], 2 * 1000u) << i;
+}
+
+// Within its lease: what it missed it knows.
+TEST_P(DdsLiveProcesses, DoNotNoticeThatOneIsStopped) {
+  LiveProcesses processes(test::session(4), 4500, {1}, GetParam());
+  std::this_thread::sleep_for(300ms);
+  processes.member(1).signal(SIGSTOP);
+  std::this_thread::sleep_for(3s);
+  processes.member(1).signal(SIGCONT);
+  processes.expect_undisturbed();
+  std::this_thread::sleep_for(300ms);
+  const LiveReport stopped = processes.end(1);
+  EXPECT_EQ(stopped.heard[0] + stopped.heard[2] + stopped.heard[3] + stopped.lost, 3 * 2 * 4500u);
+}
+
+// For longer than its lease: it is found again. What it says until then reaches nobody, and is counted.
+TEST_P(DdsLiveProcesses, HearWhoWasStoppedForLongerThanItsLease) {
+  Session session = test::session(3);
+  session.lease = 1s;
+  LiveProcesses processes(session, 12'000, {1}, GetParam());
+  std::this_thread::sleep_for(300ms);
+  processes.member(1).signal(SIGSTOP);
+  std::this_thread::sleep_for(3s);
+  processes.member(1).signal(SIGCONT);
+  const auto reports = processes.expect_undisturbed(LiveProcesses::Lost::kButOfSpoilt);
+  const LiveReport stopped = processes.end(1);
+  for (const std::size_t i : {0, 2}) {
+    EXPECT_GT(stopped.heard[i], 2 * 2000u) << i;
+    EXPECT_GT(reports[i].heard[1], 2 * 2000u) << i;
+  }
+}
+
+TEST(DdsLiveReadiness, NamesWhoIsMissing) {
+  const Session session = test::session(3);
+  const auto plans = test::live_lines(3);
+  const LiveMedium here(session, NodeId{0}, test::lines_of(plans, NodeId{0}));
+  const LiveMedium other(session, NodeId{2}, test::lines_of(plans, NodeId{2}));
+  try {
+    here.wait_ready(200ms);
+    FAIL() << "is ready without node 1";
+  } catch (const NotReady& error) {
+    EXPECT_EQ(error.absent(), std::vector{NodeId{1}});
+    EXPECT_EQ(error.deaf(), std::vector{NodeId{1}});
+  }
+}
+
+}  // namespace
+}  // namespace ttf::dds

@@ -1,0 +1,109 @@
+// A protocol operation control on a string: told event by event, or led to a state as a controller would lead it there.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "bus/poc/poc.h"
+
+namespace ttf::bus {
+
+using Kind = PocKind;
+using Event = PocEventKind;
+
+inline constexpr int kReference = 1;  // frame id of the node that is followed
+inline constexpr StartupFramesSeen kNobody{};
+inline constexpr StartupFramesSeen kLeaderOnly{1, 1, true, true};
+inline constexpr StartupFramesSeen kTwoNodes{2, 2, true, true};
+
+inline PocParameters coldstart_node() {
+  return {.pKeySlotUsedForStartup = true,
+          .pKeySlotOnlyEnabled = false,
+          .gColdStartAttempts = 4,
+          .gMaxWithoutClockCorrectionPassive = 2,
+          .gMaxWithoutClockCorrectionFatal = 4,
+          .pAllowPassiveToActive = 3,
+          .pAllowHaltDueToClock = true,
+          .pdListenTimeout = 400'000,
+          .gListenNoise = 2};
+}
+
+inline PocParameters other_node() {
+  PocParameters parameters = coldstart_node();
+  parameters.pKeySlotUsedForStartup = false;
+  return parameters;
+}
+
+class PocScript {
+ public:
+  explicit PocScript(const PocParameters& p) : parameters(p), state(poc_power_on(p)) {}
+
+  PocScript& tell(const PocEvent& event) {
+    last = poc_step(parameters, state, event);
+    state = last.next;
+    return *this;
+  }
+  PocScript& tell(Event kind) { return tell(PocEvent{kind}); }
+
+  // The next cycle begins; `ended` is what was heard in the one before.
+  PocScript& cycle(const StartupFramesSeen& ended = kNobody) {
+    if (last_cycle % 2 != 0 && last_cycle >= 0) correct_clock();
+    ++last_cycle;
+    return tell(PocEvent::cycle_started(last_cycle, ended));
+  }
+  PocScript& cycles(int count, const StartupFramesSeen& ended) {
+    for (int i = 0; i < count; ++i) cycle(ended);
+    return *this;
+  }
+
+  PocScript& to_ready() { return tell(Event::kConfig).tell(Event::kConfigComplete); }
+  PocScript& to_listen() { return to_ready().tell(Event::kAllowColdstart).tell(Event::kRun); }
+  PocScript& to_collision_resolution() {
+    to_listen().tell(Event::kListenTimeout);
+    last_cycle = -1;
+    return *this;
+  }
+  // Cycle 4 has begun.
+  PocScript& to_consistency_check() { return to_collision_resolution().cycles(5, kNobody); }
+  PocScript& to_gap() { return to_consistency_check().cycle(kNobody); }
+  PocScript& to_initialise_schedule() { return to_listen().tell(PocEvent::startup_frame(kReference, 0)); }
+  // In cycle 1, behind the second frame.
+  PocScript& to_check() {
+    to_initialise_schedule().tell(PocEvent::startup_frame(kReference, 1));
+    last_cycle = 1;
+    return *this;
+  }
+  // Cycle 4 has begun.
+  PocScript& to_join() { return to_check().cycle().cycles(2, kLeaderOnly); }
+  // Cycle 7 has begun for a coldstart node, cycle 6 for another.
+  PocScript& to_active() {
+    return parameters.pKeySlotUsedForStartup ? to_join().cycles(3, kTwoNodes) : to_check().cycle().cycles(4, kTwoNodes);
+  }
+  // Double cycles with this outcome of clock correction, from an odd cycle that has begun to the next such one.
+  PocScript& double_cycles(int count, bool missing, bool limit_exceeded = false) {
+    for (int i = 0; i < count; ++i) {
+      tell(PocEvent::clock_corrected(missing, limit_exceeded));
+      tell(PocEvent::cycle_started(++last_cycle, kTwoNodes));
+      tell(PocEvent::cycle_started(++last_cycle, kTwoNodes));
+    }
+    return *this;
+  }
+  PocScript& to_passive() {
+    to_active();
+    if (last_cycle % 2 == 0) cycle(kTwoNodes);
+    return double_cycles(parameters.gMaxWithoutClockCorrectionPassive, true);
+  }
+
+  PocScript& correct_clock() { return tell(PocEvent::clock_corrected(clock_missing, clock_limit)); }
+
+  PocParameters parameters;
+  PocState state;
+  PocStep last;
+  int last_cycle = -1;         // that began
+  bool clock_missing = false;  // what cycle() reports of odd cycles
+  bool clock_limit = false;
+};
+
+}  // namespace ttf::bus

@@ -1,0 +1,163 @@
+// What is told of a run by the wall clock: words, JSON, and the page, from records made by hand.
+#include "cli/drive/real_time_outputs.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include <unistd.h>
+
+#include "recording/log/writer.h"
+#include "schedules/file/loader.h"
+
+namespace ttf::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+records::BinnedDurations late_by(std::initializer_list<std::pair<std::int64_t, int>> us_and_times) {
+  records::BinnedDurations late;
+  for (const auto& [us, times] : us_and_times)
+    for (int i = 0; i < times; ++i) late.add(Duration::microseconds(us));
+  return late;
+}
+
+// Stretched ten times. Node 0: 1000 wake-ups. Node 2 told of nothing but had problems.
+StrategyResult a_run() {
+  StrategyResult result;
+  result.strategy = fusion::StrategyKind::kTt;
+  result.cluster = schedules::load_cluster(TTF_SOURCE_DIR "/schedules/paper_synchronised.yaml");
+  result.summary.age_used_newest = late_by({{20'000, 98}, {30'000, 2}});
+  result.summary.age_used_oldest = late_by({{25'000, 100}});
+  experiments::RealTimeFindings found;
+  found.time_scale_ppm = 10'000'000;
+  recording::NodeLateness& late = found.lateness[NodeId{0}];
+  late.wake_ups = late_by({{10, 500}, {20, 490}, {50, 9}, {3000, 1}});
+  late.floor = late_by({{7, 1000}});
+  late.arrivals = late_by({{40, 10}});
+  late.transits = late_by({{60, 20}});
+  found.timing[NodeId{0}] = {3, 1, 0, 0, 0, {}, Duration{12'345}};
+  found.timing[NodeId{2}] = {0, 0, 4, 5, 6, {2, 1}, std::nullopt};
+  found.medium[NodeId{0}] = {{}, 101, 102, 103, 104, 105, 106, 107};
+  found.precision.push_back({"ash", late_by({{2, 50}, {3, 1}})});
+  result.real_time = found;
+  return result;
+}
+
+std::string name_of_node(const StrategyResult& result, int node) {
+  return result.cluster.nodes[static_cast<std::size_t>(node)].name;
+}
+
+// Lines as they are, blanks as one.
+bool has_line(const std::string& text, const std::string& pattern) {
+  const std::string blanks = std::regex_replace(pattern, std::regex(" "), " +");
+  return std::regex_search(text, std::regex("(^|\n)" + blanks + " *(\n|$)"));
+}
+
+TEST(RealTimeOutputs, TablesTellTheHistogramsAndTheCounts) {
+  const StrategyResult result = a_run();
+  const std::string text = real_time_text(result);
+  const std::string first = name_of_node(result, 0), third = name_of_node(result, 2);
+  EXPECT_TRUE(has_line(text, "node wake-ups p50 p99 p99.9 longest floor p50 p99 p99.9 longest")) << text;
+  EXPECT_TRUE(has_line(text, first + " 1000 11 21 51 3000 1000 7 7 7 7")) << text;
+  EXPECT_TRUE(has_line(text, first + " 0 - - - - 10 40 40 40 40")) << text;
+  EXPECT_TRUE(has_line(text, first + " 20 60 60 60 60")) << text;
+  EXPECT_TRUE(has_line(text,
+                       "node late wake-ups slots missed frames late early withheld by the sender sender away lost on "
+                       "the way largest correction \\[us\\]"))
+      << text;
+  EXPECT_TRUE(has_line(text, first + " 3 1 0 0 0 0 0 12.3")) << text;
+  EXPECT_TRUE(has_line(text, third + " 0 0 4 5 2 1 3 -")) << text;
+  EXPECT_TRUE(has_line(text, "medium of sent received no room to send lost dropped foreign malformed")) << text;
+  EXPECT_TRUE(has_line(text, first + " 101 102 103 104 107 105 106")) << text;
+  // Of the drive's time, ten times as long in real time; of a bin, its end.
+  EXPECT_TRUE(has_line(text, "clocks apart \\[us\\] 51 30.0 30.0 30.0")) << text;
+  EXPECT_TRUE(has_line(text, "sensor to feature, newest measurement \\[ms\\] 100 204.8 300.0 300.0")) << text;
+  EXPECT_TRUE(has_line(text, "sensor to feature, oldest measurement \\[ms\\] 100 250.0 250.0 250.0")) << text;
+}
+
+TEST(RealTimeOutputs, JsonTellsTheSame) {
+  const StrategyResult result = a_run();
+  const nlohmann::ordered_json json = real_time_json(result);
+  EXPECT_EQ(json["time_scale"], 10.0);
+  ASSERT_EQ(json["nodes"].size(), 2u);
+  const auto& first = json["nodes"][0];
+  EXPECT_EQ(first["node"], name_of_node(result, 0));
+  EXPECT_EQ(
+      first["lateness_us"]["wake_ups"],
+      (nlohmann::ordered_json{{"count", 1000}, {"p50", 11.0}, {"p99", 21.0}, {"p999", 51.0}, {"longest", 3000.0}}));
+  EXPECT_EQ(first["lateness_us"]["floor"]["p99"], 7.0);
+  EXPECT_EQ(first["lateness_us"]["departures"]["count"], 0);
+  EXPECT_TRUE(first["lateness_us"]["departures"]["longest"].is_null());
+  EXPECT_EQ(first["lateness_us"]["transits"]["count"], 20);
+  EXPECT_EQ(first["medium"], (nlohmann::ordered_json{{"sent", 101},
+                                                     {"received", 102},
+                                                     {"not_sent", 103},
+                                                     {"lost", 104},
+                                                     {"foreign", 105},
+                                                     {"malformed", 106},
+                                                     {"dropped", 107}}));
+  EXPECT_EQ(first["late_wake_ups"], 3);
+  EXPECT_EQ(first["slots_missed"], 1);
+  EXPECT_DOUBLE_EQ(first["largest_offset_correction_us"].get<double>(), 12.345);
+  const auto& third = json["nodes"][1];
+  EXPECT_EQ(third["late_frames"], 4);
+  EXPECT_EQ(third["early_frames"], 5);
+  EXPECT_EQ(third["frames_lost"], 6);
+  EXPECT_EQ(third["withheld_by_the_sender"], 2);
+  EXPECT_EQ(third["sender_away"], 1);
+  EXPECT_EQ(third["lost_on_the_way"], 3);
+  EXPECT_TRUE(third["medium"].is_null());
+  EXPECT_TRUE(third["largest_offset_correction_us"].is_null());
+  ASSERT_EQ(json["precision_us"].size(), 1u);
+  EXPECT_EQ(json["precision_us"][0]["host"], "ash");
+  EXPECT_EQ(json["precision_us"][0]["longest"], 30.0);
+  EXPECT_EQ(json["sensor_to_feature_ms"]["newest"]["p99"], 300.0);
+  EXPECT_EQ(json["sensor_to_feature_ms"]["oldest"]["count"], 100);
+}
+
+TEST(RealTimeOutputs, InVirtualTimeThereIsNothingToTell) {
+  StrategyResult result = a_run();
+  result.real_time.reset();
+  EXPECT_EQ(real_time_text(result), "");
+  EXPECT_TRUE(real_time_json(result).is_null());
+  const nodes::Scenario scenario;
+  EXPECT_FALSE(to_json(scenario, 1, {result})["strategies"][0].contains("real_time"));
+  EXPECT_EQ(to_json(scenario, 1, {a_run()})["strategies"][0]["real_time"], real_time_json(a_run()));
+}
+
+TEST(RealTimeOutputs, ThePageShowsTableAndPicture) {
+  const fs::path folder = fs::temp_directory_path() / ("ttf_test_real_time." + std::to_string(::getpid()));
+  fs::create_directories(folder);
+  const auto page_of = [&](StrategyResult result) {
+    result.log_path = (folder / "tt.mcap").string();
+    recording::LogWriter(result.log_path, {}).close();
+    write_pictures(nodes::Scenario{}, {result}, folder.string());
+    std::ifstream file(folder / "index.html");
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  StrategyResult without = a_run();
+  without.real_time.reset();
+  EXPECT_EQ(page_of(without).find("lateness"), std::string::npos);
+  EXPECT_FALSE(fs::exists(folder / "tt_lateness.svg"));
+  const std::string page = page_of(a_run());
+  EXPECT_NE(page.find("<img src=\"tt_lateness.svg\""), std::string::npos);
+  EXPECT_NE(page.find("lateness [us], in real time\nnode"), std::string::npos);
+  for (const char* file : {"tt_lateness.svg", "tt_lateness.png", "tt_lateness.pdf"})
+    EXPECT_TRUE(fs::exists(folder / file));
+  const std::vector<std::string> known = picture_files("tt");
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    EXPECT_TRUE(name == "tt.mcap" || std::count(known.begin(), known.end(), name) == 1) << name;
+  }
+  fs::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace ttf::cli

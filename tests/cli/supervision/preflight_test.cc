@@ -1,0 +1,101 @@
+#include "cli/supervision/preflight.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "cli/supervision/shell_text.h"
+#include "core/errors.h"
+
+namespace ttf::launch {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+TEST(Bus, IsReadAndWritten) {
+  EXPECT_EQ(Bus::parse("dds").kind, BusKind::kDds);
+  EXPECT_EQ(Bus::parse("dds").text(), "dds");
+  EXPECT_THAT(Bus::parse("socketcan:can0").interfaces, ElementsAre("can0"));
+  EXPECT_THAT(Bus::parse("socketcan:vcan0,vcan1").interfaces, ElementsAre("vcan0", "vcan1"));
+  EXPECT_EQ(Bus::parse("socketcan:vcan0,vcan1").text(), "socketcan:vcan0,vcan1");
+}
+
+TEST(Bus, RefusesWhatIsNone) {
+  for (const char* const text : {"", "can", "dds:lo", "socketcan", "socketcan:", "socketcan:,", "socketcan:a,",
+                                 "socketcan:,a", "socketcan:a,b,c", "socketcan:a,a", "socketcan:a b", "socketcan:a/b",
+                                 "socketcan:..", "socketcan:sixteen_letters_", "socketcan:a;reboot\n"}) {
+    try {
+      Bus::parse(text);
+      ADD_FAILURE() << text;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("--bus"));
+      EXPECT_THAT(error.what(), HasSubstr("must be dds, or socketcan: with one or two different interfaces"));
+    }
+  }
+}
+
+TEST(Preflight, SaysHowAMissingBusIsMade) {
+  const auto items = look_at(Bus::parse("socketcan:vcan_absent,can_absent"), {});
+  ASSERT_EQ(items.size(), 3u);  // the kernel's sockets first
+  EXPECT_FALSE(all_good(items));
+  EXPECT_EQ(items[1].how, "is not there (channel A)");
+  EXPECT_THAT(items[1].commands,
+              ElementsAre("ip link add dev vcan_absent type vcan", "ip link set vcan_absent mtu 72 up"));
+  EXPECT_EQ(items[2].how, "is not there; ip -details link show type can lists those there are (channel B)");
+  EXPECT_THAT(items[2].commands, IsEmpty());  // hardware: nobody knows its driver
+  EXPECT_THAT(text_of(items), HasSubstr("not ready: vcan_absent is not there (channel A); as root:\n"
+                                        "    ip link add dev vcan_absent type vcan\n"));
+}
+
+TEST(Preflight, TellsACanFromOtherInterfaces) {
+  const auto items = look_at(Bus::parse("socketcan:lo"), {});
+  EXPECT_EQ(items[1].how, "is no CAN interface; ip -details link show type can lists those there are (channel A)");
+  EXPECT_FALSE(items[1].good);
+}
+
+// One that has the CAN's own name is no hardware's, so that the commands make a virtual one.
+TEST(Preflight, LooksAtPrivateCans) {
+  const auto items = look_at(Bus::parse("socketcan:vcan_absent"), {{"laser_can", "laser_can", true},
+                                                                   {"camera_can", "camera_can", false},
+                                                                   {"radar_can", "can_absent", false},
+                                                                   {"sonar_can", "vcan_none", false},
+                                                                   {"other_can", "lo", true}});
+  ASSERT_EQ(items.size(), 7u);  // the kernel's sockets and channel A first
+  EXPECT_EQ(items[2].what, "laser_can");
+  EXPECT_EQ(items[2].how, "is not there (laser_can)");
+  EXPECT_THAT(items[2].commands, ElementsAre("ip link add dev laser_can type vcan", "ip link set laser_can mtu 72 up"));
+  EXPECT_THAT(items[3].commands,
+              ElementsAre("ip link add dev camera_can type vcan", "ip link set camera_can mtu 16 up"));
+  EXPECT_EQ(items[4].how, "is not there; ip -details link show type can lists those there are (radar_can)");
+  EXPECT_THAT(items[4].commands, IsEmpty());
+  EXPECT_THAT(items[5].commands, ElementsAre("ip link add dev vcan_none type vcan", "ip link set vcan_none mtu 16 up"));
+  EXPECT_THAT(items[6].how, HasSubstr("is no CAN interface"));
+  for (std::size_t i = 2; i < items.size(); ++i) EXPECT_FALSE(items[i].good) << items[i].what;
+}
+
+TEST(Preflight, DdsNeedsLoopback) {
+  const auto items = look_at(Bus{}, {});
+  ASSERT_EQ(items.size(), 1u);
+  EXPECT_EQ(items[0].what, "lo");
+  EXPECT_EQ(items[0].good, items[0].commands.empty());
+  EXPECT_EQ(json_of(items)[0]["good"], items[0].good);
+}
+
+// What it prints is read back by a shell as it was.
+TEST(ShellText, IsWhatAShellReads) {
+  EXPECT_EQ(shell_text({"ttfusion", "node", "laser_pre", "--out=a/b"}), "ttfusion node laser_pre --out=a/b");
+  const std::vector<std::string> arguments{"printf", "%s|",  "a b", "it's", "",  "$HOME",
+                                           "`x`",    "a\nb", "~",   "\\",   "#", "*"};
+  FILE* const shell = popen(shell_text(arguments).c_str(), "r");
+  ASSERT_NE(shell, nullptr);
+  std::string text(200, '\0');
+  text.resize(fread(text.data(), 1, text.size(), shell));
+  EXPECT_EQ(pclose(shell), 0);
+  EXPECT_EQ(text, "a b|it's||$HOME|`x`|a\nb|~|\\|#|*|");
+}
+
+}  // namespace
+}  // namespace ttf::launch

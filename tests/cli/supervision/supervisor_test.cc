@@ -1,0 +1,367 @@
+// Policies, barrier, output and exit codes. How a launch is stopped: supervisor_stop_test.cc.
+#include "cli/supervision/supervisor.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <stdlib.h>
+#include <sys/ioctl.h>
+#include <termios.h>
+
+#include <algorithm>
+#include <ctime>
+
+#include "cli/supervision/control.h"
+#include "tests/cli/supervision/launch_fixture.h"
+
+namespace ttf::test {
+namespace {
+
+using launch::Ending;
+using launch::Hooks;
+using launch::Outcome;
+using launch::Policy;
+using launch::Supervisor;
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::MatchesRegex;
+using testing::Not;
+
+constexpr Duration kSoon = Duration::milliseconds(1);
+
+class Supervising : public Launching {
+ protected:
+  Outcome run(launch::SupervisorConfig given, Hooks hooks = {}) {
+    Supervisor supervisor(std::move(given), std::move(hooks));
+    const Outcome outcome = supervisor.run();
+    health_ = supervisor.health().json();
+    EXPECT_TRUE(has_no_children());
+    return outcome;
+  }
+  nlohmann::ordered_json health_;
+};
+
+TEST_F(Supervising, ANodeSetFromStartToEnd) {
+  std::vector<std::string> events;
+  Hooks hooks;
+  hooks.on_all_ready = [&] {
+    events.emplace_back("all ready");
+    return json{{"at", 17}};
+  };
+  hooks.on_health = [&](std::size_t node, const json& facts) {
+    events.push_back(fmt::format("{} health {}", node, facts.dump()));
+  };
+  hooks.on_done = [&](std::size_t node, const json& facts) {
+    events.push_back(fmt::format("{} done {}", node, facts.dump()));
+  };
+  hooks.on_gone = [&](std::size_t node, const Ending& ending, bool back) {
+    events.push_back(fmt::format("{} {}{}", node, ending.text(), back ? " comes back" : ""));
+  };
+  const auto outcome =
+      run(config({{"fusion", Policy::kRequired,
+                   child({"ready", "start", "tell:{\"health\":{\"drops\":2}}", "tell:{\"done\":{\"frames\":3}}"})}}),
+          hooks);
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.why, "");
+  EXPECT_THAT(events, testing::ElementsAre("all ready", "0 health {\"drops\":2}", "0 done {\"frames\":3}", "0 exit 0"));
+  EXPECT_THAT(shown(),
+              testing::StartsWith("launch | all are ready\nfusion | start {\"at\":17}\nlaunch | fusion: exit 0\n"));
+  EXPECT_EQ(health_[0]["drops"], 2);
+  EXPECT_EQ(health_[0]["process"], "exit 0");
+}
+
+// Whoever is ready waits for the last one.
+TEST_F(Supervising, NobodyStartsBeforeAllAreReady) {
+  Hooks hooks;
+  hooks.on_all_ready = [&] {
+    EXPECT_EQ(std::filesystem::file_size(path("late")), 1u);
+    return json::object();
+  };
+  EXPECT_EQ(run(config({{"a", Policy::kRequired, child({"ready", "start"})},
+                        {"late", Policy::kRequired, child({"try:" + path("late") + ":1", "ready", "start"})},
+                        {"c", Policy::kRequired, child({"ready", "start"})}}),
+                hooks)
+                .exit_code,
+            0);
+}
+
+TEST_F(Supervising, TheBarriersTimeoutNamesWhoIsMissing) {
+  auto given = config({{"laser_pre", Policy::kRequired, child({"wait"})},
+                       {"fusion", Policy::kRequired, child({"ready", "wait"})},
+                       {"camera_pre", Policy::kRestart, child({"wait"})},
+                       {"feature", Policy::kOptional, child({"wait"})}});
+  given.ready_timeout = Duration::milliseconds(1500);
+  Hooks hooks;
+  hooks.on_all_ready = [] {
+    ADD_FAILURE() << "not all are ready";
+    return json::object();
+  };
+  const auto outcome = run(std::move(given), hooks);
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_EQ(outcome.why, "not ready within 1.5 s: laser_pre, camera_pre");
+  EXPECT_THAT(shown(), HasSubstr("launch     | stopping: not ready within 1.5 s: laser_pre, camera_pre\n"));
+}
+
+TEST_F(Supervising, OptionalOnesHoldUpNobodyBeyondTheBarrier) {
+  auto given = config(
+      {{"fusion", Policy::kRequired, child({"ready", "start"})}, {"feature", Policy::kOptional, child({"wait"})}});
+  given.ready_timeout = Duration::milliseconds(200);
+  given.optional_grace = kSoon;
+  EXPECT_EQ(run(std::move(given)).exit_code, 0);
+  EXPECT_THAT(shown(),
+              HasSubstr("not ready within 0.2 s, and optional: feature; the others start\nfusion  | start {}\n"));
+  EXPECT_THAT(shown(), HasSubstr("stopping: only optional nodes are left\nlaunch  | feature: signal 2 (Interrupt)\n"));
+}
+
+TEST_F(Supervising, ALateOptionalOneIsToldAfterwards) {
+  Hooks hooks;
+  hooks.on_all_ready = [&] {
+    std::ofstream(path("go")) << "x";
+    return json{{"first", true}};
+  };
+  hooks.on_late_ready = [](std::size_t node) { return json{{"late", node}}; };
+  const std::string wait_for_it =
+      "until [ -e " + path("go") + " ]; do sleep 0.02; done; exec " TTF_LAUNCH_CHILD " ready start";
+  auto given = config({{"feature", Policy::kOptional, {{"/bin/sh", "-c", wait_for_it}, {}}},
+                       {"fusion", Policy::kRequired, child({"ready", "start"})}});
+  given.ready_timeout = Duration::milliseconds(300);
+  EXPECT_EQ(run(std::move(given), hooks).exit_code, 0);
+  EXPECT_THAT(shown(), HasSubstr("fusion  | start {\"first\":true}\n"));
+  EXPECT_THAT(shown(), HasSubstr("feature | start {\"late\":0}\n"));
+}
+
+TEST_F(Supervising, ARequiredOnesFailureStopsAllAndIsTheExitCode) {
+  const auto outcome = run(config({{"sensor", Policy::kRequired, child({"ready", "wait"})},
+                                   {"fusion", Policy::kRequired, child({"ready", "start", "exit:3"})},
+                                   {"feature", Policy::kOptional, child({"ready", "wait"})}}));
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_EQ(outcome.why, "fusion: exit 3");
+  EXPECT_THAT(shown(), HasSubstr("stopping: fusion: exit 3\n"));
+  EXPECT_THAT(shown(), HasSubstr("sensor: signal 2 (Interrupt)\n"));
+  EXPECT_THAT(shown(), HasSubstr("feature: signal 2 (Interrupt)\n"));
+  EXPECT_THAT(shown(), HasSubstr("launch  | ended: fusion: exit 3\n"));
+}
+
+TEST_F(Supervising, ASignalIs128More) {
+  EXPECT_EQ(run(config({{"fusion", Policy::kRequired, child({"ready", "start", "raise:10"})}})).exit_code, 138);
+  EXPECT_THAT(shown(), HasSubstr("fusion: signal 10 (User defined signal 1)\n"));
+}
+
+// The one that fails while all are being stopped is not the first.
+TEST_F(Supervising, TheFirstFailureCounts) {
+  EXPECT_EQ(run(config({{"second", Policy::kRequired, child({"on:2:5", "ready", "wait"})},
+                        {"first", Policy::kRequired, child({"ready", "start", "exit:4"})}}))
+                .exit_code,
+            4);
+  EXPECT_THAT(shown(), HasSubstr("second: exit 5\n"));
+}
+
+TEST_F(Supervising, EndingBeforeBeingReadyIsAFailure) {
+  const auto outcome = run(config(
+      {{"fusion", Policy::kRequired, child({"exit:0"})}, {"other", Policy::kRequired, child({"ready", "wait"})}}));
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_EQ(outcome.why, "fusion: exit 0, before it was ready");
+}
+
+TEST_F(Supervising, ReadyAndGoneAtOnceIsNone) {
+  EXPECT_EQ(run(config({{"brief", Policy::kRequired, child({"ready", "exit:0"})},
+                        {"fusion", Policy::kRequired, child({"ready", "start"})}}))
+                .exit_code,
+            0);
+  EXPECT_EQ(health_[0]["process"], "exit 0");
+}
+
+TEST_F(Supervising, AnOptionalOnesFailureIsOnlySaid) {
+  EXPECT_EQ(run(config({{"fusion", Policy::kRequired, child({"ready", "start"})},
+                        {"feature", Policy::kOptional, child({"exit:9"})},
+                        {"absent", Policy::kOptional, {{path("absent")}, {}}}}))
+                .exit_code,
+            0);
+  EXPECT_THAT(shown(), HasSubstr("feature: exit 9\n"));
+  EXPECT_THAT(shown(), HasSubstr("absent: " + path("absent") + ": cannot be started: No such file or directory\n"));
+}
+
+TEST_F(Supervising, RestartsUntilItSucceeds) {
+  std::vector<bool> comes_back;
+  Hooks hooks;
+  hooks.on_gone = [&](std::size_t node, const Ending&, bool back) {
+    if (node == 0) comes_back.push_back(back);
+  };
+  auto given = config({{"sensor", Policy::kRestart, child({"try:" + path("tries") + ":3", "ready", "start"})},
+                       {"fusion", Policy::kRequired, child({"ready", "start"})}});
+  given.restart = {kSoon, kSoon * 10, 5, kNever};
+  EXPECT_EQ(run(std::move(given), hooks).exit_code, 0);
+  EXPECT_EQ(std::filesystem::file_size(path("tries")), 3u);
+  EXPECT_EQ(comes_back, (std::vector<bool>{true, true, false}));
+  EXPECT_THAT(shown(), HasSubstr("sensor: exit 7; restart 1 of 5 in 0.001 s\n"));
+  EXPECT_THAT(shown(), HasSubstr("sensor: exit 7; restart 2 of 5 in 0.002 s\n"));
+}
+
+TEST_F(Supervising, ARestartedOneIsToldHowThingsStand) {
+  Hooks hooks;
+  hooks.on_all_ready = [] { return json{{"cycle", 0}}; };
+  hooks.on_late_ready = [](std::size_t) { return json{{"cycle", 90}}; };
+  auto given = config({{"sensor",
+                        Policy::kRestart,
+                        {{"/bin/sh", "-c",
+                          "if [ -e " + path("once") + " ]; then exec " TTF_LAUNCH_CHILD " ready start; fi; touch " +
+                              path("once") + "; exec " TTF_LAUNCH_CHILD " ready start raise:6"},
+                         {}}}});
+  given.restart = {kSoon, kSoon, 1, kNever};
+  EXPECT_EQ(run(std::move(given), hooks).exit_code, 0);
+  EXPECT_THAT(shown(),
+              HasSubstr("sensor | start {\"cycle\":0}\nlaunch | sensor: signal 6 (Aborted); restart 1 of 1 in 0.001 s\n"
+                        "sensor | start {\"cycle\":90}\nlaunch | sensor: exit 0\n"));
+}
+
+TEST_F(Supervising, GivesUpRestartingAsIfRequired) {
+  auto given = config({{"sensor", Policy::kRestart, child({"ready", "start", "raise:6"})},
+                       {"fusion", Policy::kRequired, child({"ready", "start", "wait"})}});
+  given.restart = {kSoon, kSoon, 2, kNever};
+  const auto outcome = run(std::move(given));
+  EXPECT_EQ(outcome.exit_code, 134);
+  EXPECT_EQ(outcome.why, "sensor: signal 6 (Aborted)");
+}
+
+TEST_F(Supervising, AProgramThatIsNotThereIsAShells127) {
+  const auto outcome = run(
+      config({{"fusion", Policy::kRequired, {{path("absent")}, {}}}, {"later", Policy::kRequired, child({"wait"})}}));
+  EXPECT_EQ(outcome.exit_code, 127);
+  EXPECT_EQ(health_[1]["process"], "not started");
+}
+
+TEST_F(Supervising, PrefixesLinesAndEscapesJunk) {
+  // "whole\n" "a\tb\x1b[31mred\xff\n" "held back", the last without a newline
+  EXPECT_EQ(run(config({{"a", Policy::kRequired,
+                         child({"print:77686f6c650a6109621b5b33316d726564ff0a68656c64206261636b", "ready"})},
+                        {"longer_name", Policy::kRequired, child({"ready"})}}))
+                .exit_code,
+            0);
+  std::string of_a;
+  std::string line;
+  for (std::istringstream lines(shown()); std::getline(lines, line);)
+    if (line.starts_with("a ") && line.find('|') != std::string::npos) of_a += line + '\n';
+  EXPECT_EQ(of_a,
+            "a           | whole\n"
+            "a           | a\tb\\x1b[31mred\\xff\n"
+            "a           | held back\n");
+}
+
+TEST_F(Supervising, TimeStampsEveryLine) {
+  auto given = config({{"a", Policy::kRequired, child({"print:780a", "ready"})}});
+  EXPECT_EQ(run(std::move(given)).exit_code, 0);
+  std::string bytes(4096, '\0');
+  bytes.resize(static_cast<std::size_t>(std::max<ssize_t>(pread(screen_, bytes.data(), bytes.size(), 0), 0)));
+  EXPECT_THAT(bytes.substr(0, bytes.find('\n')), MatchesRegex("   [0-9]\\.[0-9][0-9][0-9] a      \\| x"));
+}
+
+TEST_F(Supervising, AFloodWithoutNewlineIsShownInPieces) {
+  launch::RunFolder folder(path("run"), json::object(), std::chrono::system_clock::now());
+  auto given = config({{"a", Policy::kRequired, child({"flood:300000", "ready"})}});
+  given.folder = &folder;
+  EXPECT_EQ(run(std::move(given)).exit_code, 0);
+  const std::string text = shown();
+  std::ptrdiff_t count = 0;
+  std::string line;
+  for (std::istringstream lines(text); std::getline(lines, line);)
+    if (line.starts_with("a      | ")) count += std::ranges::count(line, 'x');
+  EXPECT_EQ(count, 300'000);
+  EXPECT_THAT(text, HasSubstr("a      | " + std::string(launch::kLongestLine, 'x') + " [...]\n"));
+  EXPECT_EQ(contents(path("run/a.txt")), std::string(300'000, 'x'));
+}
+
+TEST_F(Supervising, LeavesAFolderThatTellsAll) {
+  launch::RunFolder folder(path("run"), {{"scenario", "s.yaml"}}, std::chrono::system_clock::now());
+  auto given =
+      config({{"sensor", Policy::kRestart, child({"try:" + path("tries") + ":2", "print:ff0a", "ready", "start"})},
+              {"fusion", Policy::kRequired, child({"ready", "start", "tell:{\"health\":{\"drops\":5}}", "raise:9"})}});
+  given.folder = &folder;
+  given.restart = {kSoon, kSoon, 5, kNever};
+  EXPECT_EQ(run(std::move(given)).exit_code, 137);
+  const json manifest = json::parse(contents(path("run/manifest.json")));
+  EXPECT_EQ(manifest["scenario"], "s.yaml");
+  EXPECT_EQ(manifest["state"], "ended");
+  EXPECT_EQ(manifest["exit_code"], 137);
+  EXPECT_EQ(manifest["why"], "fusion: signal 9 (Killed)");
+  EXPECT_EQ(manifest["health"][1]["drops"], 5);
+  const json& sensor = manifest["nodes"][0];
+  EXPECT_EQ(sensor["policy"], "restart");
+  ASSERT_EQ(sensor["processes"].size(), 2u);
+  EXPECT_EQ(sensor["processes"][0]["exit"], 7);
+  EXPECT_NE(sensor["processes"][0]["pid"], sensor["processes"][1]["pid"]);
+  EXPECT_EQ(manifest["nodes"][1]["processes"][0]["signal"], 9);
+  for (const json& node : manifest["nodes"])
+    for (const json& process : node["processes"])
+      EXPECT_TRUE(process["began"].is_string() && process["ended"].is_string());
+  EXPECT_EQ(contents(path("run/sensor.txt")).substr(0, 2), "\xff\n");
+  EXPECT_THAT(contents(path("run/launch.log")), HasSubstr("sensor | \\xff\n"));
+  EXPECT_THAT(contents(path("run/launch.log")), HasSubstr("ended: fusion: signal 9 (Killed)\n"));
+}
+
+TEST_F(Supervising, SaysWhatItDoesNotUnderstand) {
+  const std::string long_text(launch::kLongestMessage + 10, 'x');
+  EXPECT_EQ(run(config({{"a", Policy::kRequired,
+                         child({"tell:nonsense", "tell:[1]", "tell:" + long_text, "tell:{\"health\":{\"drops\":-1}}",
+                                "tell:{\"ready\":1}", "tell:{\"novelty\":1}", "ready", "ready"})}}))
+                .exit_code,
+            0);
+  const std::string left_out = "launch | a: a message on its control line is left out: ";
+  EXPECT_THAT(shown(), HasSubstr(left_out + "it is no JSON object\n" + left_out + "it is no JSON object\n" + left_out +
+                                 "it is too long\n" + left_out + "health.drops: must be a whole number from 0\n"));
+}
+
+TEST_F(Supervising, WhatAHookThrowsEndsTheLaunch) {
+  Hooks hooks;
+  hooks.on_all_ready = []() -> json { throw std::runtime_error("the medium is lost"); };
+  const auto outcome = run(config({{"a", Policy::kRequired, child({"ready", "start"})}}), hooks);
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_EQ(outcome.why, "the medium is lost");
+  EXPECT_THAT(shown(), Not(HasSubstr("a      | start")));
+}
+
+// On a terminal that wants it: colours, and the table now and then, not only at the end.
+TEST_F(Supervising, OnATerminalTheTableComesAgain) {
+  const launch::Descriptor terminal(posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK));
+  ASSERT_TRUE(terminal.open() && unlockpt(terminal.get()) == 0);
+  const launch::Descriptor screen(ioctl(terminal.get(), TIOCGPTPEER, O_RDWR | O_NOCTTY));
+  ASSERT_TRUE(screen.open());
+  unsetenv("NO_COLOR");
+  const std::string lingers = TTF_LAUNCH_CHILD " ready start 'tell:{\"health\":{\"drops\":77}}'; sleep 0.3";
+  auto given = config({{"a", Policy::kRequired, {{"/bin/sh", "-c", lingers}, {}}}});
+  given.screen = screen.get();
+  given.health_every = Duration::milliseconds(100);
+  EXPECT_EQ(run(std::move(given)).exit_code, 0);
+  std::string text(1 << 16, '\0');
+  text.resize(static_cast<std::size_t>(std::max<ssize_t>(read(terminal.get(), text.data(), text.size()), 0)));
+  std::size_t tables = 0;
+  for (std::size_t at = text.find("missed slots"); at != std::string::npos; at = text.find("missed slots", at + 1))
+    ++tables;
+  EXPECT_GE(tables, 2u);
+  EXPECT_THAT(text, HasSubstr(" 77  running\r\n"));  // this terminal's line discipline is not raw
+  EXPECT_THAT(text, HasSubstr(" a      |\x1b[0m start {}\r\n"));
+}
+
+// Each descriptor that is at its end would keep an idle loop busy: its own terminal and control line closed, it lives
+// on.
+TEST_F(Supervising, SleepsWhileNothingHappens) {
+  const auto processor_ms = [] {
+    timespec used{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used);
+    return used.tv_sec * 1000 + used.tv_nsec / 1'000'000;
+  };
+  const auto before = processor_ms();
+  EXPECT_EQ(run(config({{"a", Policy::kRequired, child({"ready", "start", "exit:0"})},
+                        {"idle",
+                         Policy::kOptional,
+                         {{"/bin/bash", "-c",
+                           TTF_LAUNCH_CHILD " ready; exec >/dev/null 2>&1; "
+                                            "eval \"exec $TTF_CONTROL_FD>&-\"; sleep 2"},
+                          {}}}}))
+                .exit_code,
+            0);
+  EXPECT_LT(processor_ms() - before, 1000);  // an idle loop would take the two seconds
+}
+
+}  // namespace
+}  // namespace ttf::test

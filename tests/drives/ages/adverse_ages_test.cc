@@ -1,0 +1,222 @@
+// The bounds on ages that the checker computes are reached: everything the laser's way depends on conspires.
+//
+//   worst   full lists whose bits need the most stuff bits, on the raw CAN and on the observation CAN; a camera's frame
+//           that began just before the laser's list was queued; every execution at its upper bound; the preprocessing
+//           on the slowest oscillator there may be and the rest of the cluster on the fastest; and the phase at which
+//           the list is written just after its slot began in the very cycle that makes it wait longest for fusion,
+//           image and use
+//   best    the other way round
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <optional>
+
+#include "drives/step_catalog.h"
+#include "schedules/analysis/age_stages.h"
+#include "schedules/analysis/ages.h"
+#include "tests/drives/dense_lists.h"
+#include "tests/drives/drive_fixture.h"
+
+namespace ttf {
+namespace {
+
+using testing_support::Filling;
+
+constexpr std::uint32_t kMeasurement =
+    30;  // when the cluster's rate has settled: the one that everything conspires for
+const TrueTime kEnd = sim::kFirstCycle + Duration::milliseconds(3000);
+
+// What happened to one of the laser's lists.
+struct Followed final : records::Sink {
+  using records::Sink::on;
+  const schedules::Cluster& cluster;
+  PduId raw, objects, camera_objects;
+  std::uint32_t list;
+  std::optional<TrueTime> queued, written;  // on the observation CAN, for FlexRay
+  TrueTime camera_before{};                 // the camera's lists queued next to it
+  std::optional<TrueTime> camera_after;
+  records::CanFrameSent camera_frame;                    // the last one of the camera that began before
+  std::vector<std::pair<std::int64_t, TrueTime>> slots;  // of its first fragment: cycle, action point
+  Duration missing{};                                    // what its frames stayed under their worst case
+  Duration fused{}, used{};                              // its ages
+  std::optional<GlobalTime> measured;
+  std::optional<std::uint32_t> image;                                        // the first one with the measurement in it
+  std::pair<Duration, Duration> extremes{Duration::milliseconds(1000), {}};  // of all the laser's ages when fused
+
+  Followed(const schedules::Cluster& c, std::uint32_t sequence)
+      : cluster(c), raw(*c.find_pdu("laser_scan")), objects(*c.find_pdu("laser_objects")),
+        camera_objects(*c.find_pdu("camera_objects")), list(sequence) {}
+
+  void on(const records::ListHop& hop) override {
+    if (hop.hop != records::Hop::kWritten) return;
+    if (hop.pdu == camera_objects && hop.can_bus >= 0) {
+      if (!queued) camera_before = hop.stamp.true_time;
+      if (queued && !camera_after) camera_after = hop.stamp.true_time;
+    }
+    if (hop.pdu != objects || hop.sequence != list) return;
+    (hop.can_bus < 0 ? written : queued) = hop.stamp.true_time;
+  }
+  void on(const records::SlotFrameSent& sent) override {
+    if (sent.pdu == objects && sent.fragment == 0 && sent.channel == 0)
+      slots.emplace_back(sent.cycle, sent.stamp.true_time);
+  }
+  void on(const records::CanFrameSent& sent) override {
+    // Reported at its end, it may have been under way when the list was queued.
+    if (sent.pdu == camera_objects && (!queued || sent.start.true_time <= *queued)) {
+      camera_frame = sent;
+      if (queued && sent.end.true_time > *queued) missing += under_worst(sent);
+    }
+    if ((sent.pdu == raw || sent.pdu == objects) && sent.sequence == list) missing += under_worst(sent);
+  }
+  void on(const records::ListFused& scan) override {
+    if (scan.id.sensor != cluster.pdu(objects).sensor) return;
+    const Duration age = scan.stamp.global - scan.measured;
+    extremes = {std::min(extremes.first, age), std::max(extremes.second, age)};
+    if (scan.id.sequence != list) return;
+    fused = age;
+    measured = scan.measured;
+  }
+  void on(const records::ImageWritten& written_image) override {
+    if (measured && !image) image = written_image.sequence;
+  }
+  void on(const records::FeatureUsed& use) override {
+    if (image && use.image_sequence == *image && used == Duration{}) used = use.stamp.global - *measured;
+  }
+  Duration under_worst(const records::CanFrameSent& sent) const {
+    return schedules::can_worst_case(cluster.can_buses[sent.bus], static_cast<int>(sent.data.size())) -
+           (sent.end.true_time - sent.start.true_time);
+  }
+  TrueTime action_point(std::int64_t cycle) const {
+    for (const auto& [in, at] : slots)
+      if (in == cycle) return at;
+    return {};
+  }
+};
+
+struct Conspiracy {
+  nodes::Scenario scenario;
+  schedules::Cluster shipped, cluster;  // as loaded; as it is simulated
+  SensorId laser, camera;
+  bool worst;
+
+  explicit Conspiracy(bool for_worst)
+      : scenario(nodes::load_scenario(testing_support::shipped("scenarios/paper_scenario1.yaml"))),
+        shipped(schedules::load_cluster(testing_support::shipped("schedules/paper_unsynchronised.yaml"))),
+        cluster(shipped), laser(*shipped.find_sensor("laser")), camera(*shipped.find_sensor("camera")),
+        worst(for_worst) {
+    for (schedules::Node& node : cluster.nodes) {
+      const bool early = node.name == "laser" || node.name == "laser_pre";
+      node.drift_ppb = early == worst ? -node.max_drift_ppb : node.max_drift_ppb;
+      for (schedules::Task& task : node.tasks) {
+        if (!worst) task.worst_case = task.best_case;
+        task.draw = schedules::ExecutionDraw::kWorst;
+      }
+    }
+    for (const SensorId sensor : {laser, camera}) cluster.sensors[index_of(sensor)].phase = Duration{};
+    // An identifier whose arbitration field takes as many stuff bits as any: 0 0000 [1] 1111 [0] 000 00 [1] 1 0 1; and
+    // one that takes none. The order of the messages stays as it is.
+    for (schedules::CanBus& bus : cluster.can_buses)
+      for (schedules::CanMessage& message : bus.messages)
+        if (cluster.pdu(message.pdu).sensor == laser)
+          message.identifier = worst ? 0x078 : 0x255;
+        else
+          message.identifier = 0x478;
+  }
+
+  // The sequence number's bits need stuff bits too: 1000 0111 1000 0111 at the measurement that counts.
+  std::uint32_t first_sequence() const { return worst ? 0x8787 - kMeasurement : 0x5555 - kMeasurement; }
+
+  std::vector<std::shared_ptr<nodes::Step>> steps(NodeId id) const {
+    const schedules::Node& node = cluster.node(id);
+    const schedules::Task& task = node.tasks.at(0);
+    if (node.name == "camera" && !worst) return {std::make_shared<testing_support::SilentStep>()};
+    const Filling filling = worst ? Filling::kDense : Filling::kSparse;
+    if (node.name == "laser" || node.name == "laser_pre")
+      return {std::make_shared<testing_support::FilledStep>(cluster, task, first_sequence(), filling)};
+    if (node.name == "camera" || node.name == "camera_pre")
+      return {std::make_shared<testing_support::FilledStep>(cluster, task, 0, filling)};
+    return nodes::make_steps({&scenario, &cluster, fusion::StrategyKind::kAdva, 1, 0, nullptr, nullptr}, id);
+  }
+
+  Followed run() const {
+    Followed seen(cluster, first_sequence() + kMeasurement);
+    sim::ClusterSimulation simulation({&cluster, 1, 0, [this](NodeId id) { return steps(id); }}, seen);
+    simulation.run_until(kEnd);
+    EXPECT_EQ(simulation.counts().deadlines_missed, 0u);
+    EXPECT_EQ(simulation.counts().torn_lists, 0u);
+    EXPECT_EQ(simulation.counts().overwritten_lists, 0u);
+    return seen;
+  }
+
+  // Moves the sensors' phases until the list is written within a few microticks after its slot's action point (before
+  // it, for the best), and a frame of the camera's began as shortly before the list was queued. The camera comes first,
+  // and then moves with the laser: its frame shifts the laser's list.
+  Followed closed_in() {
+    static constexpr Duration kAim{75}, kNear{200};
+    const auto near = [](Duration d) { return d > Duration{} && d <= kNear; };
+    std::optional<std::int64_t> cycle;
+    for (int round = 0; round < 12; ++round) {
+      Followed seen = run();
+      Duration behind = *seen.queued - seen.camera_before;
+      if (worst && !near(*seen.queued - seen.camera_frame.start.true_time)) {
+        if (seen.camera_after && *seen.camera_after - *seen.queued < behind) behind = *seen.queued - *seen.camera_after;
+        move(camera, behind - kAim);
+        continue;
+      }
+      for (const auto& [in, at] : seen.slots)
+        if (!cycle && in % 8 == 0 && at > *seen.written) cycle = in;
+      const Duration past = *seen.written - seen.action_point(*cycle);
+      if (near(worst ? past : -past)) return seen;
+      for (const SensorId sensor : {laser, camera}) move(sensor, (worst ? kAim : -kAim) - past);
+    }
+    ADD_FAILURE() << "the phases do not close in";
+    return run();
+  }
+
+  // By an amount of true time; phases are on the device's own clock.
+  void move(SensorId id, Duration later) {
+    schedules::Sensor& sensor = cluster.sensors[index_of(id)];
+    *sensor.phase += later + Duration{later.ns / 1000 * *cluster.node(sensor.device).drift_ppb / 1'000'000};
+  }
+
+  schedules::AgePath bounds() const {
+    for (const schedules::AgePath& path : schedules::measurement_ages(shipped))
+      if (path.sensor == laser) return path;
+    return {};
+  }
+};
+
+// What is left to the bound, besides the stuff bits that sequence, fragment and count of the lists do not need:
+//   34 us  the wait for slot and fusion on a clock 3000 ppm off the cluster's (3000 ppm of 11.4 ms)
+//    8 us  clocks apart by the assumed precision and a macrotick
+//   27 us  CAN bits are exact in true time, half of those 3000 ppm away from the cluster's (of 17.5 ms)
+//    7 us  the list may be written until its slot's action point, the bound takes the slot's start
+//    4 us  each list's frames end in whole nanoseconds, microticks, a microsecond of the time stamp
+TEST(AdverseAges, TheWorstIsReached) {
+  Conspiracy all(true);
+  const schedules::AgePath bound = all.bounds();
+  const Followed seen = all.closed_in();
+  EXPECT_LE(seen.fused, bound.fused_worst);
+  EXPECT_LE(seen.used, bound.use_worst);
+  EXPECT_LE(seen.extremes.second, bound.fused_worst);
+  EXPECT_LT(bound.fused_worst - seen.fused - seen.missing, Duration::microseconds(80));
+  EXPECT_LT(seen.missing, Duration::microseconds(150));
+  // Until the use all else is on the grid; on another clock it is another length.
+  const Duration on_grid = bound.use_worst - bound.fused_worst;
+  EXPECT_LT(bound.use_worst - seen.used - seen.missing, Duration::microseconds(80) + Duration{on_grid.ns * 3 / 1000});
+}
+
+// Lists of one fragment, nothing else on the CANs, and every oscillator off to the other side.
+TEST(AdverseAges, TheBestIsReached) {
+  Conspiracy all(false);
+  const schedules::AgePath bound = all.bounds();
+  const Followed seen = all.closed_in();
+  EXPECT_GE(seen.fused, bound.fused_best);
+  EXPECT_GE(seen.used, bound.use_best);
+  EXPECT_GE(seen.extremes.first, bound.fused_best);
+  EXPECT_LT(seen.fused - bound.fused_best, Duration::microseconds(40));
+  EXPECT_LT(seen.used - bound.use_best, Duration::microseconds(60));
+}
+
+}  // namespace
+}  // namespace ttf

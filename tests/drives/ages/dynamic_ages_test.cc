@@ -1,0 +1,88 @@
+// Measurements whose lists travel in the dynamic segment: drives of the cluster that sends them there, against the
+// bounds.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <map>
+
+#include "schedules/analysis/ages.h"
+#include "schedules/check/checker.h"
+#include "tests/drives/drive_fixture.h"
+
+namespace ttf {
+namespace {
+
+using fusion::StrategyKind;
+
+struct FusedAges final : records::Sink {
+  using records::Sink::on;
+  std::map<SensorId, std::vector<Duration>> ages;
+  void on(const records::ListFused& list) override {
+    if (list.disposition == records::Disposition::kFused || list.disposition == records::Disposition::kFusedLate)
+      ages[list.id.sensor].push_back(list.stamp.global - list.measured);
+  }
+};
+
+class DynamicLists : public testing::TestWithParam<const char*> {};
+
+TEST_P(DynamicLists, AreFusedWithinTheirBounds) {
+  for (const StrategyKind strategy : {StrategyKind::kBuff, StrategyKind::kAdva}) {
+    testing_support::Drive drive("scenarios/paper_scenario1.yaml", strategy);
+    drive.cluster = schedules::load_checked_cluster(testing_support::shipped(GetParam()));
+    FusedAges fused;
+    constexpr std::uint64_t kDrives = 15;
+    for (std::uint64_t seed = 1; seed <= kDrives; ++seed) drive.run(fused, seed);
+    const auto paths = schedules::measurement_ages(drive.cluster);
+    ASSERT_EQ(paths.size(), 2u);
+    for (const schedules::AgePath& path : paths) {
+      SCOPED_TRACE(drive.cluster.sensor(path.sensor).name);
+      const auto& ages = fused.ages[path.sensor];
+      ASSERT_GT(ages.size(), kDrives * 30);
+      const auto [best, worst] = std::minmax_element(ages.begin(), ages.end());
+      const Duration bound = strategy == StrategyKind::kBuff ? path.buffered_fused_worst : path.fused_worst;
+      EXPECT_GE(*best, path.fused_best);
+      EXPECT_LE(*worst, bound);
+      // No empty promise: within a fusion period and what preprocessing may differ by.
+      EXPECT_GT(*worst, bound - Duration::milliseconds(20));
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Clusters, DynamicLists,
+                         testing::Values("schedules/flexray_demo.yaml", "schedules/paper_dynamic.yaml"),
+                         [](const auto& name) { return name.index == 0 ? "Demo" : "Paper"; });
+
+struct Problems final : records::Sink {
+  using records::Sink::on;
+  std::size_t slots = 0, lists = 0;
+  void on(const records::SlotProblem&) override { ++slots; }
+  void on(const records::ListFused&) override { ++lists; }
+};
+
+// The camera's device on B only, in its key slot only; its lists on A only, the laser's behind a message id.
+TEST(DynamicAges, OneChannelMessageIdsAndKeySlotOnlyGoThroughADrive) {
+  std::ifstream file(testing_support::shipped("schedules/flexray_demo.yaml"));
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  const auto change = [&](const std::string& from, const std::string& to) {
+    const auto at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    text.replace(at, from.size(), to);
+  };
+  change("\n  camera:\n    flexray: {",
+         "\n  camera:\n    flexray: {pChannels: B, pWakeupChannel: B, pKeySlotOnlyEnabled: true, ");
+  change("slot: 6, channels: AB", "slot: 6, channels: B");
+  change("slot: 23, channels: AB", "slot: 23, channels: A");
+  change("pdu: laser_objects, fragments: 2", "pdu: laser_objects, fragments: 2, message_id: 7");
+  testing_support::Drive drive("scenarios/paper_scenario1.yaml", StrategyKind::kAdva);
+  drive.cluster = schedules::parse_cluster(text, "cluster.yaml");
+  ASSERT_TRUE(schedules::check(drive.cluster).empty());
+  Problems problems;
+  drive.run(problems);
+  EXPECT_EQ(problems.slots, 0u);
+  EXPECT_EQ(problems.lists, 108u);
+}
+
+}  // namespace
+}  // namespace ttf

@@ -1,0 +1,72 @@
+// The time-triggered schedule at its best (schedules/paper_fitted.yaml): what its phases are chosen for comes out in
+// drives.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+#include "schedules/analysis/ages.h"
+#include "tests/drives/ages/drive_ages.h"
+#include "tests/drives/drive_fixture.h"
+
+namespace ttf {
+namespace {
+
+using testing_support::AgeRange;
+using testing_support::Ages;
+using testing_support::Drive;
+
+struct InOrder final : records::Sink {
+  using records::Sink::on;
+  GlobalTime newest{};
+  std::size_t fused = 0, behind = 0, held = 0;
+  void on(const records::ListFused& list) override {
+    held += list.disposition == records::Disposition::kHeld ? 1u : 0u;
+    fused += list.disposition == records::Disposition::kFused ? 1u : 0u;
+    behind += list.measured < newest || list.disposition == records::Disposition::kFusedLate ? 1u : 0u;
+    newest = std::max(newest, list.measured);
+  }
+};
+
+// Of one car, whose lists are short, and of as many objects as the lists have room for.
+TEST(FittedSchedule, EveryUseFindsBothSensorsNewestListsAtTheSameAge) {
+  for (const auto& [file, drives] :
+       {std::pair{"scenarios/paper_scenario1.yaml", 20u}, std::pair{"scenarios/crowd_25.yaml", 2u}}) {
+    SCOPED_TRACE(file);
+    Drive drive(file, fusion::StrategyKind::kTt);
+    drive.cluster = schedules::load_checked_cluster(testing_support::shipped("schedules/paper_fitted.yaml"));
+    drive.scenario.duration = Duration::milliseconds(2500);
+    Ages ages;
+    for (std::uint64_t seed = 1; seed <= drives; ++seed) {
+      InOrder order;
+      records::Tee tee({&ages, &order});
+      const sim::DriveOutcome outcome = drive.run(tee, seed);
+      ages.next_drive();
+      EXPECT_EQ(outcome.counts.overruns + outcome.counts.overwritten_lists + outcome.counts.deadlines_missed +
+                    outcome.counts.discarded_lists,
+                0u);
+      // Two lists each 34.4 ms: none is lost, none waits for another.
+      EXPECT_GE(order.fused, 2u * 69u);
+      EXPECT_EQ(order.behind, 0u);
+      EXPECT_EQ(order.held, 0u);
+    }
+    const auto paths = schedules::measurement_ages(drive.cluster);
+    ASSERT_EQ(paths.size(), 2u);
+    for (const schedules::AgePath& path : paths) {
+      SCOPED_TRACE(drive.cluster.sensor(path.sensor).name);
+      const AgeRange &fused = ages.fused[path.sensor], &used = ages.used[path.sensor];
+      EXPECT_GE(fused.best, path.fused_best);
+      EXPECT_LE(fused.worst, path.fused_worst);
+      // The newest one is of this period at every use, and no older than its way takes; what is left are the clocks.
+      EXPECT_GE(used.best, path.use_best);
+      EXPECT_LE(used.worst, path.use_worst);
+      EXPECT_LT(used.worst - used.best, Duration::microseconds(20));
+      EXPECT_LT(path.newest_worst - path.use_worst, Duration::microseconds(20));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ttf

@@ -1,0 +1,83 @@
+// Nothing in the house allocates on its cyclic path: neither controllers, tasks and strategies nor the media between
+// them, and not the world they look at. What a run needs it takes at its start, sized by schedule and scenario, so
+// there is no warming up: what the first cycle needs is all that is ever needed.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "tests/drives/drive_fixture.h"
+#include "tests/support/allocation_counter.h"
+
+namespace ttf {
+namespace {
+
+using testing_support::Drive;
+
+// Reads the counter at the first record of the run and at every end of a task.
+struct AllocationsSeen final : records::Sink {
+  using records::Sink::on;
+  std::optional<std::int64_t> at_start;
+  std::int64_t last = 0;
+  TrueTime first_more{};  // where a failure is to be looked for
+  int fusions = 0, uses = 0;
+  std::size_t most_hits = 0;
+
+  void on(const records::SlotFrameSent&) override { read({}); }
+  void on(const records::TaskRun& run) override { read(run.end.true_time); }
+  void on(const records::FusionStep&) override { ++fusions; }
+  void on(const records::FeatureUsed&) override { ++uses; }
+  void on(const records::Measured& measured) override { most_hits = std::max(most_hits, measured.truth_ids.size()); }
+
+ private:
+  void read(TrueTime at) {
+    last = support::allocations();
+    if (!at_start) at_start = last;
+    if (last != *at_start && first_more == TrueTime{}) first_more = at;
+  }
+};
+
+class Allocations : public testing::TestWithParam<fusion::StrategyKind> {
+ protected:
+  AllocationsSeen expect_none(const Drive& drive, int fusions) const {
+    AllocationsSeen seen;
+    drive.run(seen);
+    EXPECT_GE(seen.fusions, fusions);
+    EXPECT_GE(seen.uses, fusions / 4 - 1);
+    EXPECT_EQ(seen.last - *seen.at_start, 0) << "the first at " << seen.first_more.ns << " ns";
+    return seen;
+  }
+};
+
+TEST_P(Allocations, NoneInThePapersDrives) {
+  expect_none(Drive("scenarios/paper_scenario1.yaml", GetParam()), 290);
+  expect_none(Drive("scenarios/paper_scenario2.yaml", GetParam()), 290);
+}
+
+TEST_P(Allocations, NoneWithACrowd) { expect_none(Drive("scenarios/crowd_25.yaml", GetParam()), 5'990); }
+
+// Lists as long as they get: each of the laser's beams hits one of two fences, whose gaps cut the scan into many
+// segments, and more is seen than the observation lists and the image carry.
+TEST_P(Allocations, NoneWithFullLists) {
+  Drive drive("scenarios/paper_scenario1.yaml", GetParam());
+  drive.scenario.world.objects.clear();
+  for (int row = 0; row < 2; ++row)
+    for (int post = -40; post <= 40; ++post) {
+      world::ObjectConfig object;
+      object.x = 20.0 + 8.0 * row;
+      object.y = 1.6 * post + 0.8 * row;
+      object.heading = 1.5707963;
+      object.length = 1.2;
+      object.width = 0.4;
+      drive.scenario.world.objects.push_back(object);
+    }
+  drive.scenario.laser.half_field_rad = 0.7;
+  const AllocationsSeen seen = expect_none(drive, 290);
+  EXPECT_GT(seen.most_hits, 1'200u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Strategies, Allocations, testing::ValuesIn(testing_support::kStrategies),
+                         [](const auto& strategy) { return std::string(nodes::name_of(strategy.param)); });
+
+}  // namespace
+}  // namespace ttf

@@ -1,0 +1,144 @@
+// The load the paper's system was dimensioned for: 25 objects, a minute.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <tuple>
+
+#include "evaluation/accuracy/closest_pairs.h"
+#include "schedules/analysis/ages.h"
+#include "tests/drives/drive_fixture.h"
+#include "tests/support/allocation_counter.h"
+
+namespace ttf {
+namespace {
+
+using testing_support::Drive;
+
+constexpr double kGate_m = 1.5;  // an image object further from a true object is not of it
+
+// By then an object that is visible from the start is confirmed in every image that is used: a window of the slowest
+// sensor's scans, after its first period, and the greatest age at use.
+TrueTime confirmation_time(const Drive& drive) {
+  Duration period{}, age{};
+  for (const schedules::AgePath& path : schedules::measurement_ages(drive.cluster)) {
+    const schedules::Sensor& sensor = drive.cluster.sensor(path.sensor);
+    period = std::max(period, sensor.scheduled ? drive.cluster.cycle() * sensor.at.repetition : sensor.period);
+    age = std::max({age, path.newest_worst, path.buffered_newest_worst});
+  }
+  return sim::kFirstCycle + period * (1 + drive.scenario.tracker.confirm_window) + age;
+}
+
+// Which track shows which true object at every use: one to one, within the gate.
+class Coverage final : public records::Sink {
+ public:
+  struct Object {
+    int uses = 0, shown = 0;
+    std::set<TrackId> tracks;
+    TrueTime first_missed{};
+  };
+  explicit Coverage(TrueTime from) : from_(from) {}
+  using records::Sink::on;
+  std::map<ObjectId, Object> objects;
+
+  void on(const records::FeatureUsed& used) override {
+    judge();
+    if (used.stamp.true_time >= from_) use_ = Use{used.stamp.true_time, {used.objects.begin(), used.objects.end()}};
+  }
+  void on(const records::TruthState& truth) override {
+    if (!truth_.empty() && truth_.front().at != truth.at) {
+      judge();
+      truth_.clear();
+    }
+    if (!truth_.empty() && truth_.front().node != truth.node) return;
+    truth_.push_back(truth);
+  }
+  void finish() { judge(); }
+
+ private:
+  struct Use {
+    TrueTime at;
+    std::vector<records::FeatureObject> objects;
+  };
+  // The truth of a use's instant comes before or after it.
+  void judge() {
+    if (!use_ || truth_.empty() || truth_.front().at != use_->at) return;
+    std::vector<experiments::PlanePosition> truth, shown;
+    for (const records::TruthState& state : truth_) truth.push_back({state.x, state.y});
+    for (const records::FeatureObject& object : use_->objects) shown.push_back({object.image.x, object.image.y});
+    std::vector<std::optional<TrackId>> track(truth.size());
+    for (const experiments::TruthPair& pair : experiments::closest_pairs(truth, shown, kGate_m))
+      track[pair.truth] = use_->objects[pair.estimate].image.track;
+    for (std::size_t t = 0; t < truth.size(); ++t) {
+      Object& object = objects[truth_[t].object];
+      ++object.uses;
+      if (track[t]) {
+        ++object.shown;
+        object.tracks.insert(*track[t]);
+      } else if (object.first_missed == TrueTime{}) {
+        object.first_missed = use_->at;
+      }
+    }
+    use_.reset();
+  }
+
+  TrueTime from_;
+  std::optional<Use> use_;
+  std::vector<records::TruthState> truth_;  // of one instant
+};
+
+// The measures remember the newest 256 lists: seven seconds' worth.
+constexpr Duration kWarmUp = Duration::milliseconds(10'000);
+
+struct Memory final : records::Sink {
+  using records::Sink::on;
+  std::int64_t after_warm_up = 0, largest = 0;  // bytes
+  void on(const records::FeatureUsed& used) override {
+    const std::int64_t now = support::live_bytes();
+    if (after_warm_up == 0 && used.stamp.true_time > TrueTime{} + kWarmUp) after_warm_up = now;
+    largest = std::max(largest, now);
+  }
+};
+
+class Crowd : public testing::TestWithParam<std::tuple<fusion::StrategyKind, std::uint64_t>> {};  // strategy, seed
+
+TEST_P(Crowd, TwentyFiveObjectsForAMinute) {
+  const Drive drive("scenarios/crowd_25.yaml", std::get<fusion::StrategyKind>(GetParam()));
+  const TrueTime from = confirmation_time(drive);
+  EXPECT_LT(from, sim::kFirstCycle + Duration::milliseconds(1000));
+  Coverage coverage(from);
+  Memory memory;
+  experiments::DriveMeasures measures(sim::evaluation_start(drive.scenario));
+  records::Tee tee({&coverage, &memory, &measures});
+  const sim::DriveOutcome outcome = drive.run(tee, std::get<std::uint64_t>(GetParam()));
+  coverage.finish();
+  ASSERT_EQ(coverage.objects.size(), 25u);
+  for (const auto& [id, object] : coverage.objects) {
+    EXPECT_GT(object.uses, 1450);
+    // Visible all the time: at every use it is there, under the name it was born with.
+    EXPECT_EQ(object.shown, object.uses) << "object " << index_of(id) << ", first missed at "
+                                         << (object.first_missed - sim::kFirstCycle).seconds() << " s";
+    EXPECT_EQ(object.tracks.size(), 1u) << "object " << index_of(id) << " has that many tracks";
+  }
+  EXPECT_EQ(outcome.counts.slot_problems, 0u);
+  EXPECT_EQ(outcome.counts.deadlines_missed, 0u);
+  EXPECT_EQ(outcome.counts.torn_lists, 0u);
+  EXPECT_EQ(outcome.counts.overwritten_lists, 0u);
+  // Flat memory, the measures' included: what the first ten seconds needed is enough for the minute. Ends of buffers
+  // may lie elsewhere; 1250 uses of 25 objects would be megabytes.
+  ASSERT_GT(memory.after_warm_up, 0);
+  EXPECT_LT(memory.largest - memory.after_warm_up, 4096);
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryStrategy, Crowd,
+                         testing::Combine(testing::ValuesIn(testing_support::kStrategies),
+                                          testing::Values(std::uint64_t{1}, std::uint64_t{2})),
+                         [](const auto& run) {
+                           return std::string(nodes::name_of(std::get<fusion::StrategyKind>(run.param))) + "_" +
+                                  std::to_string(std::get<std::uint64_t>(run.param));
+                         });
+
+}  // namespace
+}  // namespace ttf

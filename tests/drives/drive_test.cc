@@ -1,0 +1,119 @@
+// Whole drives: determinism, order of arrival, and that what is used is what the bus carried.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "recording/log/writer.h"
+#include "tests/drives/drive_fixture.h"
+#include "tests/drives/image_copy.h"
+
+namespace ttf {
+namespace {
+
+using fusion::StrategyKind;
+using testing_support::Drive;
+using testing_support::Images;
+using testing_support::kStrategies;
+using testing_support::same;
+
+std::string log_of(const Drive& drive, std::uint64_t seed, const std::string& name) {
+  const std::string path = testing::TempDir() + "/" + name + ".mcap";
+  recording::LogManifest manifest;
+  manifest.seed = seed;
+  recording::LogWriter log(path, manifest);
+  drive.run(log, seed);
+  log.close();
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream bytes;
+  bytes << file.rdbuf();
+  return bytes.str();
+}
+
+TEST(Drive, SameSeedSameLogBytesOtherSeedOthers) {
+  for (const StrategyKind strategy : kStrategies) {
+    const Drive drive("scenarios/paper_scenario2.yaml", strategy);
+    const std::string first = log_of(drive, 5, "first"), second = log_of(drive, 5, "second");
+    EXPECT_GT(first.size(), 100'000u);
+    EXPECT_TRUE(first == second) << nodes::name_of(strategy);
+    EXPECT_FALSE(first == log_of(drive, 6, "third")) << nodes::name_of(strategy);
+  }
+}
+
+struct FusedLists final : records::Sink {
+  using records::Sink::on;
+  std::vector<MeasurementId> ids;
+  void on(const records::ListFused& list) override {
+    if (list.disposition == records::Disposition::kFused || list.disposition == records::Disposition::kFusedLate)
+      ids.push_back(list.id);
+  }
+};
+
+TEST(Drive, ShippedDrivesHaveOutOfSequenceArrivalsAndTheStrategiesDiffer) {
+  std::vector<Images> images(3);
+  for (const StrategyKind strategy : kStrategies) {
+    const Drive drive("scenarios/paper_scenario1.yaml", strategy);
+    experiments::DriveMeasures measures(sim::evaluation_start(drive.scenario));
+    records::Tee tee({&measures, &images[static_cast<std::size_t>(strategy)]});
+    drive.run(tee);
+    const experiments::DriveSummary summary = measures.finish();
+    EXPECT_EQ(summary.out_of_sequence == 0, strategy == StrategyKind::kTt);
+    if (strategy == StrategyKind::kBuff) {
+      EXPECT_GT(summary.held, 0u);
+      EXPECT_EQ(summary.fused_late, 0u);
+    }
+    if (strategy == StrategyKind::kAdva) {
+      EXPECT_EQ(summary.fused_late, summary.out_of_sequence);
+    }
+    EXPECT_EQ(summary.dropped, 0u);
+    EXPECT_EQ(summary.missed, 0u);
+  }
+  const auto differ = [&](std::size_t a, std::size_t b) {
+    return std::any_of(images[a].written.begin(), images[a].written.end(), [&](const auto& entry) {
+      const auto other = images[b].written.find(entry.first);
+      return other != images[b].written.end() && !same(entry.second.objects, other->second.objects);
+    });
+  };
+  EXPECT_TRUE(differ(0, 1));
+  EXPECT_TRUE(differ(1, 2));
+  EXPECT_TRUE(differ(0, 2));
+}
+
+TEST(Drive, EveryListIsFusedExactlyOnce) {
+  for (const StrategyKind strategy : kStrategies) {
+    FusedLists fused;
+    Drive("scenarios/paper_scenario2.yaml", strategy).run(fused);
+    std::sort(fused.ids.begin(), fused.ids.end());
+    EXPECT_EQ(std::adjacent_find(fused.ids.begin(), fused.ids.end()), fused.ids.end()) << nodes::name_of(strategy);
+    EXPECT_GT(fused.ids.size(), 90u);
+  }
+}
+
+// What the feature service uses is the very image that was written under its sequence number, in every field, decoded
+// from the bus and not handed over.
+TEST(Drive, TheFeatureServiceUsesWhatTheBusCarried) {
+  for (const StrategyKind strategy : kStrategies) {
+    const Drive drive("scenarios/paper_scenario1.yaml", strategy);
+    Images images;
+    drive.run(images);
+    ASSERT_GT(images.used.size(), 60u);
+    std::set<std::uint32_t> seen;
+    std::size_t objects = 0;
+    for (const Images::Use& use : images.used) {
+      const auto written = images.written.find(use.sequence);
+      ASSERT_NE(written, images.written.end()) << "image " << use.sequence;
+      // The bus carries the instant in microseconds.
+      EXPECT_EQ(use.valid_at, written->second.valid_at) << "image " << use.sequence;
+      EXPECT_TRUE(same(use.objects, written->second.objects)) << "image " << use.sequence;
+      EXPECT_EQ(use.fresh, seen.insert(use.sequence).second) << "image " << use.sequence;
+      objects += use.objects.size();
+    }
+    EXPECT_GT(seen.size(), 60u);
+    EXPECT_GT(objects, 50u);
+  }
+}
+
+}  // namespace
+}  // namespace ttf

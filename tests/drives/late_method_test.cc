@@ -1,0 +1,114 @@
+// Shipped drives whose fusion takes late lists in by another method than rewinding.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/drives/drive_fixture.h"
+
+namespace ttf {
+namespace {
+
+using fusion::StrategyKind;
+using fusion::oosm::Kind;
+using testing_support::Drive;
+
+constexpr const char* kScenario = "scenarios/paper_scenario1.yaml";
+
+experiments::DriveSummary summary_of(const Drive& drive) {
+  experiments::DriveMeasures measures(sim::evaluation_start(drive.scenario));
+  drive.run(measures);
+  return measures.finish();
+}
+
+// Errors within two in a hundred, objects and lists alike.
+void expect_nearly(const experiments::DriveSummary& other, const experiments::DriveSummary& rewinding) {
+  EXPECT_NEAR(other.position_rmse_truth / rewinding.position_rmse_truth, 1.0, 0.02);
+  EXPECT_NEAR(other.velocity_rmse_truth / rewinding.velocity_rmse_truth, 1.0, 0.02);
+  EXPECT_NEAR(other.nees / rewinding.nees, 1.0, 0.05);
+  EXPECT_EQ(other.missed, 0u);
+  EXPECT_EQ(other.matched, rewinding.matched);
+  EXPECT_EQ(other.received, rewinding.received);
+  EXPECT_EQ(other.out_of_sequence, rewinding.out_of_sequence);
+  // Before there is a track, a late list has nobody to belong to.
+  EXPECT_EQ(other.fused_late + other.dropped, rewinding.fused_late + rewinding.dropped);
+  EXPECT_LE(other.dropped, 2u);
+}
+
+// Few lists are late with one object, many with 25, of which more lists come later.
+TEST(LateMethod, AdvaWithOthersIsNearlyRewinding) {
+  for (const char* scenario : {kScenario, "scenarios/crowd_25.yaml"}) {
+    Drive drive(scenario, StrategyKind::kAdva);
+    const experiments::DriveSummary rewinding = summary_of(drive);
+    EXPECT_GE(rewinding.fused_late, scenario == kScenario ? 2u : 100u);
+    for (const Kind kind : {Kind::kAugmented, Kind::kAdjoint, Kind::kAl1}) {
+      drive.scenario.tracker.late = kind;
+      SCOPED_TRACE(std::string(scenario) + ", " + std::string(name_of(kind)));
+      expect_nearly(summary_of(drive), rewinding);
+    }
+  }
+}
+
+// Where the schedule knows the sensors' instants: the camera measures 25 ms later than in the shipped cluster, so that
+// its lists overtake the laser's.
+TEST(LateMethod, AdvaWithClonesIsNearlyRewinding) {
+  Drive drive(kScenario, StrategyKind::kTt);
+  drive.strategy = StrategyKind::kAdva;
+  for (schedules::Sensor& sensor : drive.cluster.sensors)
+    if (sensor.kind == schedules::SensorKind::kCamera) sensor.at.base_cycle = 6;
+  const experiments::DriveSummary rewinding = summary_of(drive);
+  EXPECT_GT(rewinding.fused_late, 30u);
+  drive.scenario.tracker.late = Kind::kClone;
+  expect_nearly(summary_of(drive), rewinding);
+}
+
+// Sensors that follow their hosts: each list is fused as it comes, one in six late. When they measure next nobody
+// knows.
+TEST(LateMethod, WhereSensorsFollowTheirHostsAllButClonesAreNearlyRewinding) {
+  for (const char* cluster : {"schedules/paper_free_running.yaml", "schedules/paper_free_flexray.yaml"}) {
+    Drive drive(kScenario, StrategyKind::kAdva);
+    drive.cluster = schedules::load_cluster(testing_support::shipped(cluster));
+    const experiments::DriveSummary rewinding = summary_of(drive);
+    EXPECT_GT(rewinding.fused_late, 20u);
+    for (const Kind kind : {Kind::kAugmented, Kind::kAdjoint, Kind::kAl1, Kind::kBl1}) {
+      drive.scenario.tracker.late = kind;
+      SCOPED_TRACE(std::string(cluster) + ", " + std::string(name_of(kind)));
+      expect_nearly(summary_of(drive), rewinding);
+    }
+    drive.scenario.tracker.late = Kind::kClone;
+    EXPECT_THROW(summary_of(drive), InputError);
+  }
+}
+
+TEST(LateMethod, TimeTriggeredClonesAreNeverNeeded) {
+  Drive drive(kScenario, StrategyKind::kTt);
+  const experiments::DriveSummary rewinding = summary_of(drive);
+  drive.scenario.tracker.late = Kind::kClone;
+  const experiments::DriveSummary clones = summary_of(drive);
+  EXPECT_EQ(clones.fused_late, 0u);
+  EXPECT_EQ(clones.position_rmse_truth, rewinding.position_rmse_truth);
+  EXPECT_EQ(clones.nees, rewinding.nees);
+}
+
+TEST(LateMethod, BuffAlwaysRewinds) {
+  Drive drive(kScenario, StrategyKind::kBuff);
+  const experiments::DriveSummary rewinding = summary_of(drive);
+  drive.scenario.tracker.late = Kind::kC;
+  EXPECT_EQ(summary_of(drive).position_rmse_truth, rewinding.position_rmse_truth);
+}
+
+TEST(LateMethod, WhatCannotBeIsRefusedBeforeTheDrive) {
+  Drive drive(kScenario, StrategyKind::kTt);
+  drive.scenario.tracker.late = Kind::kAl1;
+  try {
+    summary_of(drive);
+    FAIL() << "not refused";
+  } catch (const InputError& error) {
+    ASSERT_EQ(error.findings().size(), 1u);
+    EXPECT_NE(error.findings()[0].sentence().find("tracker.late = al1: must be rewind or clone with strategy tt"),
+              std::string::npos)
+        << error.findings()[0].sentence();
+  }
+}
+
+}  // namespace
+}  // namespace ttf

@@ -1,0 +1,71 @@
+// Reports of faults in whole drives, for tests: made of a plan, and what is asked of them.
+#pragma once
+
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "evaluation/faults/fault_account.h"
+#include "tests/drives/drive_fixture.h"
+
+namespace ttf::testing_support {
+
+using experiments::Check;
+using experiments::CheckSeen;
+using experiments::FaultEffects;
+using experiments::FaultFindings;
+using experiments::FaultReport;
+using experiments::FaultSeen;
+using experiments::Harm;
+using experiments::HarmSeen;
+using nodes::FaultKind;
+
+inline const CheckSeen& others(const FaultEffects& effects, Check check) {
+  return effects.by_others[static_cast<std::size_t>(check)];
+}
+inline const CheckSeen& faulty(const FaultEffects& effects, Check check) {
+  return effects.by_faulty[static_cast<std::size_t>(check)];
+}
+inline const std::vector<HarmSeen>& harm(const FaultEffects& effects, Harm harm) {
+  return effects.harms[static_cast<std::size_t>(harm)];
+}
+inline std::set<NodeId> harmed_nodes(const FaultEffects& effects, Harm kind) {
+  std::set<NodeId> nodes;
+  for (const HarmSeen& one : harm(effects, kind)) nodes.insert(one.node);
+  return nodes;
+}
+
+// What the injector does to a drive, by a plan.
+struct Planned {
+  Drive drive;
+  std::optional<FaultReport> report;
+
+  explicit Planned(const char* scenario = "scenarios/paper_scenario1.yaml")
+      : drive(scenario, fusion::StrategyKind::kTt) {}
+  nodes::Fault& add(FaultKind kind, const char* node, std::int64_t from_ms, std::int64_t duration_ms) {
+    nodes::Fault& fault = drive.scenario.faults.faults.emplace_back();
+    fault.kind = kind;
+    fault.node_name = node;
+    fault.from = Duration::milliseconds(from_ms);
+    if (duration_ms > 0) fault.duration = Duration::milliseconds(duration_ms);
+    return fault;
+  }
+  FaultReport make_report() const {
+    return {drive.cluster, nodes::resolve(drive.scenario.faults, drive.cluster), !drive.scenario.startup.cold};
+  }
+  const FaultFindings& run() {
+    report.emplace(drive.cluster, nodes::resolve(drive.scenario.faults, drive.cluster), !drive.scenario.startup.cold);
+    drive.run(*report);
+    report->finish(sim::drive_end(drive.scenario));
+    return report->findings();
+  }
+  NodeId node(const char* name) const { return *drive.cluster.find_node(name); }
+  std::set<NodeId> on_flexray() const {
+    std::set<NodeId> nodes;
+    for (std::size_t n = 0; n < drive.cluster.nodes.size(); ++n)
+      if (drive.cluster.nodes[n].flexray) nodes.insert(static_cast<NodeId>(n));
+    return nodes;
+  }
+};
+
+}  // namespace ttf::testing_support

@@ -1,0 +1,276 @@
+// What a report of faults makes of the records of whole drives, against what was done to them. What is said of the
+// faults is made up: the report has nothing but that, and the records.
+#include "evaluation/faults/fault_account.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <set>
+#include <vector>
+
+#include "sim/medium/disturbance.h"
+#include "tests/evaluation/faults/fault_findings.h"
+#include "tests/drives/living_drive.h"
+
+namespace ttf {
+namespace {
+
+using fusion::StrategyKind;
+using schedules::Channel;
+using namespace testing_support;
+
+// Frames of `sender` that `receiver` does not get, on some channels, between two instants.
+struct Deaf final : sim::Disturbance {
+  NodeId sender{}, receiver{};
+  std::vector<Channel> channels;
+  TrueTime from{}, to{};
+  std::function<void(TrueTime)> acted;
+  bool arriving(sim::Arriving& signal) override {
+    if (signal.sender != sender || signal.receiver != receiver || signal.start < from || signal.start >= to ||
+        std::find(channels.begin(), channels.end(), signal.channel) == channels.end())
+      return true;
+    if (acted) acted(signal.start);
+    return false;
+  }
+};
+
+// A drive whose report is made while it runs. What is said of the fault is made up.
+struct Reported {
+  schedules::Cluster cluster;
+  FaultReport report;
+  LivingDrive drive;
+
+  explicit Reported(FaultKind kind, const char* node = nullptr)
+      : cluster(schedules::load_cluster(testing_support::shipped("schedules/paper_synchronised.yaml"))),
+        report(cluster, plan(kind, node), true), drive(StrategyKind::kTt, &report) {}
+  nodes::FaultPlan plan(FaultKind kind, const char* node) const {
+    nodes::FaultPlan plan;
+    nodes::Fault& fault = plan.faults.emplace_back();
+    fault.kind = kind;
+    fault.node_name = node == nullptr ? "" : node;
+    fault.direction = nodes::FaultDirection::kBoth;
+    return nodes::resolve(plan, cluster);
+  }
+  NodeId node(const char* name) const { return *cluster.find_node(name); }
+  void says(std::uint8_t what, TrueTime at, NodeId faulty, const char* text) {
+    records::FaultActivity activity;
+    activity.at = at;
+    activity.what = what;
+    activity.node = faulty;
+    activity.kind = "made_up";
+    activity.text = text;
+    report.on(activity);
+  }
+  void begins(double at, NodeId faulty = kNoNode) {
+    drive.run_to(at);
+    says(records::kFaultBegins, at_s(at), faulty, "");
+    says(records::kFaultActs, at_s(at), faulty, "it acts");
+  }
+  const FaultSeen& fault() const { return report.findings().faults.at(0); }
+  const FaultEffects& unattributed() const { return report.findings().unattributed; }
+  bool harmed() const { return report.findings().harmed(); }
+};
+
+TEST(FaultReport, OfAFaultThatDoesNothingNothingIsSeen) {
+  Reported run(FaultKind::kTransient);
+  run.begins(0.5);
+  run.drive.run_to(2.0);
+  ASSERT_EQ(run.report.findings().faults.size(), 1u);
+  EXPECT_EQ(run.fault().acts, 1u);
+  EXPECT_EQ(run.fault().text, "it acts");
+  EXPECT_TRUE(run.fault().nothing());
+  EXPECT_TRUE(run.unattributed().nothing());
+}
+
+TEST(FaultReport, WithoutAFaultThereIsNothingToTell) {
+  Reported run(FaultKind::kTransient);
+  run.drive.off("laser_pre", 0.5);
+  run.drive.run_to(1.0);
+  EXPECT_TRUE(run.report.findings().faults.empty());
+  EXPECT_TRUE(run.unattributed().nothing());
+}
+
+// A dead host: the four others miss its status frame in every cycle, and that harms nobody.
+TEST(FaultReport, ASilentNodeIsMissedInEveryCycleAndHarmsNobody) {
+  Reported run(FaultKind::kCrash, "laser_pre");
+  run.begins(0.5, run.node("laser_pre"));
+  run.drive.off("laser_pre", 0.5);
+  run.drive.run_to(1.5);
+  EXPECT_NEAR(static_cast<double>(others(run.fault(), Check::kNoFrame).cycles), 200.0, 2.0) << "1 s of cycles of 5 ms";
+  EXPECT_EQ(others(run.fault(), Check::kNoFrame).nodes.size(), 4u);
+  EXPECT_EQ(others(run.fault(), Check::kSyntax).cycles, 0u);
+  EXPECT_FALSE(run.harmed());
+  EXPECT_TRUE(run.unattributed().nothing());
+}
+
+// The feature service hears nothing of the gateway for 20 cycles: on one channel it is told, on both it is harmed. What
+// is said to have done it is something on the channel.
+TEST(FaultReport, AFrameLostOnBothChannelsIsHarmOnOneItIsNot) {
+  for (const bool both : {false, true}) {
+    Reported run(FaultKind::kTransient);
+    Deaf deaf;
+    deaf.sender = run.node("gateway");
+    deaf.receiver = run.node("feature");
+    deaf.channels = both ? std::vector{Channel::kA, Channel::kB} : std::vector{Channel::kB};
+    deaf.from = at_s(0.5) + Duration::milliseconds(1);
+    deaf.to = deaf.from + Duration::milliseconds(100);
+    deaf.acted = [&](TrueTime at) { run.says(records::kFaultActs, at, kNoNode, "it acts"); };
+    run.drive.simulation->set_disturbance(&deaf);
+    run.begins(0.5);
+    run.drive.run_to(1.5);
+    EXPECT_EQ(others(run.fault(), Check::kNoFrame).cycles, 20u);
+    EXPECT_EQ(others(run.fault(), Check::kNoFrame).nodes, std::vector{deaf.receiver});
+    EXPECT_EQ(run.harmed(), both);
+    EXPECT_TRUE(run.unattributed().nothing());
+    ASSERT_EQ(harm(run.fault(), Harm::kFrameLost).size(), both ? 1u : 0u);
+    if (!both) continue;
+    const HarmSeen& lost = harm(run.fault(), Harm::kFrameLost)[0];
+    EXPECT_EQ(lost.sender, deaf.sender);
+    EXPECT_EQ(lost.node, deaf.receiver);
+    EXPECT_GE(lost.first, deaf.from);
+    EXPECT_LT(lost.first, deaf.from + Duration::milliseconds(5));
+    EXPECT_GE(lost.times, 20u);
+    EXPECT_TRUE(harm(run.fault(), Harm::kFrameForged).empty());
+  }
+}
+
+// The same deafness is of no fault of the plan where that is another node's.
+TEST(FaultReport, WhatFitsNoFaultIsUnattributed) {
+  Reported run(FaultKind::kCrash, "laser_pre");
+  Deaf deaf;
+  deaf.sender = run.node("gateway");
+  deaf.receiver = run.node("feature");
+  deaf.channels = {Channel::kA, Channel::kB};
+  deaf.from = at_s(0.5) + Duration::milliseconds(1);
+  deaf.to = deaf.from + Duration::milliseconds(100);
+  run.drive.simulation->set_disturbance(&deaf);
+  run.begins(0.5, run.node("laser_pre"));
+  run.drive.run_to(1.5);
+  EXPECT_TRUE(run.fault().nothing());
+  EXPECT_EQ(others(run.unattributed(), Check::kNoFrame).cycles, 20u);
+  EXPECT_EQ(harmed_nodes(run.unattributed(), Harm::kFrameLost), std::set{deaf.receiver});
+  EXPECT_TRUE(run.harmed());
+}
+
+// The last frames of a run are owed like all others: it ends when the static segment that they were lost in is over.
+TEST(FaultReport, AFrameLostInTheLastCycleIsHarm) {
+  for (const bool told : {false, true}) {
+    Reported run(FaultKind::kTransient);
+    Deaf deaf;
+    deaf.sender = run.node("gateway");
+    deaf.receiver = run.node("feature");
+    deaf.channels = {Channel::kA, Channel::kB};
+    deaf.from = sim::kFirstCycle + run.cluster.cycle() * 200 - Duration::microseconds(100);
+    deaf.to = deaf.from + Duration::milliseconds(100);
+    deaf.acted = [&](TrueTime at) { run.says(records::kFaultActs, at, kNoNode, "it acts"); };
+    run.drive.simulation->set_disturbance(&deaf);
+    run.begins(0.5);
+    const TrueTime end = sim::kFirstCycle + run.cluster.cycle() * 200 + Duration::microseconds(told ? 3'500 : 3'000);
+    run.drive.simulation->run_until(end);
+    EXPECT_FALSE(run.harmed()) << "it is settled when the run is over";
+    run.report.finish(end);
+    EXPECT_EQ(harmed_nodes(run.fault(), Harm::kFrameLost).count(deaf.receiver), told ? 1u : 0u);
+    EXPECT_EQ(run.harmed(), told);
+  }
+}
+
+// Where the faulty node's own ears are at fault it is nobody else's harm.
+TEST(FaultReport, WhatTheFaultyNodeMissesHarmsNobody) {
+  Reported run(FaultKind::kOmission, "feature");
+  Deaf deaf;
+  deaf.sender = run.node("gateway");
+  deaf.receiver = run.node("feature");
+  deaf.channels = {Channel::kA, Channel::kB};
+  deaf.from = at_s(0.5);
+  deaf.to = at_s(0.6);
+  run.drive.simulation->set_disturbance(&deaf);
+  run.begins(0.5, deaf.receiver);
+  run.drive.run_to(1.5);
+  EXPECT_EQ(others(run.fault(), Check::kNoFrame).cycles, 0u);
+  EXPECT_GE(faulty(run.fault(), Check::kNoFrame).cycles, 19u);
+  EXPECT_FALSE(run.harmed());
+  EXPECT_TRUE(run.unattributed().nothing());
+}
+
+// The fault-free clocks part when one of them drifts away: told by the frames alone, whoever is said to be at fault.
+TEST(FaultReport, ClocksThatPartAreHarmUnlessTheOneThatPartsIsFaulty) {
+  for (const bool named : {true, false}) {
+    Reported run(named ? FaultKind::kDrift : FaultKind::kTransient, named ? "feature" : nullptr);
+    run.begins(0.5, named ? run.node("feature") : kNoNode);
+    run.drive.simulation->change_drift(run.node("feature"), 8'000'000);
+    run.drive.run_to(0.8);
+    EXPECT_EQ(harm(run.fault(), Harm::kPrecision).size(), named ? 0u : 1u);
+    EXPECT_EQ(harmed_nodes(run.unattributed(), Harm::kPrecision).size(), 0u);
+    if (named) {
+      EXPECT_TRUE(run.unattributed().nothing());
+    }
+  }
+}
+
+// H1: fault-free nodes lose their supply, one after the other, while something is on the channel: every one is named.
+TEST(FaultReport, EveryNodeThatLeavesNormalActiveIsNamed) {
+  Reported run(FaultKind::kCrash, "laser_pre");
+  run.begins(0.5, run.node("laser_pre"));
+  run.drive.off("laser_pre", 0.5);
+  EXPECT_FALSE(run.harmed());
+  run.drive.off("camera_pre", 0.6);
+  run.drive.off("gateway", 0.7);
+  run.drive.run_to(0.8);
+  const std::vector<HarmSeen>& left = harm(run.fault(), Harm::kLeftActive);
+  ASSERT_EQ(left.size(), 2u);
+  EXPECT_EQ(left[0].node, run.node("camera_pre"));
+  EXPECT_NEAR(static_cast<double>(left[0].first.ns), 0.6e9, 50.0) << "a microtick";
+  EXPECT_EQ(left[1].node, run.node("gateway"));
+  EXPECT_NEAR(static_cast<double>(left[1].first.ns), 0.7e9, 50.0);
+}
+
+// H5: as records are when a controller sends nothing on B in a slot of its own and somebody else does, with a valid
+// frame that the others take for its: the record of what it sent there is missing, and nobody complains.
+struct Forged final : records::Sink {
+  using records::Sink::on;
+  records::Sink* to = nullptr;
+  NodeId sender{};
+  TrueTime from{};
+  TrueTime until{};
+  void on(const records::SlotFrameSent& frame) override {
+    const bool taken = frame.stamp.node == sender && frame.channel == 1 && frame.stamp.true_time >= from &&
+                       frame.stamp.true_time < until;
+    if (!taken) to->on(frame);
+  }
+  void on(const records::SlotProblem& problem) override { to->on(problem); }
+};
+
+TEST(FaultReport, AFrameThatItsOwnerDidNotSendIsForgedForAllWhoTookIt) {
+  Forged forged;
+  LivingDrive drive(StrategyKind::kTt, &forged);
+  nodes::FaultPlan plan;
+  nodes::Fault& fault = plan.faults.emplace_back();
+  fault.kind = FaultKind::kMasquerading;
+  fault.node = *drive.drive.cluster.find_node("laser_pre");
+  fault.channels = schedules::Channels::kB;
+  FaultReport report(drive.drive.cluster, plan, true);
+  forged.to = &report;
+  forged.sender = *drive.drive.cluster.find_node("gateway");
+  forged.from = sim::kFirstCycle + drive.drive.cluster.cycle() * 100;
+  forged.until = forged.from + drive.drive.cluster.cycle();
+  drive.simulation->run_until(forged.from);
+  records::FaultActivity activity{forged.from, 0, records::kFaultBegins, fault.node, "masquerading", ""};
+  report.on(activity);
+  activity.what = records::kFaultActs;
+  for (int us = 0; us < 5'000; us += 50) {
+    activity.at = forged.from + Duration::microseconds(us);
+    report.on(activity);
+  }
+  drive.run_to(0.6);
+  EXPECT_TRUE(report.findings().unattributed.nothing());
+  const FaultEffects& effects = report.findings().faults.at(0);
+  std::set<NodeId> victims;
+  for (const char* name : {"camera_pre", "fusion", "feature"}) victims.insert(*drive.drive.cluster.find_node(name));
+  EXPECT_EQ(harmed_nodes(effects, Harm::kFrameForged), victims) << "all but the faulty one and the owner";
+  for (const HarmSeen& one : harm(effects, Harm::kFrameForged)) EXPECT_EQ(one.sender, forged.sender);
+  EXPECT_TRUE(harm(effects, Harm::kFrameLost).empty()) << "on A it came";
+}
+
+}  // namespace
+}  // namespace ttf

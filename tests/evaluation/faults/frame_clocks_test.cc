@@ -1,0 +1,51 @@
+// How far clocks are apart as their frames tell it.
+#include "evaluation/faults/frame_clocks.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "tests/drives/living_drive.h"
+
+namespace ttf {
+namespace {
+
+using fusion::StrategyKind;
+using testing_support::LivingDrive;
+
+// The distance of the clocks as frames tell it, against the simulator's own, which looks at all of a double cycle.
+struct Spread final : records::Sink {
+  using records::Sink::on;
+  const schedules::Cluster& cluster;
+  experiments::FrameClocks clocks;
+  Duration since_sample{};
+  std::vector<std::pair<Duration, Duration>> told_and_true;
+  explicit Spread(const schedules::Cluster& c) : cluster(c), clocks(c) {}
+  void on(const records::SlotFrameSent& frame) override {
+    if (const auto apart = clocks.sent(frame)) since_sample = std::max(since_sample, *apart);
+  }
+  void on(const records::PrecisionSample& sample) override {
+    told_and_true.emplace_back(since_sample, sample.precision);
+    since_sample = {};
+  }
+};
+
+TEST(FrameClocks, TellTheDistanceOfTheClocks) {
+  const auto cluster = schedules::load_cluster(testing_support::shipped("schedules/paper_synchronised.yaml"));
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    Spread spread(cluster);
+    LivingDrive drive(StrategyKind::kTt, &spread, seed);
+    drive.run_to(2.0);
+    ASSERT_GT(spread.told_and_true.size(), 100u);
+    for (std::size_t i = 5; i < spread.told_and_true.size(); ++i) {
+      const auto& [told, truth] = spread.told_and_true[i];
+      EXPECT_LE(told, truth + Duration::nanoseconds(30)) << "seed " << seed << " double cycle " << i;
+      EXPECT_GE(told.ns, truth.ns / 2 - 60) << "seed " << seed << " double cycle " << i;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ttf

@@ -1,0 +1,50 @@
+// A campaign of all classes: with guardians and two channels no single fault of the hypothesis harms a fault-free node.
+#include "experiments/campaign/coverage.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/experiments/campaign/small_campaign.h"
+
+namespace ttf::experiments {
+namespace {
+
+const ClassCoverage& row(const Coverage& coverage, nodes::FaultKind kind) {
+  for (const ClassCoverage& one : coverage.classes)
+    if (one.kind == kind && one.in_hypothesis) return one;
+  static const ClassCoverage none;
+  ADD_FAILURE() << nodes::name_of(kind) << " is not in the table";
+  return none;
+}
+
+TEST(Coverage, OfTwoThousandSingleFaults) {
+  const CampaignFile campaign = small_campaign(2000);
+  const CampaignClusters clusters(campaign);
+  const std::vector<FaultResult> results = run_campaign(campaign, clusters, {}, 2, nullptr);
+  const Coverage guarded = coverage_of(campaign, results, kGuardian), bus = coverage_of(campaign, results, kBus);
+  EXPECT_EQ(guarded.harmed_in_hypothesis, 0u) << coverage_text(guarded, clusters.base.cycle());
+  EXPECT_GT(bus.harmed_in_hypothesis, 100u) << "or what would the guardian be for";
+  std::uint64_t injected = 0;
+  for (const ClassCoverage& one : guarded.classes) {
+    injected += one.injected;
+    EXPECT_GT(one.activated, 0u) << nodes::name_of(one.kind);
+    EXPECT_GT(one.detected, 0u) << nodes::name_of(one.kind);
+    EXPECT_EQ(one.without, 0u) << "every start-up succeeds without the fault";
+  }
+  EXPECT_EQ(injected, 2000u);
+
+  // The observable that every class must have, on the bus, where nothing is kept from the others.
+  using nodes::FaultKind;
+  for (const auto& [kind, check] :
+       {std::pair{FaultKind::kCrash, Check::kNoFrame}, std::pair{FaultKind::kOmission, Check::kNoFrame},
+        std::pair{FaultKind::kBabblingIdiot, Check::kBoundary}, std::pair{FaultKind::kMasquerading, Check::kContent},
+        std::pair{FaultKind::kSosValue, Check::kSyntax}, std::pair{FaultKind::kBitFlipHeader, Check::kSyntax},
+        std::pair{FaultKind::kBitFlipPayload, Check::kSyntax}, std::pair{FaultKind::kBitFlipTrailer, Check::kSyntax},
+        std::pair{FaultKind::kChannelSwap, Check::kSyntax}, std::pair{FaultKind::kDrift, Check::kBoundary},
+        std::pair{FaultKind::kWrongSchedule, Check::kContent}, std::pair{FaultKind::kNoise, Check::kSyntax},
+        std::pair{FaultKind::kTransient, Check::kSyntax}})
+    EXPECT_GT(row(bus, kind).by_check[static_cast<std::size_t>(check)], 0u) << nodes::name_of(kind);
+  EXPECT_EQ(row(guarded, FaultKind::kBabblingIdiot).detected, row(guarded, FaultKind::kBabblingIdiot).activated);
+}
+
+}  // namespace
+}  // namespace ttf::experiments

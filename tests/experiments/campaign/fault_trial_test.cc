@@ -1,0 +1,132 @@
+// Single faults of which one can say beforehand who notices them, and whom they harm.
+#include "experiments/campaign/trial.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/experiments/campaign/small_campaign.h"
+
+namespace ttf::experiments {
+namespace {
+
+constexpr Duration kCycle = Duration::milliseconds(2);
+constexpr NodeId kFusion{2}, kCamera{5};
+
+class FaultTrial : public testing::Test {
+ protected:
+  FaultOutcome run(std::size_t variant, const nodes::Fault& fault, bool starts_up = false,
+                   std::uint32_t index = 3) const {
+    return run_trial(campaign_, clusters_.variants[variant], {fault, starts_up}, index);
+  }
+  static nodes::Fault fault(nodes::FaultKind kind, NodeId node) {
+    nodes::Fault fault;
+    fault.kind = kind;
+    fault.node = node;
+    fault.from = kCycle * 5;
+    return fault;
+  }
+  CampaignFile campaign_ = small_campaign(1);
+  CampaignClusters clusters_{campaign_};
+};
+
+// A fault that begins with the run and never does anything.
+TEST_F(FaultTrial, WithoutAFaultNobodyNoticesAnythingOrIsHarmed) {
+  nodes::Fault nothing = fault(nodes::FaultKind::kOmission, kCamera);
+  nothing.from = Duration{};
+  nothing.probability = 0.0;
+  for (const std::size_t variant : {kGuardian, kBus})
+    for (std::uint32_t index = 0; index < 40; ++index)
+      for (const bool starts_up : {false, true}) {
+        const FaultOutcome outcome = run(variant, nothing, starts_up, index);
+        EXPECT_FALSE(outcome.activated);
+        EXPECT_TRUE(outcome.starts_without);
+        EXPECT_EQ(outcome.harms, 0) << "index " << index;
+        EXPECT_EQ(outcome.seen_by_others, 0) << "index " << index;
+        EXPECT_EQ(outcome.seen_by_itself, 0) << "index " << index;
+        EXPECT_EQ(outcome.still_out, 0) << "index " << index;
+      }
+}
+
+TEST_F(FaultTrial, ACrashIsAnEmptySlotAndTheNodeComesBack) {
+  nodes::Fault crash = fault(nodes::FaultKind::kCrash, kFusion);
+  crash.duration = kCycle * 4;
+  for (const std::size_t variant : {kGuardian, kBus}) {
+    const FaultOutcome outcome = run(variant, crash);
+    EXPECT_TRUE(outcome.activated);
+    EXPECT_TRUE(seen(outcome.seen_by_others, Check::kNoFrame));
+    EXPECT_EQ(outcome.harms, 0);
+    ASSERT_TRUE(outcome.detected_after && outcome.reintegrated_after);
+    EXPECT_LE(*outcome.detected_after, kCycle.ns * 2);
+    EXPECT_LE(*outcome.reintegrated_after, kCycle.ns * 12);
+    EXPECT_EQ(outcome.still_out, 0);
+  }
+  crash.duration = nodes::Fault::kToTheEnd;
+  EXPECT_EQ(run(kBus, crash).still_out, 1);
+}
+
+TEST_F(FaultTrial, ABabblingIdiotTakesTheBusAndNotTheStar) {
+  nodes::Fault babbling = fault(nodes::FaultKind::kBabblingIdiot, kCamera);
+  babbling.length = Duration::microseconds(100);
+  babbling.interval = Duration::microseconds(150);
+  const FaultOutcome bus = run(kBus, babbling), star = run(kGuardian, babbling);
+  EXPECT_TRUE(does(bus.harms, Harm::kFrameLost) && does(bus.harms, Harm::kLeftActive));
+  EXPECT_TRUE(bus.passive_after && bus.halt_after);
+  EXPECT_EQ(star.harms, 0);
+  EXPECT_EQ(star.seen_by_others, 1u << static_cast<unsigned>(Check::kGuardian)) << "the others hear nothing of it";
+}
+
+// A frame more in another's slot, with the right header and a right CRC.
+TEST_F(FaultTrial, AMasqueradeCollidesOnTheBusAndDoesNotGetThroughTheStar) {
+  nodes::Fault masquerade = fault(nodes::FaultKind::kMasquerading, kCamera);
+  masquerade.slot = 3;
+  const FaultOutcome bus = run(kBus, masquerade), star = run(kGuardian, masquerade);
+  EXPECT_TRUE(does(bus.harms, Harm::kFrameLost)) << "both send at once";
+  EXPECT_EQ(star.harms, 0);
+  EXPECT_TRUE(seen(star.seen_by_others, Check::kGuardian));
+}
+
+TEST_F(FaultTrial, ADriftBeyondTheLimitEndsInPassiveAndHalt) {
+  nodes::Fault drift = fault(nodes::FaultKind::kDrift, kCamera);
+  drift.drift_ppb = 20'000'000;
+  const FaultOutcome star = run(kGuardian, drift);
+  EXPECT_TRUE(seen(star.seen_by_itself, Check::kPassive) || seen(star.seen_by_itself, Check::kHalt));
+  EXPECT_TRUE(star.halt_after);
+  EXPECT_EQ(star.harms, 0);
+}
+
+TEST_F(FaultTrial, AStartUpWithoutASecondColdstartNodeHarmsWhoWaitsForIt) {
+  nodes::Fault lone = fault(nodes::FaultKind::kLoneColdstart, kFusion);
+  lone.from = Duration{};
+  for (const std::size_t variant : {kGuardian, kBus})
+    EXPECT_TRUE(does(run(variant, lone, true).harms, Harm::kNotStarted));
+  EXPECT_FALSE(in_hypothesis(lone));
+}
+
+TEST_F(FaultTrial, NoiseOnOneChannelLeavesTheOther) {
+  nodes::Fault noise = fault(nodes::FaultKind::kNoise, kNoNode);
+  noise.length = Duration::microseconds(300);
+  noise.interval = Duration::microseconds(310);
+  noise.channels = schedules::Channels::kB;
+  for (const std::size_t variant : {kGuardian, kBus}) EXPECT_EQ(run(variant, noise).harms, 0);
+  EXPECT_TRUE(in_hypothesis(noise));
+  noise.channels = schedules::Channels::kAB;
+  for (const std::size_t variant : {kGuardian, kBus}) EXPECT_TRUE(does(run(variant, noise).harms, Harm::kLeftActive));
+  EXPECT_FALSE(in_hypothesis(noise));
+}
+
+// Campaigns run on the transparent medium. What comes of any fault is what comes of it where every frame is encoded.
+TEST_F(FaultTrial, OnATransparentMediumEveryFaultHasTheSameOutcome) {
+  int activated = 0;
+  for (std::uint32_t index = 0; index < 400; ++index) {
+    const DrawnFault drawn = draw_fault(campaign_, clusters_.base, index);
+    for (const schedules::Cluster& cluster : clusters_.variants) {
+      const FaultOutcome outcome = run_trial(campaign_, cluster, drawn, index);
+      EXPECT_EQ(outcome, run_trial(campaign_, cluster, drawn, index, nullptr, true))
+          << "fault " << index << ": " << nodes::entry_of(drawn.fault, clusters_.base);
+      activated += outcome.activated ? 1 : 0;
+    }
+  }
+  EXPECT_GT(activated, 600);
+}
+
+}  // namespace
+}  // namespace ttf::experiments

@@ -1,0 +1,339 @@
+// The covariance recursion of a schedule: against closed forms, and against what the strategies and their tracker make
+// of drawn measurements.
+#include "experiments/sweep/expected_error.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/random.h"
+#include "experiments/results/statistics.h"
+#include "fusion/strategies/strategy.h"
+#include "drives/scenario.h"
+#include "tests/experiments/sweep/known_lists.h"
+
+namespace ttf::experiments {
+namespace {
+
+using fusion::StrategyKind;
+
+GlobalTime at_ms(double ms) { return GlobalTime{static_cast<std::int64_t>(std::llround(ms * 1e6))}; }
+Look look_at(double ms, double variance) { return {at_ms(ms), variance * Eigen::Matrix2d::Identity()}; }
+
+// Least squares through n points of a line, of whose slope nothing is known: at the last one 2 (2n - 1) / (n (n + 1))
+// of R.
+TEST(ExpectedError, WithoutNoiseOfMotionItIsThatOfALineThroughAllPoints) {
+  ErrorRecursion recursion(PointMotion::known(0.0, 1e4));
+  for (int n = 1; n <= 20; ++n) {
+    recursion.fuse(look_at(50.0 * n, 0.09));
+    const double line = n == 1 ? 1.0 : 2.0 * (2.0 * n - 1.0) / (n * (n + 1.0));
+    EXPECT_NEAR(recursion.at(at_ms(50.0 * n))(0, 0), 0.09 * line, 1e-6) << n;
+  }
+}
+
+// The steady alpha-beta filter of white acceleration: with alpha and beta the gains of position and velocity,
+// beta^2 / (1 - alpha) = q T^3 / R and alpha = sqrt(2 beta + beta^2 / 12) - beta / 2 (Bar-Shalom et al., 2001, 6.5.3).
+TEST(ExpectedError, SettlesAtTheAlphaBetaFilter) {
+  for (const double density : {0.01, 1.0, 30.0})
+    for (const double variance : {0.0025, 0.25})
+      for (const double period_ms : {10.0, 50.0, 200.0}) {
+        ErrorRecursion recursion(PointMotion::known(density, 8.0));
+        const int many = 4000;
+        for (int n = 0; n <= many; ++n) recursion.fuse(look_at(period_ms * n, variance));
+        const Eigen::Matrix4d p = recursion.at(at_ms(period_ms * many));
+        const double t = period_ms * 1e-3, alpha = p(0, 0) / variance, beta = t * p(0, 2) / variance;
+        EXPECT_NEAR(beta * beta / (1.0 - alpha) / (density * t * t * t / variance), 1.0, 1e-6);
+        EXPECT_NEAR(std::sqrt(2.0 * beta + beta * beta / 12.0) - beta / 2.0, alpha, 1e-9);
+        EXPECT_NEAR(p(1, 1), p(0, 0), 1e-12);
+        EXPECT_EQ(p(0, 1), 0.0);
+      }
+}
+
+// Measured ever more often, it is the Kalman-Bucy filter with r = R T: sqrt(2) q^(1/4) r^(3/4).
+TEST(ExpectedError, MeasuredAllTheTimeItIsTheKalmanBucyFilter) {
+  const double density = 2.0, variance = 10.0, t = 1e-4;
+  ErrorRecursion recursion(PointMotion::known(density, 1.0));
+  for (int n = 0; n <= 40'000; ++n) recursion.fuse({at_ms(0.1 * n), variance * Eigen::Matrix2d::Identity()});
+  const Eigen::Matrix4d p = recursion.at(at_ms(0.1 * 40'000));
+  EXPECT_NEAR(p(0, 0), std::sqrt(2.0) * std::pow(density, 0.25) * std::pow(variance * t, 0.75), 0.002 * p(0, 0));
+  EXPECT_NEAR(p(0, 2), std::sqrt(density * variance * t), 0.002 * p(0, 2));
+}
+
+// Who assumes what is not so is worse off than who knows, and told so; who assumes right is told what he believes.
+TEST(ExpectedError, AWrongDensityCosts) {
+  const auto settled = [](double assumed, double actual) {
+    PointMotion motion = PointMotion::known(assumed, 8.0);
+    motion.actual = actual * Eigen::Matrix2d::Identity();
+    ErrorRecursion recursion(motion);
+    for (int n = 0; n < 500; ++n) recursion.fuse(look_at(40.0 * n, 0.04));
+    return recursion.at(at_ms(40.0 * 500))(0, 0);
+  };
+  EXPECT_GT(settled(0.1, 2.0), settled(2.0, 2.0) * 1.1);
+  EXPECT_GT(settled(60.0, 2.0), settled(2.0, 2.0) * 1.1);
+  EXPECT_LT(settled(2.0, 0.0), settled(2.0, 2.0));
+}
+
+TEST(ExpectedError, OrderOfArrivalDoesNotMatterInTheEnd) {
+  ErrorRecursion in_order(PointMotion::known(3.0, 8.0)), late(PointMotion::known(3.0, 8.0));
+  for (const double ms : {0.0, 40.0, 80.0, 120.0}) in_order.fuse(look_at(ms, 0.04 + ms * 1e-4));
+  for (const double ms : {80.0, 0.0, 120.0, 40.0}) late.fuse(look_at(ms, 0.04 + ms * 1e-4));
+  EXPECT_EQ(in_order.at(at_ms(150.0)), late.at(at_ms(150.0)));
+}
+
+// Two sensors as in the paper, whose lists overtake each other.
+struct Drawn {
+  std::vector<ListTimes> lists;
+  std::vector<Duration> longest{Duration::milliseconds(70), Duration::milliseconds(45)};
+  std::vector<Duration> periods{Duration::milliseconds(80), Duration::milliseconds(42)};
+  std::vector<double> variances{0.01, 0.09};
+};
+Drawn drawn_lists(double until_ms) {
+  Drawn drawn;
+  for (std::uint16_t s = 0; s < 2; ++s) {
+    RandomStream delays({7, 0, Purpose::kTest, s, 0});
+    const double period = drawn.periods[s].seconds() * 1e3, most = drawn.longest[s].seconds() * 1e3;
+    GlobalTime before{};
+    for (int n = 0; period * n + 3.0 * s < until_ms; ++n) {
+      const GlobalTime measured = at_ms(period * n + 3.0 * s);
+      // A sensor's own lists do not overtake each other.
+      before = std::max(before, measured + (at_ms(delays.uniform(0.3 * most, most)) - GlobalTime{}));
+      drawn.lists.push_back({static_cast<SensorId>(s), measured, before});
+    }
+  }
+  std::stable_sort(drawn.lists.begin(), drawn.lists.end(),
+                   [](const ListTimes& a, const ListTimes& b) { return a.arrival < b.arrival; });
+  return drawn;
+}
+
+// A replication through a strategy, asked at instants of its own. One object, a position a list.
+class Sampled {
+ public:
+  static constexpr double kDensity = 3.0;
+
+  Sampled(StrategyKind kind, const Drawn& drawn) : drawn_(drawn) {
+    tracker_.process_noise = kDensity;
+    tracker_.gate_probability = 0.9999999;  // what a gate refuses is no part of the recursion
+    std::vector<fusion::SensorTiming> timings;
+    for (std::size_t s = 0; s < 2; ++s)
+      timings.push_back({static_cast<SensorId>(s), fusion::Settling::after(drawn.longest[s]), true,
+                         at_ms(3.0 * static_cast<double>(s)), drawn.periods[s]});
+    strategy_ = fusion::make_strategy(kind, tracker_, timings);
+  }
+
+  // The instants at which lists are fused, as drawn.lists, and the squares of the errors at the uses.
+  void drive(std::uint32_t replication, std::span<const Use> uses, std::vector<GlobalTime>& fused,
+             std::vector<std::optional<double>>& squares) {
+    draw(replication, uses);
+    fused.assign(drawn_.lists.size(), GlobalTime{});
+    std::vector<fusion::TrackView> image;
+    auto use = uses.begin();
+    std::size_t next = 0;
+    while (next < drawn_.lists.size() || strategy_->next_release()) {
+      // Arrivals, releases and uses as they come; a use sees what is fused at its instant.
+      GlobalTime now = next < drawn_.lists.size() ? drawn_.lists[next].arrival : *strategy_->next_release();
+      if (const auto release = strategy_->next_release()) now = std::min(now, *release);
+      for (; use != uses.end() && use->known < now; ++use) squares.push_back(square_at(*use, image));
+      for (; next < drawn_.lists.size() && drawn_.lists[next].arrival == now; ++next) accept(next);
+      strategy_->fuse(now);
+      for (const fusion::FusedScan& scan : strategy_->last_fused())
+        if (scan.disposition != fusion::Disposition::kHeld) fused[scan.id.sequence] = now;
+    }
+    for (; use != uses.end(); ++use) squares.push_back(square_at(*use, image));
+  }
+
+ private:
+  // The object at all instants that somebody asks for, exactly as the density says, and what the sensors say.
+  void draw(std::uint32_t replication, std::span<const Use> uses) {
+    std::vector<GlobalTime> instants;
+    for (const ListTimes& list : drawn_.lists) instants.push_back(list.measured);
+    for (const Use& use : uses) instants.push_back(use.at);
+    std::sort(instants.begin(), instants.end());
+    RandomStream motion({11, replication, Purpose::kTest, 9, 0});
+    Eigen::Vector2d position(30.0, 2.0), velocity(8.0 * motion.normal(), 8.0 * motion.normal());
+    truth_.clear();
+    GlobalTime now = instants.front();
+    for (const GlobalTime instant : instants) {
+      const double dt = (instant - now).seconds();
+      now = instant;
+      position += dt * velocity;
+      for (int axis = 0; axis < 2 && dt > 0.0; ++axis) {
+        const double a = motion.normal(), b = motion.normal(), root = std::sqrt(kDensity * dt);
+        velocity(axis) += root * a;
+        position(axis) += root * dt * (0.5 * a + b / std::sqrt(12.0));
+      }
+      truth_.emplace_back(instant, position);
+    }
+    replication_ = replication;
+  }
+  Eigen::Vector2d truth_at(GlobalTime at) const {
+    return std::find_if(truth_.begin(), truth_.end(), [&](const auto& one) { return one.first == at; })->second;
+  }
+
+  void accept(std::size_t l) {
+    const ListTimes& list = drawn_.lists[l];
+    RandomStream noise(
+        {12, replication_, Purpose::kTest, static_cast<std::uint16_t>(list.sensor), static_cast<std::uint32_t>(l)});
+    const double variance = drawn_.variances[index_of(list.sensor)];
+    fusion::Observation observation;
+    observation.sensor = list.sensor;
+    observation.z.head<2>() =
+        truth_at(list.measured) + std::sqrt(variance) * Eigen::Vector2d(noise.normal(), noise.normal());
+    observation.r.topLeftCorner<2, 2>() = variance * Eigen::Matrix2d::Identity();
+    strategy_->accept({{list.sensor, static_cast<std::uint32_t>(l)}, list.measured, {&observation, 1}});
+  }
+
+  std::optional<double> square_at(const Use& use, std::vector<fusion::TrackView>& image) const {
+    strategy_->image(use.at, image);
+    if (image.size() != 1) return std::nullopt;
+    return (image.front().state.head<2>() - truth_at(use.at)).squaredNorm();
+  }
+
+  const Drawn& drawn_;
+  fusion::TrackerConfig tracker_;
+  std::unique_ptr<fusion::Strategy> strategy_;
+  std::vector<std::pair<GlobalTime, Eigen::Vector2d>> truth_;
+  std::uint32_t replication_ = 0;
+};
+
+std::vector<Use> uses_every_40_ms(double from_ms, double to_ms) {
+  std::vector<Use> uses;
+  for (double ms = from_ms; ms < to_ms; ms += 40.0) uses.push_back({at_ms(ms), at_ms(ms + 8.0)});
+  return uses;
+}
+
+class AgainstStrategies : public testing::TestWithParam<StrategyKind> {};
+
+// What is said of the instants of fusion is what the strategies do.
+TEST_P(AgainstStrategies, ListsAreFusedWhenSaid) {
+  const Drawn drawn = drawn_lists(3000.0);
+  Sampled sampled(GetParam(), drawn);
+  std::vector<GlobalTime> fused;
+  std::vector<std::optional<double>> squares;
+  sampled.drive(0, {}, fused, squares);
+  EXPECT_EQ(fused, fused_at(GetParam(), drawn.lists, drawn.longest));
+  std::size_t later = 0;
+  for (std::size_t l = 0; l < fused.size(); ++l) later += fused[l] > drawn.lists[l].arrival;
+  EXPECT_EQ(GetParam() == StrategyKind::kAdva, later == 0u);
+}
+
+// 4,000 drives of 2 s: the mean square of the error, over the uses from 0.6 s on, has the expected one in its interval;
+// a drive counts once, for its errors hang together.
+TEST_P(AgainstStrategies, TheErrorIsTheExpectedOne) {
+  const Drawn drawn = drawn_lists(2000.0);
+  const std::vector<Use> uses = uses_every_40_ms(600.0, 2000.0);
+  std::vector<Look> looks;
+  for (const ListTimes& list : drawn.lists)
+    looks.push_back({list.measured, drawn.variances[index_of(list.sensor)] * Eigen::Matrix2d::Identity()});
+  const auto fused = fused_at(GetParam(), drawn.lists, drawn.longest);
+  const auto errors = expected_errors(PointMotion::known(Sampled::kDensity, 8.0), looks, fused, uses);
+  double expected = 0.0;
+  for (const Eigen::Matrix4d& error : errors)
+    expected += error.topLeftCorner<2, 2>().trace() / static_cast<double>(uses.size());
+
+  results::Moments moments;
+  for (std::uint32_t replication = 0; replication < 4000; ++replication) {
+    Sampled sampled(GetParam(), drawn);
+    std::vector<GlobalTime> as_fused;
+    std::vector<std::optional<double>> squares;
+    sampled.drive(replication, uses, as_fused, squares);
+    ASSERT_EQ(squares.size(), uses.size());
+    double sum = 0.0;
+    for (const auto& square : squares) {
+      ASSERT_TRUE(square) << "no image, or more than one object, in replication " << replication;
+      sum += *square;
+    }
+    moments.add(sum / static_cast<double>(uses.size()));
+  }
+  const results::Interval interval = results::interval_of(moments, 0.99);
+  EXPECT_LT(interval.low(), expected);
+  EXPECT_GT(interval.high(), expected);
+  EXPECT_LT(interval.half_width, 0.02 * expected) << "too wide to say anything";
+  RecordProperty("expected_m2", std::to_string(expected));
+  RecordProperty("sampled_m2", std::to_string(interval.mean) + " +- " + std::to_string(interval.half_width));
+}
+
+INSTANTIATE_TEST_SUITE_P(Strategies, AgainstStrategies,
+                         testing::Values(StrategyKind::kBuff, StrategyKind::kAdva, StrategyKind::kTt),
+                         [](const auto& one) { return std::string(nodes::name_of(one.param)); });
+
+// Two equal sensors of one period, the other one `phase` (0 to 1) of it behind: the variance of the predicted position,
+// averaged over time, when both have settled. A list is known when it has been under way for `delay_ms`.
+double average_variance(double density, double variance, double period_ms, double phase, double delay_ms) {
+  constexpr int kPeriods = 400, kSteps = 20;
+  std::vector<Look> looks;
+  std::vector<GlobalTime> fused;
+  for (int n = 0; n <= kPeriods; ++n)
+    for (const double begin : {period_ms * n, period_ms * (n + phase)}) {
+      looks.push_back(look_at(begin, variance));
+      fused.push_back(at_ms(begin + delay_ms));
+    }
+  // From the last but one list of the first sensor on; the error grows as a polynomial of the third order between two
+  // lists, of which Simpson's rule knows the mean.
+  double sum = 0.0;
+  const double begin = period_ms * (kPeriods - 1) + delay_ms;
+  for (const auto& [from, to] : {std::pair{0.0, phase}, std::pair{phase, 1.0}}) {
+    if (from == to) continue;
+    std::vector<Use> uses;
+    for (int k = 0; k <= kSteps; ++k) {
+      const GlobalTime at = at_ms(begin + period_ms * (from + (to - from) * k / kSteps));
+      // At its end a list that comes then is not known yet.
+      uses.push_back({k < kSteps ? std::max(at, at_ms(begin + period_ms * from)) : at - Duration{1000}, at});
+    }
+    const auto errors = expected_errors(PointMotion::known(density, 8.0), looks, fused, uses);
+    for (int k = 0; k <= kSteps; ++k) {
+      const double weight = k == 0 || k == kSteps ? 1.0 : k % 2 == 1 ? 4.0 : 2.0;
+      sum += (to - from) * errors[static_cast<std::size_t>(k)](0, 0) * weight / (3.0 * kSteps);
+    }
+  }
+  return sum;
+}
+
+// Niu, Varshney, Mehrotra, Mohan: "Temporally staggered sensors in multi-sensor target tracking systems", IEEE
+// Transactions on Aerospace and Electronic Systems 41, 2005: sensors of equal noise that are evenly staggered leave
+// less error on the average over time than synchronous ones; and with two, the closer to even the less.
+TEST(SchedulePhases, EvenlyStaggeredSensorsLeaveLessErrorThanSynchronousOnes) {
+  double least = 1.0, most = 0.0;
+  for (const double density : {0.01, 0.1, 1.0, 10.0, 100.0})
+    for (const double sigma : {0.02, 0.1, 0.5, 2.0})
+      for (const double period_ms : {20.0, 80.0, 320.0})
+        for (const double delay_ms : {0.0, 40.0}) {
+          const auto of = [&](double phase) {
+            return average_variance(density, sigma * sigma, period_ms, phase, delay_ms);
+          };
+          const double synchronous = of(0.0), quarter = of(0.25), even = of(0.5);
+          EXPECT_LT(even, synchronous) << density << " " << sigma << " " << period_ms << " " << delay_ms;
+          EXPECT_LT(even, quarter) << density << " " << sigma << " " << period_ms << " " << delay_ms;
+          EXPECT_LT(quarter, synchronous) << density << " " << sigma << " " << period_ms << " " << delay_ms;
+          EXPECT_NEAR(of(0.75), quarter, 1e-6 * quarter);
+          least = std::min(least, even / synchronous);
+          most = std::max(most, even / synchronous);
+        }
+  RecordProperty("even_by_synchronous", std::to_string(least) + " to " + std::to_string(most));
+}
+
+// It is a matter of the average: who is asked at one instant of the period only is best off with both lists right
+// before it.
+TEST(SchedulePhases, AskedAtOneInstantOnlySynchronousSensorsAreBetter) {
+  const auto used_late = [](double phase) {
+    std::vector<Look> looks;
+    std::vector<GlobalTime> fused;
+    for (int n = 0; n < 200; ++n)
+      for (const double begin : {80.0 * n, 80.0 * (n + phase)}) {
+        looks.push_back(look_at(begin, 0.01));
+        fused.push_back(at_ms(begin));
+      }
+    const Use use{at_ms(80.0 * 199), at_ms(80.0 * 199)};
+    return expected_errors(PointMotion::known(10.0, 8.0), looks, fused, {&use, 1}).front()(0, 0);
+  };
+  EXPECT_LT(used_late(0.0), used_late(0.5));
+}
+
+}  // namespace
+}  // namespace ttf::experiments

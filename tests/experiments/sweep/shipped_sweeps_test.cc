@@ -1,0 +1,85 @@
+// The experiments that are shipped can be driven: the ends of each grid, with every paradigm. And what covariances say
+// of a whole cluster is what is sampled of it, where it is linear.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <set>
+#include <string>
+
+#include "core/file_bytes.h"
+#include "experiments/results/statistics.h"
+#include "experiments/sweep/run.h"
+
+namespace ttf::experiments {
+namespace {
+
+const std::string kFolder = TTF_SOURCE_DIR "/experiments/";
+
+std::set<std::string> shipped() {
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(kFolder))
+    if (entry.path().extension() == ".yaml" &&
+        ("\n" + read_file(entry.path().string())).find("\nkind: sweep\n") != std::string::npos)
+      names.insert(entry.path().stem().string());
+  return names;
+}
+
+TEST(ShippedSweeps, CanBeDriven) {
+  EXPECT_GE(shipped().size(), 7u);
+  for (const std::string& name : shipped()) {
+    const SweepFile sweep = load_sweep(kFolder + name + ".yaml");
+    EXPECT_EQ(sweep.name, name);
+    EXPECT_EQ(sweep.question.back(), '?') << name;
+    const SweepDrives drives(sweep);
+    const auto last = static_cast<std::uint32_t>(sweep.points() - 1);
+    for (const std::uint32_t point : {std::uint32_t{0}, last})
+      for (std::uint32_t paradigm = 0; paradigm < sweep.paradigms.size(); ++paradigm) {
+        const results::Run run = drives.run({point, sweep.replications - 1, paradigm});
+        EXPECT_EQ(run.status, results::kDone) << name << " " << sweep.label_of(point);
+        EXPECT_TRUE(std::isfinite(run.values.front())) << name << " " << sweep.label_of(point);
+      }
+  }
+}
+
+// 80 drives of two cameras that see positions, all the way over CAN and FlexRay to the feature service.
+TEST(ShippedSweeps, TheErrorOfAWholeClusterIsTheExpectedOne) {
+  SweepFile sweep = load_sweep(kFolder + "schedule_phases.yaml");
+  const SweepDrives drives(sweep);
+  const auto column = [&](const char* name) {
+    const auto found = std::find(sweep.measures.begin(), sweep.measures.end(), name);
+    return static_cast<std::size_t>(found - sweep.measures.begin());
+  };
+  const std::size_t sampled = column("position_mse_truth"), expected = column("position_mse_expected");
+  for (const std::uint32_t point : {1u, 2u}) {
+    results::Moments off, level;
+    for (std::uint32_t replication = 0; replication < 80; ++replication) {
+      const results::Run run = drives.run({point, replication, 2});
+      ASSERT_EQ(run.status, results::kDone);
+      off.add(run.values[sampled] - run.values[expected]);
+      level.add(run.values[expected]);
+    }
+    const results::Interval interval = results::interval_of(off, 0.99);
+    EXPECT_LT(std::abs(interval.mean), interval.half_width) << sweep.label_of(point);
+    EXPECT_LT(interval.half_width, 0.15 * level.mean()) << "too wide to say anything";
+  }
+}
+
+// A fusion node that comes back has forgotten all, and may count its time anew: what was expected of it has, too.
+TEST(ShippedSweeps, WhatIsToBeExpectedSurvivesACrashOfTheFusionNode) {
+  SweepFile sweep = load_sweep(kFolder + "schedule_phases.yaml");
+  const SweepDrives drives(sweep);
+  PreparedDrive drive = drives.prepare({0, 0, 2});
+  std::string text = drive.scenario.text + "faults:\n  - {kind: crash, node: fusion, from: 700 ms, duration: 300 ms}\n";
+  drive.scenario = nodes::parse_scenario(std::move(text), sweep.scenario_file);
+  const results::Run run = drives.run({0, 0, 2}, drive);
+  ASSERT_EQ(run.status, results::kDone);
+  const auto found = std::find(sweep.measures.begin(), sweep.measures.end(), "position_mse_expected");
+  const double expected = run.values[static_cast<std::size_t>(found - sweep.measures.begin())];
+  EXPECT_GT(expected, 0.0);
+  EXPECT_LT(expected, 10.0);
+}
+
+}  // namespace
+}  // namespace ttf::experiments

@@ -1,0 +1,167 @@
+#include "experiments/sweep/file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/errors.h"
+#include "experiments/sweep/run.h"
+#include "tests/experiments/sweep/small_sweep.h"
+
+namespace ttf::experiments {
+namespace {
+
+using testing::HasSubstr;
+
+const std::string kHead =
+    "kind: sweep\nname: small\nquestion: q\nscenario: ../scenarios/dynamics.yaml\nseed: 1\nreplications: 2\n"
+    "paradigms: {a: {strategy: adva}, t: {strategy: tt}}\n";
+
+SweepFile file(const std::string& more) { return parse_sweep(kHead + more, TTF_SOURCE_DIR "/experiments/small.yaml"); }
+std::string refusal(const std::string& text) {
+  try {
+    const SweepFile sweep = parse_sweep(text, TTF_SOURCE_DIR "/experiments/small.yaml");
+    const SweepDrives drives(sweep);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "taken";
+}
+
+TEST(SweepFile, ListsRangesSettingsAndDraws) {
+  const SweepFile sweep = file(
+      "axes:\n"
+      "  list: {keys: [world.acceleration_noise], values: [0.5, 2]}\n"
+      "  range: {keys: [cluster.sensors.camera.period], from: 10, to: 1000, count: 3, scale: logarithmic, unit: ms}\n"
+      "  named: {settings: {dry: {world.yaw_rate_noise: 0}, wet: {world.yaw_rate_noise: 0.1, duration: 4 s}}}\n"
+      "  load: {keys: [tracker.process_noise], uniform: [1, 3]}\n");
+  ASSERT_EQ(sweep.grid().size(), 3u);
+  ASSERT_EQ(sweep.drawn().size(), 1u);
+  EXPECT_EQ(sweep.points(), 12u);
+  EXPECT_EQ(sweep.label_of(0), "list 0.5, range 10 ms, named dry");
+  EXPECT_EQ(sweep.label_of(1), "list 0.5, range 10 ms, named wet");
+  EXPECT_EQ(sweep.label_of(2), "list 0.5, range 100 ms, named dry");
+  EXPECT_EQ(sweep.label_of(11), "list 2, range 1000 ms, named wet");
+  EXPECT_EQ(sweep.settings_of(2)[1]->number, 100.0);
+  EXPECT_TRUE(sweep.grid()[1]->logarithmic);
+  EXPECT_EQ(sweep.settings_of(1)[2]->edits.size(), 2u);
+  const SweepFile with_unit =
+      file("axes: {period: {keys: [a/cluster.sensors.camera.period], values: [42, 84], unit: ms}}\n");
+  EXPECT_EQ(with_unit.label_of(1), "period 84 ms");
+  EXPECT_EQ(with_unit.settings_of(1)[0]->number, 84.0);
+  EXPECT_EQ(SweepDrives(with_unit).prepare({1, 0, 0}).cluster.sensors[1].period, Duration::milliseconds(84));
+  EXPECT_GT(sweep.measures.size(), 10u) << "all of them where none is named";
+}
+
+TEST(SweepFile, WhatIsWrongIsToldWithItsLine) {
+  const auto axis = [](const std::string& text) { return refusal(kHead + "axes:\n  one: " + text + "\n"); };
+  EXPECT_THAT(axis("{keys: [world.yaw_rate_noise], values: [1, 1]}"), HasSubstr("must not have a value twice: 1"));
+  EXPECT_THAT(axis("{keys: [world.yaw_rate_noise], from: 0, to: 4, count: 1}"), HasSubstr("count"));
+  EXPECT_THAT(axis("{keys: [world.yaw_rate_noise], from: 0, to: 4, count: 3, scale: logarithmic}"),
+              HasSubstr("both ends above 0"));
+  EXPECT_THAT(axis("{keys: [world.yaw_rate_noise], uniform: [4, 1]}"),
+              HasSubstr("must be two numbers, the lower one first"));
+  EXPECT_THAT(axis("{keys: [world.yaw_rate_noise], values: [1], to: 4}"), HasSubstr("small.yaml:9: axes.one.to"));
+  EXPECT_THAT(axis("{keys: [world.speed], values: [1]}"), HasSubstr("world.speed: must be in the file"));
+  EXPECT_THAT(axis("{keys: [world.acceleration_noise], values: [51]}"),
+              AllOf(HasSubstr("dynamics.yaml:13: world.acceleration_noise = 51: must be a number 0..50 m/s^2"),
+                    HasSubstr("(with a, one 51)")));
+  EXPECT_THAT(axis("{keys: [cluster.sensors.laser.period], values: [80 m]}"), HasSubstr("paper_unsynchronised.yaml:"));
+  EXPECT_THAT(refusal(kHead), HasSubstr("axes"));
+  const std::string axes = "axes: {one: {keys: [world.yaw_rate_noise], values: [1, 2]}}\n";
+  EXPECT_EQ(refusal(kHead + axes), "taken");
+  EXPECT_THAT(refusal(kHead + axes + "measures: [speed]\n"), HasSubstr("must be some of position_rmse_truth"));
+  EXPECT_THAT(refusal(kHead + axes + "compare: {baseline: b}\n"), HasSubstr("must be one of the paradigms"));
+  EXPECT_THAT(refusal(kHead + axes + "expect: [{measure: nees, less: a, than: a}]\n"),
+              HasSubstr("another than `less`"));
+  EXPECT_THAT(refusal(kHead + axes + "expect: [{measure: nees, agrees: speed, of: a}]\n"),
+              HasSubstr("one of `measures`"));
+  EXPECT_THAT(refusal(kHead + axes + "expect: [{measure: nees, agrees: nees, of: a}]\n"),
+              HasSubstr("another than `measure`"));
+  EXPECT_THAT(refusal(kHead + axes + "expect: [{measure: nees, agrees: missed, less: a}]\n"),
+              HasSubstr("expect[0].of"));
+  EXPECT_THAT(refusal(kHead + axes + "expect: [{measure: nees, less: a, than: t, where: {one: 3}}]\n"),
+              HasSubstr("not one: 3"));
+  EXPECT_THAT(refusal(kHead + axes + "colour: red\n"), HasSubstr("colour"));
+  EXPECT_THAT(refusal("kind: other\n"), HasSubstr("must be sweep"));
+  EXPECT_THAT(axis("{keys: [world.acceleration_noise], uniform: [-6, 12]}"),
+              HasSubstr("world.acceleration_noise = -6: must be a number 0..50"));
+  EXPECT_THAT(axis("{keys: [seed], values: [1]}"), HasSubstr("seed must not be varied"));
+  for (const char* name : {"nees", "Status", "point"})
+    EXPECT_THAT(refusal(kHead + "axes:\n  " + name + ": {keys: [tracker.process_noise], uniform: [1, 2]}\n"),
+                HasSubstr("must not be called as a measure"));
+  EXPECT_THAT(refusal(kHead + "axes:\n  one: {keys: [world.yaw_rate_noise], values: [0, 1]}\n"
+                              "  two: {settings: {a: {world.yaw_rate_noise: 0}}}\n"),
+              HasSubstr("must not vary world.yaw_rate_noise twice: one and two do"));
+  std::string head = kHead;
+  head.replace(head.find("name: small"), 11, "name: ..");
+  EXPECT_THAT(refusal(head + axes), HasSubstr("not begin with a dot"));
+  head = kHead;
+  head.replace(head.find("replications: 2"), 15, "replications: 10000000");
+  EXPECT_THAT(refusal(head + "axes:\n  one: {keys: [tracker.process_noise], from: 1, to: 9, count: 9}\n"),
+              HasSubstr("must make 100000000 runs at most, and make 180000000"));
+}
+
+TEST(SweepFile, AKeyMayBeOneParadigmsOnly) {
+  const SweepFile sweep = file(
+      "axes:\n"
+      "  period:\n"
+      "    settings:\n"
+      "      \"42\": {a/cluster.sensors.camera.period: 42 ms, t/cluster.sensors.camera.repetition: 8}\n"
+      "      \"84\": {a/cluster.sensors.camera.period: 84 ms, t/cluster.sensors.camera.repetition: 16}\n"
+      "  noise: {keys: [a/tracker.process_noise], values: [7, 8]}\n"
+      "  other: {keys: [t/tracker.process_noise], values: [9]}\n");
+  const SweepDrives drives(sweep);
+  const PreparedDrive free = drives.prepare({3, 0, 0}), scheduled = drives.prepare({3, 0, 1});
+  EXPECT_EQ(free.cluster.sensors[1].period, Duration::milliseconds(84));
+  EXPECT_EQ(scheduled.cluster.sensors[1].at.repetition, 16);
+  EXPECT_EQ(free.scenario.tracker.process_noise, 8.0);
+  EXPECT_EQ(scheduled.scenario.tracker.process_noise, 9.0);
+
+  const auto axes = [](const std::string& text) { return refusal(kHead + "axes:\n" + text); };
+  EXPECT_THAT(axes("  one: {keys: [b/duration], values: [3 s]}\n"),
+              HasSubstr("small.yaml:9: b/duration = b: must be one of the paradigms, before the slash"));
+  EXPECT_THAT(axes("  one: {keys: [a/duration], values: [3 s]}\n  two: {keys: [duration], values: [4 s]}\n"),
+              HasSubstr("small.yaml:10: axes: must not vary duration twice: one and two do"));
+  EXPECT_THAT(axes("  one: {settings: {x: {duration: 3 s, t/duration: 4 s}}}\n"),
+              HasSubstr("must not set duration twice in x of one"));
+  EXPECT_EQ(axes("  one: {keys: [a/duration], values: [3 s]}\n  two: {keys: [t/duration], values: [4 s]}\n"), "taken");
+  EXPECT_THAT(axes("  one: {keys: [t/cluster.sensors.camera.period], values: [42 ms]}\n"),
+              AllOf(HasSubstr("small.yaml:9: cluster.sensors.camera.period: must be in the file"),
+                    HasSubstr("synchronised.yaml: only what is written there can be varied (with t, one 42 ms)")));
+}
+
+TEST(SweepFile, FilesAreValues) {
+  const SweepFile sweep = file(
+      "axes:\n"
+      "  road: {keys: [scenario], values: [../scenarios/paper_scenario1.yaml, ../scenarios/dynamics.yaml]}\n"
+      "  way: {settings: {flexray: {}, can: {a/cluster: ../schedules/paper_event_triggered.yaml}}}\n"
+      "  fault: {settings: {none: {}, lists: {faults: faults/lists_5.yaml}}}\n");
+  const SweepDrives drives(sweep);
+  const PreparedDrive plain = drives.prepare({0, 0, 0}), all = drives.prepare({7, 0, 0});
+  const PreparedDrive other = drives.prepare({7, 0, 1});
+  EXPECT_EQ(plain.scenario.name, "paper_scenario1");
+  EXPECT_EQ(plain.cluster.name, "paper_unsynchronised");
+  EXPECT_TRUE(plain.scenario.faults.empty());
+  EXPECT_EQ(all.scenario.name, "dynamics");
+  EXPECT_EQ(all.cluster.name, "paper_event_triggered");
+  EXPECT_EQ(other.cluster.name, "paper_synchronised");
+  EXPECT_EQ(all.scenario.faults.faults.size(), 1u);
+  EXPECT_THAT(all.scenario.text, HasSubstr("node: gateway, probability: 0.05")) << "what is logged is what was driven";
+
+  const auto axis = [](const std::string& text) { return refusal(kHead + "axes:\n  one: " + text + "\n"); };
+  EXPECT_THAT(axis("{keys: [faults], values: [faults/none.yaml]}"), HasSubstr("faults/none.yaml"));
+  EXPECT_THAT(axis("{keys: [faults], uniform: [0, 1]}"), HasSubstr("must be no file's where a number is drawn"));
+  EXPECT_THAT(axis("{keys: [faults], values: [../scenarios/dynamics.yaml]}"), HasSubstr("dynamics.yaml:1: name"));
+  EXPECT_THAT(axis("{settings: {x: {faults: faults/lists_5.yaml, scenario: ../scenarios/faulty_bus.yaml}}}"),
+              HasSubstr("faulty_bus.yaml: faults: must not be there where"));
+}
+
+// The grid is bounded before anything is made of it.
+TEST(SweepFile, TooManyPointsAreRefused) {
+  std::string axes = "axes:\n";
+  for (int a = 0; a < 9; ++a) axes += fmt::format("  a{}: {{keys: [key{}], from: 0, to: 9, count: 10}}\n", a, a);
+  EXPECT_THAT(refusal(kHead + axes), HasSubstr("must make 10000 points at most"));
+}
+
+}  // namespace
+}  // namespace ttf::experiments

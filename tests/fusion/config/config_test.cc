@@ -1,0 +1,256 @@
+// The tracker's configuration is read strictly.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "core/errors.h"
+#include "fusion/config/tracker_config.h"
+
+namespace ttf::fusion {
+namespace {
+
+TrackerConfig load(const std::string& text, std::vector<std::string>* sentences = nullptr) {
+  Findings findings;
+  YamlMap root = StrictYaml::parse(text, "t.yaml").root(findings);
+  const TrackerConfig config = load_tracker(root);
+  root.finish();
+  if (sentences)
+    for (const Finding& finding : findings.list()) sentences->push_back(finding.sentence());
+  else
+    EXPECT_TRUE(findings.empty());
+  return config;
+}
+
+TEST(TrackerConfig, EverythingHasADefault) {
+  const TrackerConfig config = load("{}"), defaults;
+  EXPECT_EQ(config.process_noise, defaults.process_noise);
+  EXPECT_EQ(config.max_objects, 25);
+  EXPECT_EQ(config.confirm_hits, 3);
+  EXPECT_EQ(config.confirm_window, 5);
+  EXPECT_EQ(config.history_scans, 64u);
+}
+
+TEST(TrackerConfig, ReadsEveryKey) {
+  const TrackerConfig c = load(
+      "motion: constant_acceleration\nprocess_noise: 2.5\ninitial_velocity_sigma: 11\n"
+      "initial_acceleration_sigma: 3\ngate_probability: 0.99\nconfirm_hits: 2\nconfirm_window: 4\n"
+      "delete_misses: 6\ndelete_position_sigma: 7\nmax_objects: 12\nhistory_scans: 16\nheading_noise: 0.5\n"
+      "filter: unscented\nturn_noise: 0.4\ninitial_turn_rate_sigma: 0.7\nmode_seconds: 9\n"
+      "extent_noise: 0.25\ncoast_after: 120 ms\ndelete_after: 2 s\n"
+      "max_observations: 200\nbuff_waits: fixed_lag\nfixed_lag: 70 ms\n"
+      "association: jpda\nbirth: existence\ndetection_probability: 0.7\nclutter_density: 0.02\n"
+      "initial_existence: 0.2\nsurvival_seconds: 30\nconfirm_existence: 0.9\ndelete_existence: 0.02\n"
+      "merge_probability: 0.95\nmerge_scans: 7\n");
+  EXPECT_EQ(c.association, Association::kJpda);
+  EXPECT_EQ(c.birth, Birth::kExistence);
+  EXPECT_EQ(c.detection_probability, 0.7);
+  EXPECT_EQ(c.clutter_density, 0.02);
+  EXPECT_EQ(c.initial_existence, 0.2);
+  EXPECT_EQ(c.survival_seconds, 30.0);
+  EXPECT_EQ(c.confirm_existence, 0.9);
+  EXPECT_EQ(c.delete_existence, 0.02);
+  EXPECT_EQ(c.merge_probability, 0.95);
+  EXPECT_EQ(c.merge_scans, 7);
+  EXPECT_EQ(c.max_observations, 200u);
+  EXPECT_EQ(c.buff_waits, BuffWaiting::kFixedLag);
+  EXPECT_EQ(c.fixed_lag, Duration::milliseconds(70));
+  EXPECT_EQ(c.motion, MotionModel::kConstantAcceleration);
+  EXPECT_EQ(c.filter, FilterKind::kUnscented);
+  EXPECT_EQ(c.turn_noise, 0.4);
+  EXPECT_EQ(c.initial_turn_rate_sigma, 0.7);
+  EXPECT_EQ(c.mode_seconds, 9.0);
+  EXPECT_EQ(c.process_noise, 2.5);
+  EXPECT_EQ(c.initial_velocity_sigma, 11.0);
+  EXPECT_EQ(c.initial_acceleration_sigma, 3.0);
+  EXPECT_EQ(c.gate_probability, 0.99);
+  EXPECT_EQ(c.confirm_hits, 2);
+  EXPECT_EQ(c.confirm_window, 4);
+  EXPECT_EQ(c.delete_misses, 6);
+  EXPECT_EQ(c.delete_position_sigma, 7.0);
+  EXPECT_EQ(c.max_objects, 12);
+  EXPECT_EQ(c.history_scans, 16u);
+  EXPECT_EQ(c.heading_noise, 0.5);
+  EXPECT_EQ(c.extent_noise, 0.25);
+  EXPECT_EQ(c.coast_after, Duration::milliseconds(120));
+  EXPECT_EQ(c.delete_after, Duration::milliseconds(2'000));
+}
+
+TEST(TrackerConfig, AllMistakesAtOnce) {
+  std::vector<std::string> sentences;
+  load(
+      "motion: sideways\nprocess_noise: -1\ngate_probability: 1.0\nconfirm_window: 3\nconfirm_hits: "
+      "4\nspeed: 1\n",
+      &sentences);
+  ASSERT_EQ(sentences.size(), 5u);
+  EXPECT_NE(sentences[0].find("t.yaml:1: motion = sideways"), std::string::npos) << sentences[0];
+  EXPECT_NE(sentences[1].find("t.yaml:2: process_noise = -1"), std::string::npos) << sentences[1];
+  EXPECT_NE(sentences[2].find("t.yaml:3: gate_probability"), std::string::npos) << sentences[2];
+  EXPECT_NE(sentences[3].find("t.yaml:5: confirm_hits = 4"), std::string::npos) << sentences[3];
+  EXPECT_NE(sentences[4].find("t.yaml:6: speed"), std::string::npos) << sentences[4];
+}
+
+TEST(TrackerConfig, NamesEveryMotionModelAndFilter) {
+  const std::pair<const char*, MotionModel> models[] = {{"constant_velocity", MotionModel::kConstantVelocity},
+                                                        {"constant_acceleration", MotionModel::kConstantAcceleration},
+                                                        {"ctrv", MotionModel::kCtrv},
+                                                        {"ctra", MotionModel::kCtra},
+                                                        {"interacting", MotionModel::kInteracting}};
+  for (const auto& model : models) EXPECT_EQ(load(std::string("motion: ") + model.first).motion, model.second);
+  EXPECT_EQ(load("filter: extended").filter, FilterKind::kExtended);
+
+  std::vector<std::string> sentences;
+  load("motion: coordinated\nfilter: particle\nturn_noise: 0\nmode_seconds: never\ninitial_turn_rate_sigma: 11\n",
+       &sentences);
+  ASSERT_EQ(sentences.size(), 5u);
+  EXPECT_NE(sentences[0].find("t.yaml:1: motion = coordinated"), std::string::npos) << sentences[0];
+  for (const auto& model : models)
+    EXPECT_NE(sentences[0].find(model.first), std::string::npos) << sentences[0] << " names " << model.first;
+  EXPECT_NE(sentences[1].find("t.yaml:2: filter = particle"), std::string::npos) << sentences[1];
+  EXPECT_NE(sentences[1].find("extended, unscented"), std::string::npos) << sentences[1];
+  EXPECT_NE(sentences[2].find("t.yaml:3: turn_noise = 0"), std::string::npos) << sentences[2];
+  EXPECT_NE(sentences[3].find("t.yaml:4: mode_seconds"), std::string::npos) << sentences[3];
+  EXPECT_NE(sentences[4].find("t.yaml:5: initial_turn_rate_sigma"), std::string::npos) << sentences[4];
+}
+
+TEST(TrackerConfig, SystematicErrorsAreIgnoredUnlessSaid) {
+  EXPECT_EQ(load("{}").systematic, SystematicErrorsAre::kIgnored);
+  EXPECT_TRUE(load("{}").sensors.empty());
+  const TrackerConfig c = load(
+      "systematic: consider\nsensors:\n  laser: {bias_sigma: {range: 0.1, bearing: 0.01}}\n"
+      "  camera: {mounting: {x: 1.5}}\n");
+  EXPECT_EQ(c.systematic, SystematicErrorsAre::kConsidered);
+  ASSERT_EQ(c.sensors.size(), 2u);
+  EXPECT_EQ(c.sensors[0].name, "laser");
+  EXPECT_EQ(c.sensors[0].line, 3);
+  EXPECT_EQ(c.sensors[0].errors.sigma(1), 0.01);
+  EXPECT_EQ(c.sensors[1].mounting.position.x(), 1.5);
+}
+
+TEST(TrackerConfig, WhatCannotBeConsideredIsRefused) {
+  for (const std::string rest : {"motion: ctrv\n", "motion: ctra\n", "motion: interacting\n", "filter: unscented\n"}) {
+    std::vector<std::string> sentences;
+    load(rest + "systematic: consider\n", &sentences);
+    ASSERT_EQ(sentences.size(), 1u) << rest;
+    EXPECT_EQ(sentences[0],
+              "t.yaml:2: systematic = consider: must be ignore but where motion is constant_velocity or "
+              "constant_acceleration and filter is extended");
+  }
+  EXPECT_EQ(load("motion: constant_acceleration\nsystematic: consider\n").systematic, SystematicErrorsAre::kConsidered);
+  std::vector<std::string> sentences;
+  load("systematic: estimate\n", &sentences);
+  ASSERT_EQ(sentences.size(), 1u);
+  EXPECT_NE(sentences[0].find("t.yaml:1: systematic = estimate: must be one of ignore, consider"), std::string::npos)
+      << sentences[0];
+  sentences.clear();
+  const std::string four = "bias_sigma: {range: 0.1, bearing: 0.1, range_rate: 0.1, time: 1 ms}";
+  load("sensors:\n  a: {" + four + "}\n  b: {" + four + "}\n  c: {bias_sigma: {x: 0.1, y: 0}}\n", &sentences);
+  ASSERT_EQ(sentences.size(), 1u);
+  EXPECT_NE(sentences[0].find("sensors: must have at most 8 biases with a sigma above 0, of all sensors together, "
+                              "not 9"),
+            std::string::npos)
+      << sentences[0];
+}
+
+TEST(TrackerConfig, NamesEveryMethodForLateLists) {
+  EXPECT_EQ(load("{}").late, oosm::Kind::kRewind);
+  for (const oosm::NamedKind& named : oosm::kKinds)
+    for (const char* motion : {"constant_velocity", "constant_acceleration"})
+      EXPECT_EQ(load("late: " + std::string(named.name) + "\nmotion: " + motion).late, named.kind);
+  std::vector<std::string> sentences;
+  load("late: never\n", &sentences);
+  ASSERT_EQ(sentences.size(), 1u);
+  EXPECT_EQ(sentences[0],
+            "t.yaml:1: late = never: must be one of rewind, augmented, clone, adjoint, al1, bl1, a, b, c");
+}
+
+TEST(TrackerConfig, OnlyStraightMotionIsTakenInOtherThanByRewinding) {
+  for (const std::string other : {"motion: ctrv", "motion: ctra", "motion: interacting", "filter: unscented"}) {
+    EXPECT_EQ(load(other + "\nlate: rewind\n").late, oosm::Kind::kRewind);
+    std::vector<std::string> sentences;
+    load(other + "\nlate: al1\n", &sentences);
+    ASSERT_EQ(sentences.size(), 1u) << other;
+    EXPECT_EQ(sentences[0],
+              "t.yaml:2: late = al1: must be rewind, but with motion constant_velocity or "
+              "constant_acceleration and filter extended: of the others' estimates the methods know "
+              "nothing");
+  }
+}
+
+TEST(TrackerConfig, OtherMethodsThanRewindingKnowOneWayToAssociate) {
+  for (const std::string other : {"association: jpda", "birth: existence", "merge_probability: 0.9"}) {
+    EXPECT_EQ(load(other + "\nlate: rewind\n").late, oosm::Kind::kRewind);
+    std::vector<std::string> sentences;
+    load(other + "\nlate: al1\n", &sentences);
+    ASSERT_EQ(sentences.size(), 1u) << other;
+    EXPECT_EQ(sentences[0],
+              "t.yaml:2: late = al1: must be rewind, but with association nearest, birth m_of_n and "
+              "merge_probability 0: the other methods do not go back to what was decided since");
+  }
+}
+
+TEST(TrackerConfig, RefusesWhatAssociationAndBirthCannotBe) {
+  std::vector<std::string> sentences;
+  load(
+      "association: global\nbirth: twice\ndetection_probability: 1\nclutter_density: 0\nsurvival_seconds: -1\n"
+      "initial_existence: 0\nconfirm_existence: 1\nmerge_probability: 1\nmerge_scans: 0\ndelete_existence: 1e-9\n",
+      &sentences);
+  const char* const expected[] = {
+      "t.yaml:1: association = global",  "t.yaml:2: birth = twice",         "t.yaml:3: detection_probability = 1",
+      "t.yaml:4: clutter_density = 0",   "t.yaml:5: survival_seconds = -1", "t.yaml:6: initial_existence = 0",
+      "t.yaml:7: confirm_existence = 1", "t.yaml:8: merge_probability = 1", "t.yaml:9: merge_scans = 0"};
+  ASSERT_EQ(sentences.size(), std::size(expected));
+  for (std::size_t i = 0; i < sentences.size(); ++i)
+    EXPECT_NE(sentences[i].find(expected[i]), std::string::npos) << sentences[i];
+  EXPECT_NE(sentences[0].find("nearest, jpda"), std::string::npos) << sentences[0];
+  EXPECT_NE(sentences[1].find("m_of_n, existence"), std::string::npos) << sentences[1];
+  sentences.clear();
+  load("delete_existence: 0.1\n", &sentences);
+  ASSERT_EQ(sentences.size(), 1u);
+  EXPECT_NE(sentences[0].find("t.yaml:1: delete_existence = 0.1"), std::string::npos) << sentences[0];
+  EXPECT_NE(sentences[0].find("must be below initial_existence"), std::string::npos) << sentences[0];
+  sentences.clear();
+  load("delete_existence: 0.05\nconfirm_existence: 0.05\n", &sentences);
+  ASSERT_EQ(sentences.size(), 1u);
+  EXPECT_NE(sentences[0].find("must be below confirm_existence"), std::string::npos) << sentences[0];
+}
+
+// The examples of docs/tracker.md, as they stand there.
+TEST(TrackerConfig, TheDocumentedExamplesLoad) {
+  std::ostringstream page;
+  page << std::ifstream(TTF_SOURCE_DIR "/docs/tracker.md").rdbuf();
+  const std::string begin = "```yaml\n", all = page.str();
+  std::vector<TrackerConfig> configs;
+  for (std::size_t from = all.find(begin); from != std::string::npos; from = all.find(begin, from + 1)) {
+    const std::size_t first = from + begin.size();
+    Findings findings;
+    YamlMap root = StrictYaml::parse(all.substr(first, all.find("```", first) - first), "tracker.md").root(findings);
+    YamlMap tracker = root.map("tracker");
+    configs.push_back(load_tracker(tracker));
+    tracker.finish();
+    root.finish();
+    EXPECT_TRUE(findings.empty());
+  }
+  ASSERT_EQ(configs.size(), 2u);
+  EXPECT_EQ(configs[0].motion, MotionModel::kCtrv);
+  EXPECT_EQ(configs[0].filter, FilterKind::kUnscented);
+  EXPECT_EQ(configs[1].association, Association::kJpda);
+  EXPECT_EQ(configs[1].birth, Birth::kExistence);
+}
+
+// A track that ends before it coasts would never be said to.
+TEST(TrackerConfig, CoastingComesBeforeTheEnd) {
+  std::vector<std::string> sentences;
+  load("coast_after: 1001 ms\n", &sentences);
+  ASSERT_EQ(sentences.size(), 1u) << "delete_after is 1 s unless said";
+  EXPECT_NE(sentences[0].find("t.yaml:1: coast_after"), std::string::npos) << sentences[0];
+  sentences.clear();
+  load("coast_after: 1001 ms\ndelete_after: 1001 ms\n", &sentences);
+  EXPECT_TRUE(sentences.empty());
+}
+
+}  // namespace
+}  // namespace ttf::fusion

@@ -1,0 +1,115 @@
+// What is known of a sensor: read strictly, and taken out of what it says.
+#include "fusion/sensors/known_sensor.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/errors.h"
+#include "tests/fusion/scenes.h"
+
+namespace ttf::fusion {
+namespace {
+
+KnownSensor load(const std::string& text, std::vector<std::string>* sentences = nullptr) {
+  Findings findings;
+  YamlMap root = StrictYaml::parse(text, "s.yaml").root(findings);
+  const KnownSensor sensor = load_known_sensor(root);
+  root.finish();
+  for (const Finding& finding : findings.list())
+    if (sentences) sentences->push_back(finding.sentence());
+  EXPECT_TRUE(sentences || findings.empty());
+  return sensor;
+}
+std::vector<std::string> mistakes(const std::string& text) {
+  std::vector<std::string> sentences;
+  load(text, &sentences);
+  return sentences;
+}
+
+TEST(KnownSensor, NothingIsKnownUnlessSaid) {
+  const KnownSensor sensor = load("{}");
+  EXPECT_TRUE(sensor.plain());
+  EXPECT_TRUE(sensor.errors.sigma.isZero());
+}
+
+TEST(KnownSensor, ReadsEveryKey) {
+  const KnownSensor sensor = load(
+      "mounting: {x: 3.5, y: -0.5, heading: 1.5}\nbias: {range: 0.2, bearing: -0.01, range_rate: 0.3}\n"
+      "bias_sigma: {range: 0.1, bearing: 0.02, range_rate: 0.4, time: 5 ms}\n");
+  EXPECT_EQ(sensor.mounting.position, Eigen::Vector2d(3.5, -0.5));
+  EXPECT_EQ(sensor.mounting.yaw, 1.5);
+  EXPECT_EQ(sensor.errors.axes, ErrorAxes::kPolar);
+  EXPECT_EQ(sensor.errors.known, Eigen::Vector3d(0.2, -0.01, 0.3));
+  EXPECT_EQ(sensor.errors.sigma, Eigen::Vector4d(0.1, 0.02, 0.4, 0.005));
+  EXPECT_FALSE(sensor.plain());
+  const KnownSensor other = load("bias_sigma: {x: 0.1, y: 0.2}\n");
+  EXPECT_EQ(other.errors.axes, ErrorAxes::kCartesian);
+  EXPECT_EQ(other.errors.sigma, Eigen::Vector4d(0.1, 0.2, 0.0, 0.0));
+  EXPECT_TRUE(other.plain()) << "what is not known cannot be corrected for";
+}
+
+TEST(KnownSensor, EveryMistakeIsASentence) {
+  using testing::ElementsAre;
+  EXPECT_THAT(mistakes("mounting: {x: 60, yaw: 1}\n"),
+              ElementsAre("s.yaml:1: mounting.x = 60: must be a number -50..50 m",
+                          testing::StartsWith("s.yaml:1: mounting.yaw: is not a known key")));
+  EXPECT_THAT(mistakes("bias_sigma: {bearing: -0.1}\n"),
+              ElementsAre("s.yaml:1: bias_sigma.bearing = -0.1: must be a number 0..0.5 rad"));
+  EXPECT_THAT(mistakes("bias: {x: 1}\nbias_sigma:\n  range: 1\n"),
+              ElementsAre("s.yaml:3: bias_sigma.range = 1: must not be given with errors in other axes: either x and "
+                          "y, or range, bearing and range_rate"));
+  EXPECT_THAT(mistakes("bias_sigma: {time: 2 s}\n"), testing::SizeIs(1));
+  EXPECT_THAT(mistakes("bias: {time: 2 ms}\n"), testing::SizeIs(1));
+}
+
+// A sensor that is turned and wrong by what is known sees the truth when that is taken out.
+TEST(KnownSensor, PlacedIsWhatIsThere) {
+  KnownSensor sensor;
+  sensor.mounting = {.position = {2.0, -1.0}, .yaw = 2.0};
+  const Eigen::Vector2d there(-20.0, 15.0), from_here = there - sensor.mounting.position;
+  const double range = from_here.norm(), bearing = std::atan2(from_here.y(), from_here.x()) - sensor.mounting.yaw;
+  sensor.errors.known << 0.5, 0.1, 0.25;
+  Observation z = position((range + 0.5) * std::cos(bearing + 0.1), (range + 0.5) * std::sin(bearing + 0.1), 0.3);
+  z.r(0, 0) = 0.04;
+  z.has_heading = true;
+  z.heading = 0.3 - sensor.mounting.yaw + 0.1;
+  Observation r = radar(range + 0.5, bearing + 0.1, 1.25, 0.1, 0.1, 0.1);
+  place(z, SensorId{3}, sensor);
+  place(r, SensorId{3}, sensor);
+  EXPECT_EQ(z.sensor, SensorId{3});
+  EXPECT_LT((z.z.head<2>() - there).norm(), 1e-12);
+  EXPECT_NEAR(z.heading, 0.3, 1e-12);
+  // The error ellipse has turned with it.
+  const double turned = sensor.mounting.yaw - 0.1, c = std::cos(turned), s = std::sin(turned);
+  EXPECT_NEAR(z.r(0, 0), 0.04 * c * c + 0.09 * s * s, 1e-12);
+  EXPECT_EQ(z.r(0, 1), z.r(1, 0));
+  EXPECT_NEAR(r.z(0), range, 1e-12);
+  EXPECT_NEAR(r.z(1), bearing, 1e-12);
+  EXPECT_NEAR(r.z(2), 1.0, 1e-12);
+
+  sensor.errors.axes = ErrorAxes::kCartesian;
+  sensor.errors.known << 0.5, -0.3, 0.0;
+  const Eigen::Vector2d moved(range * std::cos(bearing) + 0.5, range * std::sin(bearing) - 0.3);
+  z = position(moved.x(), moved.y(), 0.3);
+  r = radar(moved.norm(), std::atan2(moved.y(), moved.x()), 1.0, 0.1, 0.1, 0.1);
+  place(z, SensorId{3}, sensor);
+  place(r, SensorId{3}, sensor);
+  EXPECT_LT((z.z.head<2>() - there).norm(), 1e-12);
+  EXPECT_NEAR(r.z(0), range, 1e-12);
+  EXPECT_NEAR(std::remainder(r.z(1) - bearing, 2.0 * std::numbers::pi), 0.0, 1e-12);
+}
+
+TEST(KnownSensor, OfNothingKnownNothingChanges) {
+  Observation z = position(-0.0, 3.0, 0.3);
+  const Observation before = z;
+  place(z, SensorId{1}, KnownSensor{});
+  EXPECT_EQ(z.z, before.z);
+  EXPECT_TRUE(std::signbit(z.z(0)));
+  EXPECT_EQ(z.r, before.r);
+}
+
+}  // namespace
+}  // namespace ttf::fusion

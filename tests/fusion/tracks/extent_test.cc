@@ -1,0 +1,132 @@
+// Length and width from lengths, widths and spans.
+#include "fusion/tracks/extent.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/random.h"
+
+namespace ttf::fusion {
+namespace {
+
+// Oracle: the outline walked along, in the sensor's frame.
+double walked(double range, double aspect, const Eigen::Vector2d& size) {
+  double low = 10.0, high = -10.0;
+  for (int k = 0; k <= 4000; ++k) {
+    const double s = 4.0 * k / 4000.0, f = s - std::floor(s);
+    const double u = s < 1 ? f : s < 2 ? 1.0 : s < 3 ? 1.0 - f : 0.0;
+    const double v = s < 1 ? 0.0 : s < 2 ? f : s < 3 ? 1.0 : 1.0 - f;
+    const double along = (u - 0.5) * size(0), across = (v - 0.5) * size(1);
+    const double azimuth = std::atan2(std::sin(aspect) * along + std::cos(aspect) * across,
+                                      range + std::cos(aspect) * along - std::sin(aspect) * across);
+    low = std::min(low, azimuth);
+    high = std::max(high, azimuth);
+  }
+  return high - low;
+}
+
+TEST(Subtended, IsTheOutlinesAndItsDerivativesAreTheNumericOnes) {
+  const Eigen::Vector2d size(4.4, 1.8);
+  for (const double range : {6.0, 20.0, 60.0})
+    for (int k = 0; k < 24; ++k) {
+      const double aspect = 0.1 + k * std::numbers::pi / 12.0, h = 1e-6;
+      const Subtended s = subtended(range, aspect, size);
+      EXPECT_NEAR(s.angle, walked(range, aspect, size), 2e-6);
+      for (Eigen::Index d = 0; d < 2; ++d) {
+        const Eigen::Vector2d step = h * Eigen::Vector2d::Unit(d);
+        EXPECT_NEAR(
+            s.by_size(d),
+            (subtended(range, aspect, size + step).angle - subtended(range, aspect, size - step).angle) / (2 * h),
+            1e-7);
+      }
+    }
+}
+
+TEST(Subtended, NothingWhereTheOutlineReachesBehindTheSensor) { EXPECT_EQ(subtended(2.0, 0.0, {4.4, 1.8}).angle, 0.0); }
+
+Aspect seen(double range, double angle, double sigma_angle) { return {range, 0.05, angle, sigma_angle}; }
+double span_of(double range, double angle) { return subtended(range, angle, {4.4, 1.8}).angle; }
+
+// 20 m ahead, from behind and from the side: what the outline shows becomes known, the other does not.
+TEST(Extent, ASpanTellsWhatIsTurnedToTheSensor) {
+  Extent behind, beside;
+  for (int k = 0; k < 10; ++k) {
+    correct_span(behind, seen(20.0, 0.0, 0.02), span_of(20.0, 0.0), 0.002);
+    correct_span(beside, seen(20.0, std::numbers::pi / 2, 0.02), span_of(20.0, std::numbers::pi / 2), 0.002);
+  }
+  EXPECT_TRUE(behind.knows_width());
+  EXPECT_FALSE(behind.knows_length());
+  EXPECT_NEAR(behind.size(1), 1.8, 3.0 * std::sqrt(behind.covariance(1, 1)));
+  EXPECT_TRUE(beside.knows_length());
+  EXPECT_FALSE(beside.knows_width());
+  EXPECT_NEAR(beside.size(0), 4.4, 3.0 * std::sqrt(beside.covariance(0, 0)));
+  EXPECT_NEAR(beside.size(1), 1.8, 0.1) << "a side is no width";
+}
+
+// At 45 degrees the span is a mixture: alone it tells neither, with a length it tells the width.
+TEST(Extent, AMixtureTellsOneWhereTheOtherIsKnown) {
+  Extent extent;
+  for (int k = 0; k < 10; ++k)
+    correct_span(extent, seen(25.0, std::numbers::pi / 4, 0.02), span_of(25.0, std::numbers::pi / 4), 0.001);
+  EXPECT_LT(extent.covariance(0, 1), 0.0) << "the longer, the narrower";
+  EXPECT_FALSE(extent.knows_width());
+  const double before = extent.covariance(1, 1);
+  correct_length(extent, 4.4, 0.05);
+  EXPECT_LT(extent.covariance(1, 1), 0.5 * before);
+  EXPECT_NEAR(extent.size(1), 1.8, 3.0 * std::sqrt(extent.covariance(1, 1)));
+}
+
+// An aspect that is off by the same in every one of 200 scans: the error stays within what is stated.
+TEST(Extent, ErrorsThatRepeatAreNotAveragedAway) {
+  RandomStream stream({.seed = 4});
+  for (const double angle : {0.0, 0.7, std::numbers::pi / 2, 2.6}) {
+    double squares = 0.0;
+    int n = 0;
+    for (int drive = 0; drive < 200; ++drive) {
+      const double sigma = 0.05, off = sigma * stream.normal();
+      Extent extent;
+      correct_length(extent, 4.4 + 0.2 * stream.normal(), 0.2);
+      for (int k = 0; k < 200; ++k)
+        correct_span(extent, seen(20.0, angle + off, sigma), span_of(20.0, angle) + 0.002 * stream.normal(), 0.002);
+      const Eigen::Vector2d error = extent.size - Eigen::Vector2d(4.4, 1.8);
+      squares += error.dot(extent.covariance.inverse() * error);
+      ++n;
+    }
+    EXPECT_LT(squares / n, 2.0 * 1.3) << "aspect " << angle;
+    EXPECT_GT(squares / n, 0.2) << "aspect " << angle;
+  }
+}
+
+TEST(Extent, NorAreThoseOfLengthsAndWidths) {
+  Extent extent;
+  for (int k = 0; k < 1000; ++k) correct_width(extent, 1.7, 0.1);
+  EXPECT_NEAR(extent.size(1), 1.7, 0.01);
+  EXPECT_GE(extent.covariance(1, 1), 0.5 * 0.1 * 0.1 - 1e-12);
+  EXPECT_LT(extent.covariance(1, 1), 0.51 * 0.1 * 0.1);
+}
+
+TEST(Extent, WhatCannotBeJudgedChangesNothing) {
+  const auto unchanged = [](const Aspect& aspect, double span) {
+    Extent extent;
+    correct_span(extent, aspect, span, 0.002);
+    return extent.size == Extent{}.size && extent.covariance == Extent{}.covariance;
+  };
+  EXPECT_TRUE(unchanged(seen(20.0, 0.0, 0.5), 0.1)) << "aspect not known";
+  EXPECT_TRUE(unchanged(seen(2.0, 0.0, 0.02), 1.5)) << "outline around the sensor";
+  EXPECT_TRUE(unchanged(seen(20.0, 0.0, 0.02), 0.5)) << "10 m across: some other thing";
+  EXPECT_FALSE(unchanged(seen(20.0, 0.0, 0.02), 0.1));
+}
+
+TEST(Extent, ForgetsAtTheStatedRate) {
+  Extent extent;
+  predict(extent, 0.01, 2.0);
+  EXPECT_NEAR(extent.covariance(0, 0), 4.0 + 0.02, 1e-12);
+  EXPECT_NEAR(extent.covariance(1, 1), 0.25 + 0.02, 1e-12);
+}
+
+}  // namespace
+}  // namespace ttf::fusion

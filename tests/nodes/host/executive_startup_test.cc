@@ -1,0 +1,175 @@
+// A node that starts up says what its controller does and why.
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "tests/nodes/host/one_node.h"
+
+namespace ttf::nodes {
+namespace {
+
+// Records outlive the call here, so their words are copied.
+struct Told final : records::Sink {
+  struct Change {
+    std::int64_t at;  // us of true time since power-on
+    int from, to;
+    std::string from_name, to_name, why, consequence;
+    bool operator==(const Change&) const = default;
+    friend void PrintTo(const Change& c, std::ostream* out) {
+      *out << c.at << ": " << c.from_name << " -> " << c.to_name << ", " << c.why << "; " << c.consequence << '\n';
+    }
+  };
+  struct Symbol {
+    std::int64_t start, end;
+    int channel, kind;
+    bool operator==(const Symbol&) const = default;
+  };
+  std::vector<Change> changes;
+  std::vector<Symbol> symbols;
+  std::vector<std::int64_t> powered;  // us
+  int of_the_cluster = 0;             // records with a global time of their own
+
+  using records::Sink::on;
+  void on(const records::StateChanged& r) override {
+    changes.push_back({r.stamp.true_time.ns / 1000, r.from, r.to, std::string(r.from_name), std::string(r.to_name),
+                       std::string(r.why), std::string(r.consequence)});
+    of_the_cluster += r.stamp.global.ns != r.stamp.local.ns ? 1 : 0;
+  }
+  void on(const records::PowerChanged& r) override {
+    EXPECT_TRUE(r.on);
+    powered.push_back(r.stamp.true_time.ns / 1000);
+  }
+  void on(const records::SymbolSent& r) override {
+    symbols.push_back({r.stamp.true_time.ns / 1000, r.end.true_time.ns / 1000, r.channel, r.kind});
+    of_the_cluster += r.end.global.ns != r.end.local.ns ? 1 : 0;
+  }
+};
+
+struct ColdNode {
+  schedules::Cluster cluster = bus::small_cluster(4);  // node 0 is a coldstart node
+  bus::NoPort port;
+  NoLines lines;
+  Told told;
+  std::unique_ptr<Executive> executive;
+
+  explicit ColdNode(std::optional<bus::InitialClock> clock = std::nullopt, ColdStart cold = ColdStart::kStarts,
+                    Duration boots = {}) {
+    cluster.flexray.gColdStartAttempts = 2;
+    cluster.nodes[0].flexray->pdListenTimeout = 2 * (bus::kMicroPerCycle + 121);
+    const ExecutiveConfig config{&cluster, NodeId{0}, timebase::Oscillator(25'000, 0, 0), clock, 1, 0, {}, cold, boots};
+    executive = std::make_unique<Executive>(config, std::vector<std::shared_ptr<Step>>{}, &port,
+                                            std::vector<bus::CanPort*>{}, lines, told);
+  }
+  void run_to(std::int64_t us) {
+    const Microticks end{40 * us};
+    for (Microticks next = executive->next_event(); next <= end; next = executive->next_event())
+      executive->advance(next);
+  }
+};
+
+// Two attempts allowed are two CAS: after the listen timeout of 2 * 40 121 microticks, and after the silent cycle.
+// Cycle 0 begins a macrotick after the end of the CAS, which lasts 39 bits of 0.1 us; the node gives up at the end of
+// cycle 4.
+TEST(ExecutiveStartup, EveryChangeOfStateIsReportedWithItsReason) {
+  ColdNode node;
+  node.run_to(60'000);
+  constexpr const char* kTimeout =
+      "the channels were idle for the listen timeout: it sends a collision avoidance symbol to start the cluster";
+  constexpr const char* kLeads = "no other node tried to start the cluster in four cycles: it leads";
+  constexpr const char* kNobody = "no other node's startup frame came in the first cycle of the check";
+  constexpr const char* kResolution = "coldstart collision resolution";
+  constexpr const char* kCheck = "coldstart consistency check";
+  EXPECT_EQ(node.told.changes, (std::vector<Told::Change>{
+                                   {0, 0x00, 0x0F, "default config", "config", "the host commanded CONFIG", ""},
+                                   {0, 0x0F, 0x01, "config", "ready", "the host completed the configuration", ""},
+                                   {0, 0x01, 0x21, "ready", "coldstart listen", "the host commanded RUN",
+                                    "it may start the cluster if nobody else does"},
+                                   {2'006, 0x21, 0x22, "coldstart listen", kResolution, kTimeout, ""},
+                                   {6'010, 0x22, 0x23, kResolution, kCheck, kLeads, ""},
+                                   {7'010, 0x23, 0x24, kCheck, "coldstart gap", kNobody, ""},
+                                   {8'010, 0x24, 0x22, "coldstart gap", kResolution,
+                                    "the silent cycle is over: it sends a collision avoidance symbol once more", ""},
+                                   {12'015, 0x22, 0x23, kResolution, kCheck, kLeads, ""},
+                                   {13'015, 0x23, 0x27, kCheck, "integration listen", kNobody,
+                                    "its coldstart attempts are exhausted: it can only join others"},
+                               }));
+}
+
+TEST(ExecutiveStartup, SymbolsAreReportedOnEachChannelTheyLeaveOn) {
+  ColdNode node;
+  node.run_to(60'000);
+  EXPECT_EQ(node.told.symbols, (std::vector<Told::Symbol>{{2'006, 2'009, 0, records::kSymbolCas},
+                                                          {2'006, 2'009, 1, records::kSymbolCas},
+                                                          {8'010, 8'014, 0, records::kSymbolCas},
+                                                          {8'010, 8'014, 1, records::kSymbolCas}}));
+}
+
+// It has no global time then, and says so: its own once more.
+TEST(ExecutiveStartup, WhatHappensBeforeNormalOperationHasLocalTimeForGlobalTime) {
+  ColdNode node;
+  node.run_to(60'000);
+  EXPECT_EQ(node.told.of_the_cluster, 0);
+}
+
+bus::Reception heard_until(std::int64_t us, bus::Signal signal) {
+  return {schedules::Channel::kA, signal, {40 * (us - 50)}, {40 * us}, {}};
+}
+
+// Two patterns of 60 bits and 180 idle ones, 48 us, after the listen timeout of 2006 us; then start-up, which listens
+// anew.
+TEST(ExecutiveStartup, WhoWakesSendsThePatternOnOneChannelAndStartsUpAfterwards) {
+  ColdNode node(std::nullopt, ColdStart::kWakes);
+  node.run_to(4'500);
+  ASSERT_EQ(node.told.symbols.size(), 3u);
+  EXPECT_EQ(node.told.symbols[0], (Told::Symbol{2'006, 2'054, 0, records::kSymbolWakeup}));
+  EXPECT_EQ(node.told.symbols[1].start, 2'054 + 2'006);
+  EXPECT_EQ(node.told.symbols[1].kind, records::kSymbolCas);
+  std::vector<std::string> states;
+  for (const Told::Change& change : node.told.changes) states.push_back(change.to_name);
+  EXPECT_EQ(states, (std::vector<std::string>{"config", "ready", "wakeup listen", "wakeup send", "ready",
+                                              "coldstart listen", "coldstart collision resolution"}));
+}
+
+// Somebody else's pattern ends a wake-up as well as its own.
+TEST(ExecutiveStartup, WhoWakesStartsUpAtOnceWhenSomebodyElseWasFaster) {
+  ColdNode node(std::nullopt, ColdStart::kWakes);
+  node.run_to(1'000);
+  node.executive->receive(heard_until(1'000, bus::Signal::kWakeup));
+  ASSERT_EQ(node.told.changes.size(), 5u);
+  EXPECT_EQ(node.told.changes[3].why, "somebody else sent a wake-up pattern first");
+  EXPECT_EQ(node.told.changes[4].to_name, "coldstart listen");
+  EXPECT_EQ(node.told.changes[4].at, 1'000);
+}
+
+TEST(ExecutiveStartup, WhoSleepsHearsNothingButAWakeupPattern) {
+  ColdNode node(std::nullopt, ColdStart::kSleeps, Duration::milliseconds(3));
+  node.executive->receive(heard_until(100, bus::Signal::kCas));
+  node.executive->receive(heard_until(300, bus::Signal::kUndecodable));
+  node.run_to(20'000);
+  EXPECT_TRUE(node.told.changes.empty());
+  EXPECT_EQ(node.executive->clock(), nullptr);
+
+  node.executive->receive(heard_until(20'000, bus::Signal::kWakeup));
+  node.executive->receive(heard_until(21'000, bus::Signal::kWakeup));
+  node.run_to(22'999);
+  EXPECT_TRUE(node.told.powered.empty());
+  node.run_to(24'000);
+  EXPECT_EQ(node.told.powered, std::vector<std::int64_t>{23'000}) << "3 ms after the first pattern";
+  ASSERT_EQ(node.told.changes.size(), 3u);
+  EXPECT_EQ(node.told.changes[2].to_name, "coldstart listen");
+  EXPECT_EQ(node.told.changes[2].at, 23'000);
+}
+
+TEST(ExecutiveStartup, ANodeThatBeginsIntegratedHasNothingToReport) {
+  ColdNode node(bus::InitialClock{{1000}, 0});
+  node.run_to(60'000);
+  EXPECT_TRUE(node.told.changes.empty());
+  EXPECT_TRUE(node.told.symbols.empty());
+}
+
+}  // namespace
+}  // namespace ttf::nodes

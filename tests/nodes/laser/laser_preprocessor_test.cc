@@ -1,0 +1,105 @@
+#include "nodes/laser/laser_preprocessor.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "core/errors.h"
+#include "tests/nodes/laser/emulated_scan.h"
+#include "tests/support/allocation_counter.h"
+
+namespace ttf::nodes {
+namespace {
+
+std::vector<world::ObjectState> fan() {
+  std::vector<world::ObjectState> cars;
+  for (int k = 0; k < 12; ++k) {
+    const double azimuth = 0.072 * (k - 5.5), range = k % 2 == 0 ? 35.0 : 22.0;
+    cars.push_back(
+        car_at(range * std::cos(azimuth), range * std::sin(azimuth), azimuth, 4.4, 1.8, static_cast<std::uint16_t>(k)));
+  }
+  return cars;
+}
+
+TEST(LaserPreprocessor, FindsEachCarOnce) {
+  LaserPreprocessor preprocessor({}, kMostPoints);
+  const std::vector<world::ObjectState> cars = {car_at(20.0, -6.0, 0.0), car_at(35.0, 0.0, 0.3, 4.4, 1.8, 1),
+                                                car_at(15.0, 6.0, std::numbers::pi / 2, 4.4, 1.8, 2)};
+  std::vector<LaserObject> objects;
+  for (std::uint32_t sequence = 0; sequence < 20; ++sequence) {
+    preprocessor.process(emulated_scan({}, cars, sequence), objects);
+    ASSERT_EQ(objects.size(), 3U);
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_LT(std::hypot(objects[i].x - cars[i].x, objects[i].y - cars[i].y), 1.0) << "car " << i;
+    EXPECT_LT(objects[0].y / objects[0].x, objects[1].y / objects[1].x) << "not from right to left";
+  }
+}
+
+TEST(LaserPreprocessor, WallsAndSpecksAreNoObjects) {
+  LaserPreprocessor preprocessor({}, kMostPoints);
+  std::vector<LaserObject> objects(3);
+  const std::vector<ScanPoint> specks = {{0, -0.3, 30.0}, {1, -0.3, 30.05}, {2, 0.2, 12.0}};
+  preprocessor.process(specks, objects);
+  EXPECT_TRUE(objects.empty()) << "two returns are fewer than fewest_points; the list is replaced";
+  preprocessor.process(emulated_scan({}, {car_at(20.0, 0.0, 0.0, 1.0, 25.0)}, 0), objects);
+  EXPECT_TRUE(objects.empty()) << "a wall of 25 m";
+  preprocessor.process({}, objects);
+  EXPECT_TRUE(objects.empty());
+}
+
+TEST(LaserPreprocessor, SameScanSameBits) {
+  LaserPreprocessor used({}, kMostPoints), fresh({}, kMostPoints);
+  std::vector<LaserObject> first, second;
+  for (std::uint32_t sequence = 0; sequence < 5; ++sequence) used.process(emulated_scan({}, fan(), sequence), first);
+  fresh.process(emulated_scan({}, fan(), 4), second);
+  ASSERT_EQ(first.size(), second.size());
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    EXPECT_EQ(first[i].x, second[i].x);
+    EXPECT_EQ(first[i].syy, second[i].syy);
+    EXPECT_EQ(first[i].heading, second[i].heading);
+  }
+}
+
+// A scan of returns in groups that belong together, each group far from the next: as many segments as it can have with
+// a group of one, as many objects with the fewest returns an object may have.
+std::vector<ScanPoint> broken_scan(std::size_t group) {
+  std::vector<ScanPoint> scan;
+  for (std::size_t i = 0; i < kMostPoints; ++i)
+    scan.push_back({0, -2.8 + 0.00436 * static_cast<double>(i), (i / group) % 2 == 0 ? 20.0 : 30.0});
+  return scan;
+}
+
+TEST(LaserPreprocessor, DoesNotAllocate) {
+  LaserPreprocessor preprocessor({}, kMostPoints);
+  std::vector<std::vector<ScanPoint>> scans;
+  for (std::uint32_t sequence = 0; sequence < 20; ++sequence) scans.push_back(emulated_scan({}, fan(), sequence));
+  const auto single = broken_scan(1), triple = broken_scan(3);
+  std::vector<LaserObject> objects;
+  objects.reserve(preprocessor.most_objects());
+  const std::int64_t before = support::allocations();
+  for (const auto& scan : scans) preprocessor.process(scan, objects);
+  EXPECT_EQ(support::allocations(), before);
+  EXPECT_GE(objects.size(), 10U);
+  preprocessor.process(single, objects);
+  EXPECT_EQ(support::allocations(), before);
+  EXPECT_TRUE(objects.empty());
+  preprocessor.process(triple, objects);
+  EXPECT_EQ(support::allocations(), before);
+  EXPECT_EQ(objects.size(), preprocessor.most_objects());
+}
+
+TEST(LaserPreprocessor, ItsKeysAreChecked) {
+  const StrictYaml yaml = StrictYaml::parse("{range_noise: -1, fewest_points: 4, colour: red}", "test.yaml");
+  Findings findings;
+  YamlMap root = yaml.root(findings);
+  const LaserPreprocessingConfig config = load_laser_preprocessing(root);
+  root.finish();
+  EXPECT_EQ(config.fewest_points, 4);
+  EXPECT_EQ(findings.size(), 2U);
+}
+
+}  // namespace
+}  // namespace ttf::nodes

@@ -1,0 +1,75 @@
+// A real scanner in a real street (a recording that is not part of the repository): no ground truth, so
+// what is asked for is that the boxes are plausible as vehicles and hold still from scan to scan.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "nodes/laser/laser_preprocessor.h"
+#include "recording/rows/laser_radar_file.h"
+#include "tests/support/recordings.h"
+
+namespace ttf::nodes {
+namespace {
+
+constexpr const char* kScans = "lidar_scans/scans.csv";
+
+std::vector<std::vector<ScanPoint>> street_scans() {
+  const std::string path = support::recording_path(kScans);
+  std::vector<std::vector<ScanPoint>> scans;
+  if (!std::filesystem::exists(path)) return scans;
+  for (const recording::RecordedScan& recorded : recording::read_lidar_scans(path)) {
+    std::vector<ScanPoint>& scan = scans.emplace_back();
+    for (const recording::RecordedReturn& hit : recorded.returns) scan.push_back({0, hit.azimuth_rad, hit.range_m});
+  }
+  return scans;
+}
+
+// Ten scans a second in a city, where 50 km/h is the limit: what is there is within 1.4 m of where it was, and a
+// little.
+constexpr double kMostStep_m = 1.5;
+
+TEST(StreetScans, YieldPlausibleVehicles) {
+  const auto scans = street_scans();
+  if (scans.empty()) GTEST_SKIP() << support::recording_missing(kScans);
+  ASSERT_EQ(scans.size(), 22U);
+  std::size_t most_points = 0;
+  for (const auto& scan : scans) most_points = std::max(most_points, scan.size());
+  LaserPreprocessor preprocessor({}, most_points);
+  std::vector<LaserObject> objects, last;
+  std::size_t steady = 0, compared = 0;
+  for (const auto& scan : scans) {
+    preprocessor.process(scan, objects);
+    std::size_t vehicles = 0;
+    for (const LaserObject& o : objects) {
+      EXPECT_TRUE(std::isfinite(o.x) && std::isfinite(o.y) && std::isfinite(o.heading));
+      EXPECT_GT(o.sxx * o.syy - o.sxy * o.sxy, 0.0);
+      EXPECT_GE(o.points, 3);
+      EXPECT_LE(o.length, LaserPreprocessingConfig{}.longest_extent_m + 0.5);
+      EXPECT_GT(o.length, 0.5);
+      EXPECT_GT(o.width, 0.3);
+      if (o.has_width) {
+        EXPECT_LT(o.width, 2.7);
+      }
+      const bool vehicle = o.has_length && o.length > 3.0 && o.length < 6.5;
+      vehicles += vehicle;
+      if (vehicle && !last.empty() && std::hypot(o.x, o.y) < 30.0) {
+        ++compared;
+        steady += std::any_of(last.begin(), last.end(),
+                              [&](const LaserObject& p) { return std::hypot(p.x - o.x, p.y - o.y) < kMostStep_m; });
+      }
+    }
+    EXPECT_GE(objects.size(), 5U);
+    EXPECT_LE(objects.size(), 60U);
+    EXPECT_GE(vehicles, 1U);
+    last = objects;
+  }
+  ASSERT_GT(compared, 20U);
+  EXPECT_GT(static_cast<double>(steady), 0.8 * static_cast<double>(compared));
+}
+
+}  // namespace
+}  // namespace ttf::nodes

@@ -1,0 +1,95 @@
+// Observation lists as the fusion node understands them.
+#include "nodes/sensing/observation_codec.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+#include "core/random.h"
+#include "nodes/host/step.h"
+#include "schedules/file/loader.h"
+
+namespace ttf::nodes {
+namespace {
+
+struct List {
+  schedules::Cluster cluster;
+  PduId pdu;
+  const schedules::PduLayout& layout;
+  ObservationCodec codec;
+  Output out;
+
+  List(const std::string& file, std::string_view name)
+      : cluster(schedules::load_cluster(TTF_SOURCE_DIR "/schedules/" + file)), pdu(*cluster.find_pdu(name)),
+        layout(cluster.pdu(pdu)), codec(cluster, pdu), out("objects", pdu, layout) {}
+  void set(int index, std::string_view signal, double value) {
+    out.set(index, *schedules::find_signal(layout.element, signal), value);
+  }
+  std::vector<fusion::Observation> decoded() const {
+    std::vector<fusion::Observation> observations;
+    codec.decode(out.view(), observations);
+    return observations;
+  }
+};
+
+TEST(ObservationCodec, ACamerasSilhouetteIsASpanNotAWidth) {
+  List list("paper_synchronised.yaml", "camera_objects");
+  list.out.begin(0, 2, GlobalTime{});
+  list.set(1, "x", 20.0);
+  list.set(1, "span", 0.22);
+  list.set(1, "sigma_span", 0.002);
+  const auto observations = list.decoded();
+  ASSERT_EQ(observations.size(), 2u);
+  const fusion::Observation& z = observations[1];
+  EXPECT_EQ(z.z(0), 20.0);
+  EXPECT_TRUE(z.has_span);
+  EXPECT_NEAR(z.span, 0.22, 0.00025 + 1e-12);
+  EXPECT_NEAR(z.sigma_span, 0.002, 0.0001 + 1e-12);
+  EXPECT_FALSE(z.has_width || z.has_length || z.has_heading);
+}
+
+TEST(ObservationCodec, ALasersValidBitsAreThree) {
+  List list("paper_synchronised.yaml", "laser_objects");
+  list.out.begin(0, 8, GlobalTime{});
+  for (int bits = 0; bits < 8; ++bits) list.set(bits, "valid", bits);
+  const auto observations = list.decoded();
+  for (int bits = 0; bits < 8; ++bits) {
+    const fusion::Observation& z = observations[static_cast<std::size_t>(bits)];
+    EXPECT_EQ(z.has_heading, (bits & 1) != 0);
+    EXPECT_EQ(z.has_length, (bits & 2) != 0);
+    EXPECT_EQ(z.has_width, (bits & 4) != 0);
+    EXPECT_FALSE(z.has_span);
+  }
+}
+
+// Whatever bytes arrive: covariances are positive definite, sigmas above zero, and all is finite.
+TEST(ObservationCodec, AnyBytesMakeUsableObservations) {
+  RandomStream draw({.seed = 12});
+  for (const auto& [file, name] : {std::pair{"paper_synchronised.yaml", "laser_objects"},
+                                   {"paper_synchronised.yaml", "camera_objects"},
+                                   {"laser_radar.yaml", "radar_objects"}}) {
+    List list(file, name);
+    for (int round = 0; round < 200; ++round) {
+      list.out.begin(0, list.layout.max_elements, GlobalTime{});
+      for (int i = 0; i < list.layout.max_elements; ++i)
+        for (std::size_t s = 0; s < list.layout.element.size(); ++s) {
+          const schedules::Signal& signal = list.layout.element[s];
+          const double extreme[] = {signal.low, signal.high, draw.uniform(signal.low, signal.high)};
+          list.out.set(i, s, extreme[draw.integer(0, 2)]);
+        }
+      for (const fusion::Observation& z : list.decoded()) {
+        const int n = fusion::dimension_of(z.kind);
+        ASSERT_TRUE(z.z.allFinite() && z.r.allFinite());
+        ASSERT_EQ(Eigen::LLT<Eigen::MatrixXd>(z.r.topLeftCorner(n, n)).info(), Eigen::Success) << name;
+        ASSERT_TRUE(!z.has_heading || z.sigma_heading > 0.0);
+        ASSERT_TRUE(!z.has_length || z.sigma_length > 0.0);
+        ASSERT_TRUE(!z.has_width || z.sigma_width > 0.0);
+        ASSERT_TRUE(!z.has_span || z.sigma_span > 0.0);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ttf::nodes

@@ -1,0 +1,203 @@
+// Nothing of a record is lost on its way through a log. Payloads are filled by reflection over the format itself, so
+// that a field nobody encodes or decodes shows however it is called; and a record has as many fields as its payload.
+#include <google/protobuf/util/message_differencer.h>
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "recording/log/codec.h"
+#include "recording/log/reader.h"
+#include "recording/records/every.h"
+#include "tests/recording/log/log_fixture.h"
+
+namespace ttf::recording {
+namespace {
+
+using google::protobuf::FieldDescriptor;
+using google::protobuf::Message;
+
+// Sets every field of a payload, each to a value of its own that is not the default. Numbers count from 1, so that they
+// fit the smallest types; truth values are all true. Lists get `list` items, those of fixed size theirs.
+class Fill {
+ public:
+  explicit Fill(int list) : list_(list) {}
+
+  void fill(Message& message) {
+    const auto* descriptor = message.GetDescriptor();
+    for (int f = 0; f < descriptor->field_count(); ++f) {
+      const FieldDescriptor& field = *descriptor->field(f);
+      const int items = field.full_name() == "ttfusion.Track.state"        ? 6
+                        : field.full_name() == "ttfusion.Track.covariance" ? 36
+                                                                           : list_;
+      for (int i = 0; i < (field.is_repeated() ? items : 1); ++i) set(message, field);
+    }
+  }
+
+ private:
+  // Dispositions, hops, symbols, signals, what a fault does, what was not in its time and what a histogram is of are
+  // small choices, an object's status has four bits, a guardian and a timing problem one of two channels; everything
+  // else takes the next number.
+  std::uint32_t whole(const FieldDescriptor& field) {
+    if (field.full_name() == "ttfusion.Guardian.channel" || field.full_name() == "ttfusion.TimingProblem.channel")
+      return 1;
+    const bool small =
+        field.name() == "disposition" || field.name() == "hop" || field.full_name() == "ttfusion.ImageObject.status" ||
+        field.full_name() == "ttfusion.Symbol.kind" || field.full_name() == "ttfusion.Guardian.signal" ||
+        field.full_name() == "ttfusion.Fault.what" || field.full_name() == "ttfusion.TimingProblem.what" ||
+        field.full_name() == "ttfusion.Lateness.of";
+    return small ? 3 : ++next_;
+  }
+  void set(Message& message, const FieldDescriptor& field) {
+    const auto& reflection = *message.GetReflection();
+    const bool many = field.is_repeated();
+    switch (field.cpp_type()) {
+      case FieldDescriptor::CPPTYPE_UINT32: {
+        const std::uint32_t value = whole(field);
+        many ? reflection.AddUInt32(&message, &field, value) : reflection.SetUInt32(&message, &field, value);
+        break;
+      }
+      case FieldDescriptor::CPPTYPE_INT32:
+        reflection.SetInt32(&message, &field, static_cast<std::int32_t>(++next_));
+        break;
+      case FieldDescriptor::CPPTYPE_UINT64:
+        many ? reflection.AddUInt64(&message, &field, ++next_) : reflection.SetUInt64(&message, &field, ++next_);
+        break;
+      case FieldDescriptor::CPPTYPE_INT64: reflection.SetInt64(&message, &field, ++next_); break;
+      case FieldDescriptor::CPPTYPE_DOUBLE:
+        many ? reflection.AddDouble(&message, &field, ++next_) : reflection.SetDouble(&message, &field, ++next_);
+        break;
+      case FieldDescriptor::CPPTYPE_BOOL:
+        many ? reflection.AddBool(&message, &field, true) : reflection.SetBool(&message, &field, true);
+        break;
+      case FieldDescriptor::CPPTYPE_STRING:
+        reflection.SetString(&message, &field, std::string(1, static_cast<char>(++next_)));
+        break;
+      case FieldDescriptor::CPPTYPE_MESSAGE:
+        fill(many ? *reflection.AddMessage(&message, &field) : *reflection.MutableMessage(&message, &field));
+        break;
+      default: FAIL() << field.full_name() << " is of a type this test does not know";
+    }
+  }
+
+  int list_;
+  std::uint32_t next_ = 0;
+};
+
+// Encodes every record again.
+class Again final : public records::Every<Again> {
+ public:
+  Payloads payloads;
+  int seen = 0;
+
+  template <class Record> void each(const Record& record) {
+    encode(record, payloads);
+    ++seen;
+  }
+};
+
+std::string difference(const Message& expected, const Message& found) {
+  std::string text;
+  google::protobuf::util::MessageDifferencer differencer;
+  differencer.ReportDifferencesToString(&text);
+  return differencer.Compare(expected, found) ? "" : text;
+}
+
+TEST(LogFields, EveryFieldOfEveryPayloadIsDecodedAndEncoded) {
+  for (std::size_t k = 1; k <= kRecordKinds; ++k) {
+    const auto kind = static_cast<RecordKind>(k);
+    Payloads filled;
+    Message& payload = *filled.of(kind);
+    Fill(3).fill(payload);
+    std::vector<const FieldDescriptor*> set;
+    payload.GetReflection()->ListFields(payload, &set);
+    ASSERT_EQ(static_cast<int>(set.size()), payload.GetDescriptor()->field_count()) << "a field left at its default";
+    Again again;
+    Decoder decoder;
+    ASSERT_TRUE(decoder.decode(kind, payload.SerializeAsString(), again)) << topic_of(kind);
+    EXPECT_EQ(again.seen, 1);
+    EXPECT_EQ(difference(payload, *again.payloads.of(kind)), "") << topic_of(kind);
+  }
+}
+
+// The same through a file: read, written, and read again.
+TEST(LogFields, EveryFieldOfEveryPayloadIsInTheLog) {
+  for (std::size_t k = 1; k <= kRecordKinds; ++k) {
+    const auto kind = static_cast<RecordKind>(k);
+    Payloads filled;
+    Message& payload = *filled.of(kind);
+    Fill(2).fill(payload);
+    const std::string log = log_of([&](records::Sink& sink) {
+      Decoder decoder;
+      ASSERT_TRUE(decoder.decode(kind, payload.SerializeAsString(), sink));
+    });
+    Again again;
+    const LogInfo info = read_log_bytes(log, "memory", again);
+    EXPECT_EQ(info.warning, "");
+    EXPECT_EQ(again.seen, 1);
+    EXPECT_EQ(difference(payload, *again.payloads.of(kind)), "") << topic_of(kind);
+  }
+}
+
+// The number of fields of a struct: the most values it can be initialised from (with fewer it may not be: some types
+// have no default).
+struct Anything {
+  template <class T> operator T() const;  // never called
+};
+template <class T, std::size_t... I> constexpr bool takes(std::index_sequence<I...>) {
+  return requires { T{(static_cast<void>(I), Anything{})...}; };
+}
+template <class T, std::size_t kMost = 30> constexpr int fields_of() {
+  if constexpr (takes<T>(std::make_index_sequence<kMost>{}))
+    return kMost;
+  else
+    return fields_of<T, kMost - 1>();
+}
+
+template <class Record, class Payload> void expect_same_fields(int apart = 0) {
+  EXPECT_EQ(fields_of<Record>() + apart, Payload::descriptor()->field_count()) << Payload::descriptor()->full_name();
+}
+
+TEST(LogFields, ARecordHasAsManyFieldsAsItsPayload) {
+  struct Three {
+    int a;
+    std::span<const double, 6> b;
+    records::Stamp c;
+  };
+  ASSERT_EQ(fields_of<Three>(), 3);
+  expect_same_fields<records::Stamp, ttfusion::Stamp>();
+  expect_same_fields<MeasurementId, ttfusion::MeasurementId>();
+  expect_same_fields<records::ImageObject, ttfusion::ImageObject>();
+  expect_same_fields<records::Measured, ttfusion::Measured>();
+  expect_same_fields<records::CanFrameSent, ttfusion::CanFrame>();
+  expect_same_fields<records::SlotFrameSent, ttfusion::SlotFrame>();
+  expect_same_fields<records::SlotProblem, ttfusion::SlotProblem>();
+  expect_same_fields<records::ListHop, ttfusion::ListHop>();
+  expect_same_fields<records::TaskRun, ttfusion::TaskRun>();
+  expect_same_fields<records::ClockCorrected, ttfusion::ClockCorrected>();
+  expect_same_fields<records::PrecisionSample, ttfusion::Precision>();
+  expect_same_fields<records::FusionInput, ttfusion::FusionInput>();
+  expect_same_fields<records::ListFused, ttfusion::ListFused>();
+  expect_same_fields<records::FusionStep, ttfusion::FusionStep>();
+  expect_same_fields<records::TrackState, ttfusion::Track>();
+  expect_same_fields<records::ObservationSeen, ttfusion::Observation>();
+  expect_same_fields<records::ImageWritten, ttfusion::Image>();
+  // The objects are parallel lists there: images and a list for each other field of theirs.
+  expect_same_fields<records::FeatureUsed, ttfusion::Feature>(fields_of<records::FeatureObject>() - 1);
+  expect_same_fields<records::ReferenceFix, ttfusion::Reference>();
+  expect_same_fields<records::TruthState, ttfusion::Truth>();
+  expect_same_fields<records::StateChanged, ttfusion::StateChange>();
+  expect_same_fields<records::SymbolSent, ttfusion::Symbol>();
+  expect_same_fields<records::PowerChanged, ttfusion::Power>();
+  expect_same_fields<records::FaultActivity, ttfusion::Fault>();
+  expect_same_fields<records::GuardianIntervention, ttfusion::Guardian>();
+  expect_same_fields<records::ChannelFrame, ttfusion::ChannelFrame>();
+  expect_same_fields<records::TimingProblem, ttfusion::TimingProblem>();
+  expect_same_fields<records::LatenessHistogram, ttfusion::Lateness>();
+  expect_same_fields<records::MediumCounts, ttfusion::Medium>();
+}
+
+}  // namespace
+}  // namespace ttf::recording

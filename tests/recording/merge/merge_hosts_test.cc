@@ -1,0 +1,181 @@
+// Logs of several hosts, whose clocks are apart and drift: merged, they are on one time.
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <map>
+#include <memory>
+#include <tuple>
+
+#include "core/file_bytes.h"
+#include "recording/merge/common_time.h"
+#include "recording/merge/merge.h"
+#include "recording/merge/record_place.h"
+#include "tests/recording/log/log_fixture.h"
+#include "tests/recording/merge/split_log.h"
+#include "tests/drives/drive_fixture.h"
+
+namespace ttf::recording {
+namespace {
+
+using fusion::StrategyKind;
+using testing_support::Drive;
+
+TrueTime ms(std::int64_t n) { return TrueTime{} + Duration::milliseconds(n); }
+
+TEST(CommonTime, IsLinearBetweenItsPointsAndGoesOnAtTheHostsRate) {
+  const CommonTime time({{ms(10), ms(100)}, {ms(20), ms(120)}, {ms(40), ms(130)}});
+  EXPECT_EQ(time(ms(10)), ms(100));
+  EXPECT_EQ(time(ms(15)), ms(110));
+  EXPECT_EQ(time(ms(30)), ms(125));
+  EXPECT_EQ(time(ms(40)), ms(130));
+  EXPECT_EQ(time(ms(7)), ms(97));
+  EXPECT_EQ(time(ms(1000)), ms(1090));
+  EXPECT_EQ(CommonTime()(ms(7)), ms(7));
+  constexpr std::int64_t kLast = std::numeric_limits<std::int64_t>::max();
+  EXPECT_EQ(time(TrueTime{kLast}).ns, kLast);
+  EXPECT_EQ(CommonTime({{ms(10), ms(0)}})(TrueTime{-kLast}).ns, -kLast - 1);
+}
+
+// Where a record stands among the others is by its own time: so every kind has to be put on the common scale.
+TEST(CommonTime, MovesEveryKindOfRecord) {
+  struct Where final : Placing {
+    TrueTime at{};
+    void placed(const RecordPlace& place) override { at = place.at; }
+  };
+  const CommonTime later({{ms(0), ms(1000)}});
+  for (int kind = 1; kind <= static_cast<int>(kRecordKinds); ++kind) {
+    Where before, after;
+    OnCommonTime moved(later, after);
+    emit(before, kind, Values::kDrawn, 3, 5'000'000);
+    emit(moved, kind, Values::kDrawn, 3, 5'000'000);
+    EXPECT_GE(before.at, ms(4)) << kind;
+    EXPECT_EQ(after.at - before.at, Duration::milliseconds(1000)) << kind;
+  }
+}
+
+// A host's clock by the simulator's time: ahead, and faster, for the first 100 s.
+CommonTime host_clock(Duration ahead, std::int64_t ppm) {
+  const TrueTime end = ms(100'000);
+  return CommonTime({{TrueTime{}, TrueTime{} + ahead}, {end, end + ahead + Duration{ppm * 100'000}}});
+}
+
+// When each task ran, by what no merge changes: node, task and its node's local time.
+struct Runs final : records::Sink {
+  std::map<std::tuple<NodeId, std::uint8_t, LocalTime>, TrueTime> starts;
+  using records::Sink::on;
+  void on(const records::TaskRun& r) override { starts[{r.start.node, r.task, r.start.local}] = r.start.true_time; }
+};
+
+struct Host {
+  std::string name;
+  CommonTime clock;
+};
+
+// The drive as processes on these hosts log it; `host_of` says where each node is.
+struct Hosts {
+  Runs truth;
+  std::vector<std::string> paths;
+
+  Hosts(const Drive& drive, const std::vector<Host>& hosts, const std::function<std::size_t(NodeId)>& host_of) {
+    std::vector<std::unique_ptr<LogWriter>> writers;
+    std::vector<std::unique_ptr<OnCommonTime>> clocks;
+    for (const Host& host : hosts) {
+      LogManifest manifest = sample_manifest();
+      manifest.cycle_ns = drive.cluster.cycle().ns;
+      manifest.host = host.name;
+      paths.push_back(scratch(host.name + ".mcap"));
+      writers.push_back(std::make_unique<LogWriter>(paths.back(), manifest));
+      clocks.push_back(std::make_unique<OnCommonTime>(host.clock, *writers.back()));
+    }
+    std::vector<records::Sink*> of_node;
+    for (std::size_t n = 0; n < drive.cluster.nodes.size(); ++n)
+      of_node.push_back(clocks[host_of(static_cast<NodeId>(n))].get());
+    ByNode by_node(of_node);
+    records::Tee tee({&by_node, &truth});
+    drive.run(tee);
+    for (auto& writer : writers) writer->close();
+  }
+
+  // How far apart the times of what happened within the same 20 ms are, at most: what they gained on the simulator's
+  // time.
+  Duration most_apart(const std::function<void(records::Sink&)>& read) const {
+    Runs runs;
+    read(runs);
+    EXPECT_EQ(runs.starts.size(), truth.starts.size());
+    std::map<std::int64_t, std::pair<Duration, Duration>> gains;
+    for (const auto& [run, at] : truth.starts) {
+      const auto merged = runs.starts.find(run);
+      if (merged == runs.starts.end()) continue;
+      const Duration gain = merged->second - at;
+      const auto [entry, first] = gains.try_emplace(at.ns / 20'000'000, gain, gain);
+      entry->second = {std::min(entry->second.first, gain), std::max(entry->second.second, gain)};
+    }
+    Duration most{};
+    for (const auto& [when, gain] : gains) most = std::max(most, gain.second - gain.first);
+    return most;
+  }
+};
+
+TEST(MergeHosts, ClocksOfDifferentHostsAreBroughtTogether) {
+  const Drive drive("scenarios/paper_scenario1.yaml", StrategyKind::kTt);
+  const std::vector<Host> three{{"ash", host_clock(Duration{}, 0)},
+                                {"elm", host_clock(Duration::milliseconds(7), 80)},
+                                {"oak", host_clock(Duration::milliseconds(-40), -50)}};
+  const Hosts hosts(drive, three, [](NodeId node) { return index_of(node) % 3; });
+  const auto as_logged = [&](records::Sink& sink) {
+    for (const std::string& path : hosts.paths) read_log(path, sink);
+  };
+  EXPECT_GT(hosts.most_apart(as_logged), Duration::milliseconds(46));
+  const MergedLogs merged(hosts.paths);
+  EXPECT_EQ(merged.warnings(), std::vector<std::string>{});
+  EXPECT_LT(hosts.most_apart([&](records::Sink& sink) { merged.read(sink); }), Duration::microseconds(5));
+  EXPECT_EQ(merged.manifest().clock, kCommonClock);
+  EXPECT_EQ(merged.manifest().host, "");
+
+  // The same whatever the order; and on one time it stays.
+  write_merged(merged, scratch("forest.mcap"));
+  write_merged(MergedLogs({hosts.paths[2], hosts.paths[0], hosts.paths[1]}), scratch("other.mcap"));
+  const std::string bytes = read_file(scratch("forest.mcap"));
+  EXPECT_TRUE(bytes == read_file(scratch("other.mcap")));
+  write_merged(MergedLogs(std::vector<std::string>{scratch("forest.mcap")}), scratch("other.mcap"));
+  EXPECT_TRUE(bytes == read_file(scratch("other.mcap")));
+}
+
+// A node that restarts counts whole rounds of 64 cycles less than before.
+TEST(MergeHosts, ANodeThatRestartsStaysOnItsHostsTime) {
+  const Drive drive("scenarios/faulty_bus.yaml", StrategyKind::kTt);
+  const NodeId camera = drive.cluster.find_node("camera_pre").value();
+  const std::vector<Host> two{{"near", host_clock(Duration{}, 0)},
+                              {"far", host_clock(Duration::milliseconds(120), 100)}};
+  const Hosts hosts(drive, two, [&](NodeId node) { return node == camera ? std::size_t{1} : std::size_t{0}; });
+  const MergedLogs merged(hosts.paths);
+  EXPECT_LT(hosts.most_apart([&](records::Sink& sink) { merged.read(sink); }), Duration::microseconds(20));
+}
+
+TEST(MergeHosts, OnOneHostOrWithoutSynchronisationTimesStayAsTheyAre) {
+  const Drive drive("scenarios/paper_scenario1.yaml", StrategyKind::kTt);
+  const std::vector<Host> one{{"ash", host_clock(Duration::milliseconds(3), 10)}};
+  const Hosts alone(drive, one, [](NodeId) { return std::size_t{0}; });
+  const MergedLogs merged(alone.paths);
+  EXPECT_EQ(merged.manifest().clock, kWallClock);
+  EXPECT_EQ(merged.manifest().host, "ash");
+  Runs runs;
+  merged.read(runs);
+  const auto& [run, at] = *alone.truth.starts.begin();
+  EXPECT_EQ(runs.starts.at(run), host_clock(Duration::milliseconds(3), 10)(at));
+
+  const NodeId off_flexray = [&] {
+    std::size_t n = 0;
+    while (drive.cluster.nodes[n].flexray) ++n;
+    return static_cast<NodeId>(n);
+  }();
+  const std::vector<Host> two{{"ash", host_clock(Duration{}, 0)}, {"elm", host_clock(Duration::milliseconds(9), 0)}};
+  const Hosts apart(drive, two, [&](NodeId node) { return node == off_flexray ? std::size_t{1} : std::size_t{0}; });
+  const MergedLogs both(apart.paths);
+  EXPECT_EQ(both.warnings(),
+            std::vector<std::string>{"no node of host elm was synchronised: its logs' times are its own clock's"});
+  EXPECT_GT(apart.most_apart([&](records::Sink& sink) { both.read(sink); }), Duration::milliseconds(8));
+}
+
+}  // namespace
+}  // namespace ttf::recording

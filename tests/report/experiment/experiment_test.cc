@@ -1,0 +1,164 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "core/errors.h"
+#include "report/experiment/plots.h"
+#include "report/experiment/report.h"
+
+namespace ttf::report {
+namespace {
+
+constexpr const char* kPoint = R"({"point": %, "axes": {"road": "dry", "noise": "$"}, "paradigms": {
+  "adva": {"error": {"count": 3, "mean": 2.0, "half_width": 1.0}},
+  "tt": {"error": {"count": 3, "mean": #, "half_width": 1.0,
+                   "difference": {"count": 3, "mean": 0.5, "half_width": null}}}}})";
+
+std::string point(int number, const std::string& noise, const std::string& mean) {
+  std::string text = kPoint;
+  text.replace(text.find('%'), 1, std::to_string(number));
+  text.replace(text.find('$'), 1, noise);
+  text.replace(text.find('#'), 1, mean);
+  return text;
+}
+
+// Two points: at the first tt is less in every run by nearly the same, at the second by chance.
+class ExperimentReport : public testing::Test {
+ protected:
+  ExperimentReport() {
+    std::filesystem::remove_all(folder_);
+    std::filesystem::create_directories(folder_);
+    write(answer_of(point(0, "0.1 m", "1.0") + "," + point(1, "40 m", "1.9")));
+    results::Store store = results::Store::create(folder_ + "/results.sqlite", {"e", "id", "v", "text <&>", {"error"}});
+    std::vector<results::Run> runs;
+    for (std::uint32_t r = 0; r < 3; ++r) {
+      const double draw = r;
+      runs.push_back({{0, r, 0}, results::kDone, {draw + 2.0}});
+      runs.push_back({{0, r, 1}, results::kDone, {draw + 1.0 + 0.001 * draw}});
+      runs.push_back({{1, r, 0}, results::kDone, {draw}});
+      runs.push_back({{1, r, 1}, results::kDone, {2.0 - draw}});
+    }
+    store.add(runs);
+  }
+  ~ExperimentReport() override { std::filesystem::remove_all(folder_); }
+
+  static std::string answer_of(const std::string& points) {
+    return R"({"experiment": "e", "question": "Is <it> so?", "seed": 1, "confidence": 0.95, "runs": 12, "failed": 0,
+      "baseline": "adva", "answer": "a sentence.\n", "points": [)" +
+           points + R"(], "expectations":
+      [{"expected": "tt less than adva", "holds": false, "where_not": ["noise 40 m"]}]})";
+  }
+  void write(const std::string& answer) { std::ofstream(folder_ + "/answer.json") << answer; }
+  std::string page() { return experiment_report_html(read_experiment_folder(folder_), {}, {}); }
+  std::string refusal() {
+    try {
+      read_experiment_folder(folder_);
+    } catch (const InputError& error) {
+      return error.findings().at(0).sentence().substr(folder_.size() + 1);
+    }
+    return "";
+  }
+
+  std::string folder_ = testing::TempDir() + "ttf_experiment_report";
+};
+
+TEST_F(ExperimentReport, TheAnswerIsTheRunsOwn) {
+  const ExperimentFolder folder = read_experiment_folder(folder_);
+  EXPECT_EQ(experiment_answer(folder), "tt has the smallest error at all 2 points, for certain at 1.");
+  const std::string html = page();
+  for (const char* words :
+       {"Is &lt;it&gt; so?", "a sentence.", "Expected: tt less than adva. It does not hold for certain at noise 40 m",
+        "text &lt;&amp;&gt;", "+0.500 undecided", "--replay 0/adva/0"})
+    EXPECT_NE(html.find(words), std::string::npos) << words;
+}
+
+TEST_F(ExperimentReport, ItsCommandsNameTheFileThatWasDriven) {
+  EXPECT_NE(page().find("ttfusion experiment experiments/e.yaml --out again"), std::string::npos);
+  std::string answer = answer_of(point(0, "1", "1"));
+  write(answer.insert(1, R"("file": "my own/e.yaml", )"));
+  EXPECT_NE(page().find("ttfusion experiment 'my own/e.yaml' --out again"), std::string::npos);
+}
+
+TEST_F(ExperimentReport, WhyNoDriveIsShownIsSaid) {
+  EXPECT_EQ(page().find("One drive of each paradigm"), std::string::npos);
+  ExperimentDrives none;
+  none.why_none = "No drive is shown here: it <was> another.";
+  const std::string html = experiment_report_html(read_experiment_folder(folder_), none, {});
+  EXPECT_NE(html.find("No drive is shown here: it &lt;was&gt; another."), std::string::npos);
+  EXPECT_EQ(html.find("class=\"diagram\""), std::string::npos);
+}
+
+TEST_F(ExperimentReport, WithoutItsRunsNothingIsCertain) {
+  std::filesystem::remove(folder_ + "/results.sqlite");
+  EXPECT_EQ(experiment_answer(read_experiment_folder(folder_)), "tt has the smallest error at all 2 points.");
+  EXPECT_NE(page().find("There is no results.sqlite"), std::string::npos);
+}
+
+TEST_F(ExperimentReport, WhoIsAloneIsComparedWithNobody) {
+  const std::string alone = R"({"point": %, "axes": {"noise": "1 m"}, "paradigms": {
+    "tt": {"error": {"count": 3, "mean": 1.0, "half_width": 0.5}}}})";
+  const auto at = [&](int number) { return std::string(alone).replace(alone.find('%'), 1, std::to_string(number)); };
+  write(answer_of(at(0) + "," + at(1)));
+  EXPECT_EQ(experiment_answer(read_experiment_folder(folder_)), "There is nobody to compare error of tt with.");
+  EXPECT_EQ(page().find("Along no axis"), std::string::npos);
+}
+
+TEST_F(ExperimentReport, AnExpectationMayFailNowhereInParticular) {
+  std::string answer = answer_of(point(0, "1", "1"));
+  const std::string where = R"(["noise 40 m"])";
+  write(answer.replace(answer.find(where), where.size(), "[]"));
+  EXPECT_NE(page().find("It does not hold for certain."), std::string::npos);
+}
+
+// The last page of the file is of rows that nobody reads to open it.
+TEST_F(ExperimentReport, ADamagedStoreIsRefused) {
+  const std::string path = folder_ + "/results.sqlite";
+  std::vector<results::Run> runs;
+  for (std::uint32_t r = 3; r < 2000; ++r) runs.push_back({{1, r, 0}, results::kDone, {0.5 + r}});
+  results::Store::open(path).add(runs);
+  EXPECT_EQ(refusal(), "");
+  constexpr std::size_t kPage = 4096;
+  ASSERT_GT(std::filesystem::file_size(path), 8 * kPage);
+  std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+  file.seekp(-static_cast<std::streamoff>(kPage), std::ios::end);
+  file << std::string(kPage, '\xff') << std::flush;
+  EXPECT_EQ(refusal().substr(0, 53), "results.sqlite: must be a store of runs; SQLite says:");
+}
+
+TEST_F(ExperimentReport, PlotsGoOverTheNumericAxis) {
+  const ExperimentFolder folder = read_experiment_folder(folder_);
+  const Plot means = means_plot(folder);
+  EXPECT_EQ(means.x, "noise [m]");
+  EXPECT_TRUE(means.logarithmic_x);
+  ASSERT_EQ(means.views.size(), 1u);
+  EXPECT_EQ(means.views[0].label, "error, road dry");
+  EXPECT_EQ(means.views[0].curves.at(1).x, (std::vector<double>{0.1, 40}));
+  EXPECT_EQ(means.views[0].curves.at(1).high, (std::vector<double>{2.0, 2.9}));
+  EXPECT_EQ(differences_plot(folder).views.at(0).curves.size(), 1u);
+  EXPECT_EQ(replications_plot(folder).views.size(), 2u);
+}
+
+TEST_F(ExperimentReport, WhatIsWrongIsNamed) {
+  write(answer_of(""));
+  EXPECT_EQ(refusal(), "answer.json: points: must have one at least");
+  write(answer_of(point(0, "1", "\"much\"")));
+  EXPECT_EQ(refusal(), "answer.json: points[0].paradigms.tt.error.mean: must be a number or null");
+  write(answer_of(point(0, "1", "1") + R"(,{"point": 1, "axes": {"road": "dry"}, "paradigms": {}})"));
+  EXPECT_EQ(refusal(), "answer.json: points[1].paradigms: must be a mapping with an entry at least");
+  write(answer_of(point(-1, "1", "1")));
+  EXPECT_EQ(refusal(), "answer.json: points[0].point: must be a whole number from 0 on");
+  write(answer_of(point(1, "1", "1").replace(10, 1, "4294967296")));
+  EXPECT_EQ(refusal(), "answer.json: points[0].point: must be below 2^32");
+  write(answer_of(point(0, "1", "1e999")));
+  EXPECT_EQ(refusal(), "answer.json: must be JSON: a number in it is none");
+  write("{\n\"experiment\": ");
+  EXPECT_EQ(refusal(), "answer.json:2: must be JSON: it is damaged here, or cut off");
+  write("[1]");
+  EXPECT_EQ(refusal(), "answer.json: must be a mapping");
+}
+
+}  // namespace
+}  // namespace ttf::report

@@ -1,0 +1,248 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "report/plots/position_plot.h"
+#include "report/plots/schedule_picture.h"
+#include "schedules/file/loader.h"
+#include "tests/report/layout.h"
+#include "tests/report/synthetic_cluster.h"
+#include "tests/report/synthetic_run.h"
+
+namespace ttf::report {
+namespace {
+
+constexpr std::int64_t kEnd = 1'500'000;
+
+PositionPlots drive(PositionOptions options = {}) {
+  PositionPlots plots(synthetic_names(), std::move(options));
+  SyntheticRun{}.drive(plots, kEnd);
+  return plots;
+}
+
+TEST(PositionPlots, TakeOfEachListTheObservationOfTheObject) {
+  const PositionPlots::Selection s = drive().select();
+  ASSERT_EQ(s.observations.size(), 2u);
+  // Every list carries a second observation 20 m away, which is another object's.
+  EXPECT_EQ(s.observations[0].size(), s.laser_arrows.size());
+  for (const auto& list : s.observations)
+    for (const auto& o : list) EXPECT_LT(std::abs(o.x - SyntheticRun::x_at(o.t)), 1.0);
+  EXPECT_EQ(s.reference.size(), 16u);
+  EXPECT_EQ(s.truth.size(), 151u);
+  EXPECT_GT(s.fusion.size(), 30u);
+}
+
+TEST(PositionPlots, PutGlobalInstantsOnTrueTime) {
+  // Global time is 3 us ahead in this run; the laser measured at 4 ms + k 80 ms of true time.
+  const PositionPlots::Selection s = drive().select();
+  ASSERT_FALSE(s.observations.empty());
+  for (const auto& o : s.observations[0]) EXPECT_NEAR(std::fmod(o.t - 0.004 + 1e-9, 0.08), 0.0, 1e-8) << o.t;
+}
+
+TEST(PositionPlots, InstantsOfADamagedLogDoNotOverflow) {
+  PositionPlots plots(synthetic_names(), {});
+  constexpr std::int64_t kLowest = std::numeric_limits<std::int64_t>::min(),
+                         kHighest = std::numeric_limits<std::int64_t>::max();
+  records::ObservationSeen seen;
+  seen.stamp = {{kHighest}, {0}, {kLowest}, NodeId{0}};
+  seen.measured = {kHighest};
+  plots.on(seen);
+  const PositionPlots::Selection s = plots.select();
+  ASSERT_EQ(s.observations.size(), 1u);
+  ASSERT_EQ(s.observations[0].size(), 1u);
+  EXPECT_NEAR(s.observations[0][0].t, 3 * std::ldexp(1e-9, 63), 1.0);
+  expect_renders(plots.over_time_svg());
+}
+
+TEST(PositionPlots, ArrowsLeadToTheStepThatIntegratedTheMeasurement) {
+  const PositionPlots::Selection s = drive().select();
+  EXPECT_GE(s.laser_arrows.size(), 17u);
+  std::size_t late = 0;
+  for (const auto& a : s.laser_arrows) {
+    EXPECT_GT(a.fused.t, a.measured.t);
+    EXPECT_LT(a.fused.t, a.measured.t + 0.1);
+    EXPECT_NEAR(std::fmod(a.fused.t - 0.003 + 1e-9, 0.01), 0.0, 1e-7) << "steps are at 3 ms + k 10 ms";
+    late += a.late;
+  }
+  EXPECT_GT(late, 0u);
+  EXPECT_LT(late, s.laser_arrows.size());
+}
+
+TEST(PositionPlots, ShowEverythingTheyPromise) {
+  const PositionPlots plots = drive({.title = "A & B"});
+  const PositionPlots::Selection s = plots.select();
+  for (const std::string& svg : {plots.over_time_svg(), plots.plane_svg()}) {
+    const std::size_t panels = svg == plots.plane_svg() ? 1 : 2;
+    EXPECT_EQ(count_class(svg, "dgps"), panels * s.reference.size());
+    EXPECT_EQ(count_class(svg, "observation"), panels * (s.observations[0].size() + s.observations[1].size()));
+    EXPECT_EQ(count_class(svg, "fusion"), panels * s.fusion.size());
+    EXPECT_EQ(count_class(svg, "arrow") + count_class(svg, "arrow late"), panels * s.laser_arrows.size());
+    EXPECT_EQ(count_class(svg, "truth"), panels);
+    EXPECT_GT(count_class(svg, "instant"), s.laser_arrows.size() / 2);
+    for (const char* part :
+         {"ISO 8855", "x, forward [m]", "y, left [m]", "A &amp; B", ">dgps<", ">laser<", ">camera<", ">truth<"})
+      EXPECT_NE(svg.find(part), std::string::npos) << part;
+    expect_no_overlaps(svg);
+    expect_inside(svg);
+    expect_renders(svg);
+  }
+  EXPECT_EQ(plots.over_time_svg(), drive({.title = "A & B"}).over_time_svg());
+}
+
+// Passes on what happened but some of what the feature service did.
+class FewerUses final : public records::Sink {
+ public:
+  FewerUses(PositionPlots& out, std::uint32_t stale_from, std::uint32_t none_from)
+      : out_(out), stale_from_(stale_from), none_from_(none_from) {}
+  using records::Sink::on;
+  void on(const records::FusionStep& r) override { out_.on(r); }
+  void on(const records::ImageWritten& r) override { out_.on(r); }
+  void on(const records::TruthState& r) override { out_.on(r); }
+  void on(const records::FeatureUsed& r) override {
+    records::FeatureUsed used = r;
+    used.stale = r.image_sequence >= stale_from_;
+    if (r.image_sequence < none_from_) out_.on(used);
+  }
+
+ private:
+  PositionPlots& out_;
+  std::uint32_t stale_from_, none_from_;
+};
+
+TEST(PositionPlots, ImagesThatNobodyUsedAreNotShownAsUsed) {
+  const std::size_t all = drive().select().fusion.size();
+  EXPECT_TRUE(drive().select().unused.empty());
+  for (const auto& [stale_from, none_from] : {std::pair{100u, 7u}, std::pair{7u, 100u}, std::pair{7u, 10u}}) {
+    PositionPlots plots(synthetic_names(), {});
+    FewerUses fewer(plots, stale_from, none_from);
+    SyntheticRun{}.drive(fewer, kEnd);
+    const PositionPlots::Selection s = plots.select();
+    EXPECT_EQ(s.fusion.size(), 7u);
+    EXPECT_EQ(s.unused.size(), all - 7);
+    const std::string svg = plots.plane_svg();
+    EXPECT_EQ(count_class(svg, "fusion"), 7u);
+    EXPECT_EQ(count_class(svg, "unused"), all - 7);
+    EXPECT_NE(svg.find(">image that nobody used<"), std::string::npos);
+  }
+  PositionPlots none(synthetic_names(), {});
+  FewerUses fewer(none, 0, 0);
+  SyntheticRun{}.drive(fewer, kEnd);
+  EXPECT_EQ(none.plane_svg().find("image at its instant of use"), std::string::npos);
+}
+
+// The number counts on from 0 where the fusion node starts anew: the image of long ago was not used again.
+TEST(PositionPlots, AUseBelongsToTheImageJustBefore) {
+  PositionPlots plots(synthetic_names(), {});
+  const SyntheticRun run;
+  records::ImageObject object;
+  records::ImageWritten image;
+  image.objects = {&object, 1};
+  image.sequence = 3;
+  for (const std::int64_t us : {100'000, 5'000'000}) {
+    image.stamp = run.stamp(us, 5);
+    image.valid_at = {(us + 37'000) * 1000};
+    plots.on(image);
+  }
+  records::FeatureUsed used;
+  used.stamp = run.stamp(5'037'000, 6);
+  used.image_sequence = 3;
+  plots.on(used);
+  const PositionPlots::Selection s = plots.select();
+  ASSERT_EQ(s.fusion.size(), 1u);
+  EXPECT_NEAR(s.fusion[0].t, 5.037, 0.001);
+  EXPECT_EQ(s.unused.size(), 1u);
+}
+
+TEST(PositionPlots, KeepToTheWindow) {
+  PositionOptions options;
+  options.from = at_us(500'000);
+  options.to = at_us(700'000);
+  const PositionPlots::Selection s = drive(options).select();
+  EXPECT_EQ(s.truth.size(), 21u);
+  for (const auto& list : s.observations)
+    for (const auto& o : list) EXPECT_TRUE(o.t >= 0.5 && o.t <= 0.7);
+}
+
+TEST(PositionPlots, WithoutTruthTheReferenceGuidesAndWithoutBothAllIsShown) {
+  PositionPlots plots(synthetic_names(), {});
+  const SyntheticRun run;
+  records::ObservationSeen o;
+  o.stamp = run.stamp(60'000, 5);
+  o.measured = {50'000'000};
+  o.x = 30;
+  plots.on(o);
+  o.x = 50;
+  plots.on(o);
+  EXPECT_EQ(plots.select().observations[0].size(), 2u);
+  records::ReferenceFix fix;
+  fix.measured_true = at_us(40'000);
+  fix.x = 49;
+  plots.on(fix);
+  ASSERT_EQ(plots.select().observations[0].size(), 1u);
+  EXPECT_DOUBLE_EQ(plots.select().observations[0][0].x, 50);
+}
+
+TEST(PositionPlots, EmptyInputSaysSo) {
+  const PositionPlots plots(synthetic_names(), {});
+  EXPECT_NE(plots.over_time_svg().find("no positions"), std::string::npos);
+  EXPECT_NE(plots.plane_svg().find("no positions"), std::string::npos);
+  expect_renders(plots.plane_svg());
+}
+
+TEST(PositionPlots, ComparisonsShareTheirAxes) {
+  const PositionPlots a = drive(), b = drive();
+  const std::array<const PositionPlots*, 2> both{&a, &b};
+  const std::vector<std::string> titles{"BUFF", "ADVA"};
+  for (const PositionView view : {PositionView::kXOverTime, PositionView::kYOverTime, PositionView::kPlane}) {
+    const std::string svg = comparison_svg(both, titles, view, "Both");
+    EXPECT_EQ(count(svg, ">BUFF</text>"), 1u);
+    EXPECT_EQ(count(svg, ">ADVA</text>"), 1u);
+    EXPECT_EQ(count_class(svg, "truth"), 2u);
+    expect_no_overlaps(svg);
+    expect_inside(svg);
+  }
+}
+
+TEST(SchedulePicture, ShowsSlotsTasksAndMultiplexing) {
+  const std::string svg = schedule_svg(synthetic_cluster());
+  // Three status slots and five image slots on both channels, five slots with one list on A and another on B.
+  EXPECT_EQ(count_class(svg, "slot"), 2u * 13u);
+  EXPECT_EQ(count_class(svg, "slot free"), 2u * 27u);
+  EXPECT_EQ(count_class(svg, "segment"), 2u * 2u);
+  EXPECT_EQ(count_class(svg, "task"), 3u);
+  EXPECT_EQ(count_class(svg, "instant"), 1u);
+  EXPECT_EQ(count_class(svg, "overrun"), 1u) << "track starts at 3.5 ms and takes 3 ms of a 5 ms cycle";
+  // Eight cycles: three status slots in each, two lists of five slots in every other, the image in one.
+  EXPECT_EQ(count_class(svg, "cell"), 8u * 3u + 4u * 10u + 5u);
+  EXPECT_NE(svg.find("gateway: forward_laser runs when a list of laser_objects has arrived"), std::string::npos);
+  expect_no_overlaps(svg);
+  expect_inside(svg);
+  expect_renders(svg);
+  EXPECT_EQ(svg, schedule_svg(synthetic_cluster()));
+}
+
+TEST(SchedulePicture, DrawsEveryShippedClusterLegibly) {
+  for (const char* name :
+       {"paper_unsynchronised", "paper_synchronised", "laser_radar", "laser_radar_synchronised", "flexray_demo"}) {
+    SCOPED_TRACE(name);
+    const std::string svg =
+        schedule_svg(schedules::load_cluster(TTF_SOURCE_DIR "/schedules/" + std::string(name) + ".yaml"));
+    expect_no_overlaps(svg);
+    expect_inside(svg);
+    expect_renders(svg);
+    // The demo alone has one, of 13 macroticks in 2000: too narrow for its name.
+    const bool window = name == std::string_view("flexray_demo");
+    EXPECT_EQ(count(svg, ">symbol window</text>"), window ? 1u : 0u) << "in the legend";
+    EXPECT_EQ(count(svg, "80 minislots, symbol window 13 MT, NIT 427 MT</text>"), window ? 1u : 0u);
+  }
+}
+
+TEST(SchedulePicture, AnEmptyClusterSaysSo) {
+  schedules::Cluster c;
+  c.name = "none";
+  EXPECT_NE(schedule_svg(c).find("no nodes and no frames"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace ttf::report

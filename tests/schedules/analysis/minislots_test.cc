@@ -1,0 +1,172 @@
+// The dynamic segment worked out by hand, and against its own counter's rule.
+#include "schedules/analysis/minislots.h"
+
+#include <gtest/gtest.h>
+
+#include "schedules/analysis/ages.h"
+#include "schedules/analysis/dynamic_load.h"
+#include "schedules/exchange/text.h"
+#include "schedules/analysis/slot_groups.h"
+#include "tests/schedules/cluster_file.h"
+
+namespace ttf::schedules {
+namespace {
+
+FrameSlot frame(int slot, Channels channels, NodeId sender, PduId pdu) {
+  return {slot, channels, 0, 1, sender, pdu, 0, 0, false};
+}
+
+// 10 static slots of 50; minislots of 7 MT, action point 3, one idle; lists of 8 bytes (4 words), 32 (16) and 56 (28).
+Cluster dynamic() {
+  Cluster cluster;
+  GlobalParameters& g = cluster.flexray;
+  g.gNumberOfStaticSlots = 10;
+  g.gdStaticSlot = 50;
+  g.gdActionPointOffset = 4;
+  g.gdMinislot = 7;
+  g.gNumberOfMinislots = 40;
+  g.gdMinislotActionPointOffset = 3;
+  g.gdDynamicSlotIdlePhase = 1;
+  for (const int bytes : {8, 32, 56}) {
+    cluster.pdus.emplace_back().fragment_bytes = bytes;
+    cluster.pdus.back().max_elements = cluster.pdus.back().elements_per_fragment = 1;
+    cluster.nodes.emplace_back().flexray.emplace().pLatestTx = 20;
+  }
+  return cluster;
+}
+
+// TSS 9 + 1 + 80 + 20 per word + 2 bits, and one of the DTS, 0.10015 us each, in minislots of 7 * 0.9985 us:
+//   4 words: 173 bits, 17.326 us, 2.48 -> 3; 16: 413, 41.362, 5.92 -> 6; 28: 653, 65.398, 9.36 -> 10
+// and one for the beginning's part before the action point, and one idle.
+TEST(Minislots, AFrameTakesSoMany) {
+  const GlobalParameters g = dynamic().flexray;
+  EXPECT_EQ(minislots_of(g, 4), 3 + 1 + 1);
+  EXPECT_EQ(minislots_of(g, 16), 6 + 1 + 1);
+  EXPECT_EQ(minislots_of(g, 28), 10 + 1 + 1);
+  EXPECT_EQ(last_start(g, 28), 29);  // 29..40
+  // Behind the static segment, one macrotick later for the action points' difference.
+  EXPECT_EQ(minislot_start(g, 1), Macroticks{501});
+  EXPECT_EQ(minislot_start(g, 41), Macroticks{501 + 40 * 7});
+}
+
+TEST(Minislots, ATurnComesLatestWhenAllSlotsBeforeItAreUsed) {
+  Cluster cluster = dynamic();
+  cluster.frames = {frame(11, Channels::kAB, NodeId{0}, PduId{2}), frame(13, Channels::kA, NodeId{1}, PduId{0}),
+                    frame(13, Channels::kB, NodeId{2}, PduId{1}), frame(15, Channels::kAB, NodeId{0}, PduId{0}),
+                    frame(15, Channels::kAB, NodeId{1}, PduId{2})};
+  EXPECT_EQ(latest_turn(cluster, cluster.frames[0]), 1);
+  EXPECT_EQ(latest_turn(cluster, cluster.frames[1]), 1 + 12 + 1);
+  EXPECT_EQ(earliest_turn(cluster.flexray, cluster.frames[3]), 5);
+  // On B, where slot 13 takes 8: 12 + 1 + 8 + 1.
+  EXPECT_EQ(latest_turn(cluster, cluster.frames[3]), 1 + 12 + 1 + 8 + 1);
+  EXPECT_FALSE(always_in_time(cluster, cluster.frames[3]));
+  cluster.nodes[0].flexray->pLatestTx = 23;
+  EXPECT_TRUE(always_in_time(cluster, cluster.frames[3]));
+  cluster.nodes[0].flexray.reset();
+  EXPECT_FALSE(always_in_time(cluster, cluster.frames[3]));
+}
+
+TEST(Minislots, OnlySlotsOfTheSameCyclesCount) {
+  Cluster cluster = dynamic();
+  cluster.frames = {frame(11, Channels::kA, NodeId{0}, PduId{2}), frame(11, Channels::kA, NodeId{1}, PduId{1}),
+                    frame(12, Channels::kA, NodeId{2}, PduId{0})};
+  cluster.frames[0].repetition = 4;  // cycles 0, 4, ..: 12 minislots
+  cluster.frames[1].base_cycle = 1;  // cycles 1, 3, ..: 8
+  cluster.frames[1].repetition = 2;
+  EXPECT_EQ(latest_turn(cluster, cluster.frames[2]), 1 + 12);  // in every cycle
+  cluster.frames[2].base_cycle = 1;
+  cluster.frames[2].repetition = 2;
+  EXPECT_EQ(latest_turn(cluster, cluster.frames[2]), 1 + 8);
+  cluster.frames[2].base_cycle = 2;
+  cluster.frames[2].repetition = 4;
+  EXPECT_EQ(latest_turn(cluster, cluster.frames[2]), 1 + 1);
+}
+
+// Of the laser's and the camera's list in slots 21 to 24, 12 minislots each, behind 1000 macroticks of static segment.
+TEST(Minislots, AListGoesOutBetweenItsTurns) {
+  const Cluster cluster = load_checked_cluster(shipped_path("flexray_demo"));
+  const auto laser = slot_groups(cluster, *cluster.find_pdu("laser_objects"));
+  const auto camera = slot_groups(cluster, *cluster.find_pdu("camera_objects"));
+  ASSERT_EQ(laser.size(), 1u);
+  ASSERT_EQ(camera.size(), 1u);
+  EXPECT_EQ(laser[0].taken_from, Macroticks{1000});
+  EXPECT_EQ(laser[0].taken_by, Macroticks{1003});
+  EXPECT_EQ(laser[0].complete_by, Macroticks{1000 + 24 * 7});
+  EXPECT_EQ(camera[0].taken_from, Macroticks{1000 + 2 * 7});
+  EXPECT_EQ(camera[0].taken_by, Macroticks{1000 + 24 * 7 + 3});
+  EXPECT_EQ(camera[0].complete_by, Macroticks{1000 + 48 * 7});
+  EXPECT_TRUE(camera[0].bounded);
+  // Two lists written just before and just after a turn: two cycles apart at most, one at least.
+  EXPECT_EQ(shortest_slot_gap(cluster, *cluster.find_pdu("camera_objects"))->gap, Duration::milliseconds(2));
+  EXPECT_EQ(shortest_slot_gap(cluster, *cluster.find_pdu("camera_objects"))->spread, Duration::microseconds(46 * 7));
+}
+
+// At best one frame: (9 + 1 + 80 + 560 + 2) bits of 0.1 us, less drift and what oscillators round off; at worst it
+// missed its turn by a nanosecond, and is sent in the next cycle behind everything else.
+TEST(Minislots, AgesCountTheWaitForATurn) {
+  const Cluster cluster = load_checked_cluster(shipped_path("flexray_demo"));
+  for (const AgePath& path : measurement_ages(cluster)) {
+    const bool laser = cluster.sensor(path.sensor).name == "laser";
+    const auto part = std::find_if(path.to_use.begin(), path.to_use.end(), [&](const Contribution& c) {
+      return c.name.find("_objects waits") != std::string::npos;
+    });
+    ASSERT_NE(part, path.to_use.end());
+    EXPECT_LE(part->best, Duration{65'200});
+    EXPECT_GE(part->best, Duration{65'200 - 300});
+    const Duration worst = laser ? Duration::microseconds(2000 + 24 * 7) : Duration::microseconds(2000 + 46 * 7);
+    EXPECT_EQ(part->worst, worst - Duration{1});
+  }
+}
+
+TEST(DynamicLoad, IsThatOfTheFullestCycle) {
+  Cluster cluster = dynamic();
+  cluster.frames = {frame(11, Channels::kA, NodeId{0}, PduId{2}), frame(11, Channels::kA, NodeId{1}, PduId{1}),
+                    frame(13, Channels::kAB, NodeId{1}, PduId{0})};
+  cluster.frames[0].repetition = 2;  // 12 minislots in even cycles, 8 in odd ones
+  cluster.frames[1].base_cycle = 1;
+  cluster.frames[1].repetition = 2;
+  const auto loads = dynamic_load(cluster);
+  ASSERT_EQ(loads.size(), 2u);
+  EXPECT_EQ(loads[0].minislots, 12 + 1 + 5);
+  EXPECT_DOUBLE_EQ(loads[0].share, 18.0 / 40.0);
+  EXPECT_EQ(loads[1].minislots, 2 + 5);
+  const auto lists = dynamic_lists(cluster);
+  ASSERT_EQ(lists.size(), 3u);
+  EXPECT_EQ(lists[2].earliest_turn, 3);
+  EXPECT_EQ(lists[2].latest_turn, 14);
+  EXPECT_TRUE(lists[2].always_in_time);
+  cluster.nodes[1].flexray->pLatestTx = 13;
+  EXPECT_FALSE(dynamic_lists(cluster)[2].always_in_time);
+  cluster.frames.clear();
+  EXPECT_EQ(dynamic_load(cluster)[0].minislots, 0);
+  EXPECT_EQ(dynamic_text(cluster), "");
+}
+
+TEST(DynamicLoad, IsListedAndDrawn) {
+  const Cluster cluster = load_checked_cluster(shipped_path("flexray_demo"));
+  const std::string text = dynamic_text(cluster);
+  EXPECT_NE(text.find("80 minislots of 7 macroticks; with every slot in use A takes 48 (60.0 %), B takes 48 (60.0 %)"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("23-24  AB  camera_pre  camera_objects 0-1"), std::string::npos) << text;
+  EXPECT_NE(text.find("12  3-37\n"), std::string::npos) << text;
+  const std::string shown = show_text(cluster);
+  EXPECT_NE(shown.find(text), std::string::npos);
+  EXPECT_NE(shown.find("21-22     1000-1168     AB  laser_pre   laser_objects 0-1 (dynamic)"), std::string::npos)
+      << shown;
+  EXPECT_NE(shown.find("1560-1573     AB              symbol window"), std::string::npos) << shown;
+  // 48 of the 80 minislots, then the rest, then two columns with symbol window in them.
+  EXPECT_NE(shown.find("sDDDDDDDDDDDDDDDDd"), std::string::npos) << shown;
+  EXPECT_NE(shown.find("dwwn"), std::string::npos) << shown;
+}
+
+// May wait for another cycle: allowed for a list that nobody counts on.
+TEST(DynamicLoad, SaysWhatMayHaveToWait) {
+  Cluster cluster = dynamic();
+  cluster.frames = {frame(11, Channels::kA, NodeId{0}, PduId{2}), frame(12, Channels::kA, NodeId{1}, PduId{2}),
+                    frame(13, Channels::kA, NodeId{1}, PduId{0})};
+  EXPECT_NE(dynamic_text(cluster).find("3-25, or in a later cycle"), std::string::npos) << dynamic_text(cluster);
+}
+
+}  // namespace
+}  // namespace ttf::schedules

@@ -1,0 +1,120 @@
+// Whether two clusters are the same in what FIBEX can say: timing, controllers, slots, PDUs and signals.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "schedules/model/cluster.h"
+#include "schedules/file/parameter_table.h"
+
+namespace ttf::schedules {
+
+// Every difference on a line, "" for none.
+class FibexDifference {
+ public:
+  static std::string of(const Cluster& a, const Cluster& b) {
+    FibexDifference d;
+    d.value("name", a.name, b.name);
+    d.value("topology", static_cast<int>(a.topology), static_cast<int>(b.topology));
+    d.value("guardian", a.guardian, b.guardian);
+    d.parameters("flexray", a.flexray, b.flexray, kGlobalIntegers, kGlobalScaled);
+    d.nodes(nodes_of(a), nodes_of(b));
+    d.pdus(a.pdus, b.pdus);
+    d.frames(a, b);
+    return d.text_;
+  }
+
+ private:
+  template <class T> void value(const std::string& what, const T& a, const T& b) {
+    if (!(a == b)) text_ += fmt::format("{}: {} and {}\n", what, a, b);
+  }
+
+  template <class Parameters, class Integers, class Scaled>
+  void parameters(const std::string& what, const Parameters& a, const Parameters& b, const Integers& integers,
+                  const Scaled& scaled) {
+    for (const auto& p : integers) value(fmt::format("{}.{}", what, p.name), a.*p.member, b.*p.member);
+    for (const auto& p : scaled) value(fmt::format("{}.{}", what, p.name), a.*p.member, b.*p.member);
+  }
+
+  // Nodes off FlexRay are not in FIBEX.
+  static std::vector<const Node*> nodes_of(const Cluster& cluster) {
+    std::vector<const Node*> nodes;
+    for (const Node& node : cluster.nodes)
+      if (node.flexray) nodes.push_back(&node);
+    return nodes;
+  }
+
+  void nodes(const std::vector<const Node*>& a, const std::vector<const Node*>& b) {
+    value("nodes", a.size(), b.size());
+    for (std::size_t i = 0; i < a.size() && i < b.size(); ++i) {
+      value("node", a[i]->name, b[i]->name);
+      value(a[i]->name + " microtick", a[i]->microtick_ps, b[i]->microtick_ps);
+      parameters(a[i]->name, *a[i]->flexray, *b[i]->flexray, kNodeIntegers, kNodeScaled);
+      value(a[i]->name + " channels", channels_text(a[i]->flexray->pChannels), channels_text(b[i]->flexray->pChannels));
+      value(a[i]->name + " wake-up", static_cast<int>(a[i]->flexray->pWakeupChannel),
+            static_cast<int>(b[i]->flexray->pWakeupChannel));
+      for (const auto& p : kNodeFlags)
+        value(fmt::format("{}.{}", a[i]->name, p.name), (*a[i]->flexray).*p.member, (*b[i]->flexray).*p.member);
+    }
+  }
+
+  void signals(const std::string& what, const std::vector<Signal>& a, const std::vector<Signal>& b) {
+    value(what, a.size(), b.size());
+    for (std::size_t i = 0; i < a.size() && i < b.size(); ++i) {
+      const std::string name = fmt::format("{}.{}", what, a[i].name);
+      value(name, a[i].name, b[i].name);
+      value(name + " unit", a[i].unit, b[i].unit);
+      value(name + " bits", a[i].bits, b[i].bits);
+      value(name + " low", a[i].low, b[i].low);
+      value(name + " high", a[i].high, b[i].high);
+      value(name + " resolution", a[i].resolution, b[i].resolution);
+      value(name + " offset", a[i].bit_offset, b[i].bit_offset);
+    }
+  }
+
+  void pdus(const std::vector<PduLayout>& a, const std::vector<PduLayout>& b) {
+    value("pdus", a.size(), b.size());
+    for (std::size_t i = 0; i < a.size() && i < b.size(); ++i) {
+      value("pdu", a[i].name, b[i].name);
+      value(a[i].name + " bytes", a[i].fragment_bytes, b[i].fragment_bytes);
+      value(a[i].name + " elements", a[i].max_elements, b[i].max_elements);
+      value(a[i].name + " elements per fragment", a[i].elements_per_fragment, b[i].elements_per_fragment);
+      value(a[i].name + " header bits", a[i].header_bits, b[i].header_bits);
+      value(a[i].name + " element bits", a[i].element_bits, b[i].element_bits);
+      signals(a[i].name + " header", a[i].header, b[i].header);
+      signals(a[i].name + " element", a[i].element, b[i].element);
+    }
+  }
+
+  static std::string frame_text(const Cluster& cluster, const FrameSlot& frame) {
+    return fmt::format("slot {} channels {} cycle {} of {} by {}{}{}: {} {}", frame.slot,
+                       static_cast<int>(frame.channels), frame.base_cycle, frame.repetition,
+                       cluster.node(frame.sender).name, frame.network_management ? " with vector" : "",
+                       frame.message_id ? fmt::format(" as message {}", *frame.message_id) : "",
+                       frame.pdu == kNoPdu ? "status" : cluster.pdu(frame.pdu).name, frame.fragment);
+  }
+
+  // Of one slot and cycle, channel A first.
+  static std::vector<FrameSlot> ordered(std::vector<FrameSlot> frames) {
+    std::stable_sort(frames.begin(), frames.end(), [](const FrameSlot& x, const FrameSlot& y) {
+      return std::tuple{x.slot, x.base_cycle, x.repetition, static_cast<int>(x.channels)} <
+             std::tuple{y.slot, y.base_cycle, y.repetition, static_cast<int>(y.channels)};
+    });
+    return frames;
+  }
+
+  void frames(const Cluster& a, const Cluster& b) {
+    value("frames", a.frames.size(), b.frames.size());
+    const std::vector<FrameSlot> of_a = ordered(a.frames), of_b = ordered(b.frames);
+    for (std::size_t i = 0; i < of_a.size() && i < of_b.size(); ++i)
+      value("frame", frame_text(a, of_a[i]), frame_text(b, of_b[i]));
+  }
+
+  std::string text_;
+};
+
+}  // namespace ttf::schedules

@@ -1,0 +1,256 @@
+// What is exported and imported again is the same in timing, controllers, slots, PDUs and signals; and the
+// exported bit positions are where the codec puts the bits.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <pugixml.hpp>
+#include <utility>
+
+#include "bus/wire/pdu_codec.h"
+#include "core/random.h"
+#include "schedules/exchange/fibex/export.h"
+#include "schedules/exchange/fibex/import.h"
+#include "tests/schedules/cluster_file.h"
+#include "tests/schedules/exchange/fibex/fibex_compare.h"
+
+namespace ttf::schedules {
+namespace {
+
+void expect_round_trip(const Cluster& cluster) {
+  const std::string xml = fibex_text(cluster);
+  const FibexImport import = parse_fibex(xml, "cluster.xml");
+  EXPECT_EQ(FibexDifference::of(cluster, import.cluster), "");
+  EXPECT_EQ(import.assumed, decltype(import.assumed){});
+  EXPECT_EQ(sentences(import.left_out), "");
+  EXPECT_TRUE(import.foreign.empty());
+  const Cluster again = parse_cluster(skeleton_yaml(import), "cluster.yaml");
+  EXPECT_EQ(FibexDifference::of(cluster, again), "");
+  EXPECT_EQ(fibex_text(cluster), xml);
+}
+
+class FibexShipped : public testing::TestWithParam<std::string> {
+ protected:
+  Cluster cluster_ = load_checked_cluster(shipped_path(GetParam()));
+};
+INSTANTIATE_TEST_SUITE_P(Shipped, FibexShipped, testing::ValuesIn(shipped_clusters()),
+                         [](const auto& one) { return one.param; });
+
+TEST_P(FibexShipped, IsTheSameAfterExportAndImport) { expect_round_trip(cluster_); }
+
+TEST_P(FibexShipped, SaysWhoReceivesWhat) {
+  const FibexImport import = parse_fibex(fibex_text(cluster_), "cluster.xml");
+  for (std::size_t i = 0; i < import.cluster.nodes.size(); ++i) {
+    std::vector<std::string> expected;  // of FlexRay, in the order of their slots
+    const Node& node = cluster_.node(*cluster_.find_node(import.cluster.nodes[i].name));
+    for (const FrameSlot& frame : cluster_.frames)
+      for (const Task& task : node.tasks)
+        for (const PortBinding& port : task.reads)
+          if (!port.can_bus && port.pdu == frame.pdu &&
+              std::find(expected.begin(), expected.end(), cluster_.pdu(frame.pdu).name) == expected.end())
+            expected.push_back(cluster_.pdu(frame.pdu).name);
+    EXPECT_EQ(import.receives[i], expected) << node.name;
+  }
+}
+
+// Each parameter at either end of its range, while the others stay.
+TEST(FibexRoundTrip, KeepsEveryParameterOverItsWholeRange) {
+  const Cluster shipped = load_checked_cluster(shipped_path("paper_synchronised"));
+  const auto each_end = [&](const auto& p, auto&& parameters_of) {
+    for (const auto end : {p.low, p.high}) {
+      Cluster cluster = shipped;
+      parameters_of(cluster).*p.member = end;
+      for (Node& node : cluster.nodes)
+        if (node.flexray) node.microtick_ps = node.flexray->pdMicrotick_ps;
+      // No frame is longer than the static payload; slots beyond the static ones are none of a cluster file.
+      cluster.flexray.gNumberOfStaticSlots = std::max(cluster.flexray.gNumberOfStaticSlots, 40);
+      SCOPED_TRACE(p.name);
+      expect_round_trip(cluster);
+    }
+  };
+  const auto global = [](Cluster& cluster) -> GlobalParameters& { return cluster.flexray; };
+  const auto local = [](Cluster& cluster) -> NodeParameters& { return *cluster.nodes.back().flexray; };
+  for (const auto& p : kGlobalIntegers) each_end(p, global);
+  for (const auto& p : kGlobalScaled) each_end(p, global);
+  for (const auto& p : kNodeIntegers) each_end(p, local);
+  for (const auto& p : kNodeScaled) each_end(p, local);
+  for (const bool startup : {false, true})
+    for (const bool sync : {false, true}) {
+      if (startup && !sync) continue;  // a startup frame is a sync frame
+      for (const bool only : {false, true}) {
+        Cluster cluster = shipped;
+        NodeParameters& p = *cluster.nodes.back().flexray;
+        p.pKeySlotUsedForStartup = startup;
+        p.pKeySlotUsedForSync = sync;
+        p.pKeySlotOnlyEnabled = p.pAllowHaltDueToClock = only;
+        expect_round_trip(cluster);
+      }
+    }
+}
+
+// Random schedules: one frame of a random list, sender, channel and multiplexing in each of 40 static and 20 dynamic
+// slots; random channels of every node.
+TEST(FibexRoundTrip, KeepsRandomSchedules) {
+  const Cluster shipped = load_checked_cluster(shipped_path("paper_unsynchronised"));
+  std::vector<NodeId> senders;
+  for (std::size_t i = 0; i < shipped.nodes.size(); ++i)
+    if (shipped.nodes[i].flexray) senders.push_back(static_cast<NodeId>(i));
+  for (std::uint32_t run = 0; run < 50; ++run) {
+    RandomStream random({.seed = 3, .purpose = Purpose::kTest, .entity = 1, .index = run});
+    const auto below = [&](int limit) { return static_cast<int>(random.bits() % static_cast<std::uint64_t>(limit)); };
+    Cluster cluster = shipped;
+    cluster.frames.clear();
+    cluster.topology = below(2) == 0 ? Topology::kBus : Topology::kStar;
+    cluster.guardian = cluster.topology == Topology::kStar && below(2) == 0;
+    cluster.flexray.gNetworkManagementVectorLength = below(13);
+    for (Node& node : cluster.nodes) {
+      if (!node.flexray || &node == &cluster.node(senders[0])) continue;  // the first stays on both
+      node.flexray->pChannels = static_cast<Channels>(1 + below(3));
+      node.flexray->pWakeupChannel = node.flexray->pChannels == Channels::kAB && below(2) == 0
+                                         ? Channel::kB
+                                         : default_wakeup(node.flexray->pChannels);
+    }
+    for (int slot = 1; slot <= 60; ++slot) {
+      const bool dynamic = slot > cluster.flexray.gNumberOfStaticSlots;
+      const int repetition = 1 << below(7);
+      const int first = below(repetition);
+      for (int base = first; base < repetition; base += 1 + below(repetition)) {
+        FrameSlot frame;
+        frame.slot = slot;
+        frame.channels = static_cast<Channels>(1 + below(3));
+        frame.base_cycle = base;
+        frame.repetition = repetition;
+        frame.sender = senders[static_cast<std::size_t>(below(static_cast<int>(senders.size())))];
+        const Channels attached = cluster.node(frame.sender).flexray->pChannels;
+        frame.channels = share_a_channel(frame.channels, attached)
+                             ? static_cast<Channels>(static_cast<int>(frame.channels) & static_cast<int>(attached))
+                             : attached;
+        frame.network_management = !dynamic && below(4) == 0;
+        if (below(4) != 0 || dynamic) {
+          frame.pdu = static_cast<PduId>(below(static_cast<int>(cluster.pdus.size())));
+          frame.fragment = below(cluster.pdu(frame.pdu).max_fragments());
+        }
+        if (dynamic && below(3) == 0) frame.message_id = static_cast<std::uint16_t>(below(65536));
+        cluster.frames.push_back(frame);
+        if (frame.channels != Channels::kA || dynamic) continue;
+        // The other channel of the same slot is someone else's.
+        frame.channels = Channels::kB;
+        frame.sender = senders[0];
+        frame.pdu = kNoPdu;
+        frame.fragment = 0;
+        frame.network_management = false;
+        cluster.frames.push_back(frame);
+      }
+    }
+    expect_round_trip(cluster);
+    if (HasFailure()) break;
+  }
+}
+
+// A second reading of FIBEX' bit positions: sawtooth counting, from the most significant bit on through the
+// bytes.
+std::uint32_t bits_at(const std::vector<std::byte>& payload, int position, int bits) {
+  std::uint32_t raw = 0;
+  int byte = position / 8, bit = position % 8;
+  for (int i = 0; i < bits; ++i) {
+    raw = raw << 1 | (static_cast<std::uint32_t>(payload[static_cast<std::size_t>(byte)]) >> bit & 1u);
+    if (bit == 0) ++byte;
+    bit = bit == 0 ? 7 : bit - 1;
+  }
+  return raw;
+}
+
+struct Place {
+  int position = 0, bits = 0;
+};
+
+// Where PDUs have their signals, straight from the XML.
+class Places {
+ public:
+  explicit Places(const pugi::xml_document& xml) : xml_(xml) {
+    for (const char* kind : {"//fx:SIGNAL", "//fx:CODING"})
+      for (const pugi::xpath_node& found : xml.select_nodes(kind))
+        by_id_[found.node().attribute("ID").value()] = found.node();
+  }
+  // By the names of the signals.
+  std::map<std::string, Place> of(const std::string& pdu) const {
+    std::map<std::string, Place> places;
+    for (const pugi::xpath_node& found :
+         xml_.select_nodes(("//fx:PDU[ho:SHORT-NAME='" + pdu + "']//fx:SIGNAL-INSTANCE").c_str())) {
+      const pugi::xml_node signal = by_id_.at(found.node().child("fx:SIGNAL-REF").attribute("ID-REF").value());
+      const pugi::xml_node coding = by_id_.at(signal.child("fx:CODING-REF").attribute("ID-REF").value());
+      EXPECT_STREQ(found.node().child("fx:IS-HIGH-LOW-BYTE-ORDER").text().get(), "true");
+      const std::string name = signal.child("ho:SHORT-NAME").text().get();
+      EXPECT_FALSE(places.contains(name)) << pdu << " has two signals " << name;
+      places[name] = {std::stoi(found.node().child("fx:BIT-POSITION").text().get()),
+                      std::stoi(coding.child("ho:CODED-TYPE").child("ho:BIT-LENGTH").text().get())};
+    }
+    return places;
+  }
+
+ private:
+  const pugi::xml_document& xml_;
+  std::map<std::string, pugi::xml_node> by_id_;
+};
+
+TEST_P(FibexShipped, PutsSignalsWhereTheCodecPutsTheirBits) {
+  pugi::xml_document xml;
+  ASSERT_TRUE(xml.load_string(fibex_text(cluster_).c_str()));
+  const Places places(xml);
+  RandomStream random({.seed = 9, .purpose = Purpose::kTest, .entity = 2, .index = 0});
+  for (const PduLayout& layout : cluster_.pdus) {
+    const auto in_header = places.of(layout.name + "_header"), in_elements = places.of(layout.name + "_elements");
+    std::vector<std::byte> payload(static_cast<std::size_t>(layout.fragment_bytes));
+    for (std::byte& byte : payload) byte = static_cast<std::byte>(random.bits());
+    for (std::size_t s = 0; s < layout.header.size(); ++s) {
+      if (layout.header[s].name == "spare") continue;
+      ASSERT_TRUE(in_header.contains(layout.header[s].name)) << layout.name << " " << layout.header[s].name;
+      const Place place = in_header.at(layout.header[s].name);
+      EXPECT_EQ(bits_at(payload, place.position, place.bits), wire::read_header_raw(layout, payload, s));
+    }
+    const std::vector<std::byte> elements(payload.begin() + layout.header_bits / 8, payload.end());
+    for (int e = 0; e < layout.elements_per_fragment; ++e)
+      for (std::size_t s = 0; s < layout.element.size(); ++s) {
+        if (layout.element[s].name == "spare") continue;
+        const std::string name = fmt::format("{}_{}", layout.element[s].name, e);
+        ASSERT_TRUE(in_elements.contains(name)) << layout.name << " " << name;
+        const Place place = in_elements.at(name);
+        EXPECT_EQ(bits_at(elements, place.position, place.bits), wire::read_element_raw(layout, payload, e, s)) << name;
+      }
+  }
+}
+
+TEST(FibexExport, ByHand) {
+  pugi::xml_document xml;
+  const std::string text = fibex_text(load_checked_cluster(shipped_path("paper_synchronised")));
+  ASSERT_TRUE(xml.load_string(text.c_str()));
+  const auto at = [&](const char* path) { return std::string(xml.select_node(path).node().text().get()); };
+  EXPECT_EQ(at("/fx:FIBEX/fx:ELEMENTS/fx:CLUSTERS/fx:CLUSTER/fx:SPEED"), "10000000");
+  EXPECT_EQ(at("//fx:CLUSTER/flexray:CYCLE"), "5000");
+  EXPECT_EQ(at("//fx:CLUSTER/flexray:SAMPLE-CLOCK-PERIOD"), "0.0125");
+  EXPECT_EQ(at("//fx:CLUSTER/flexray:WAKE-UP/flexray:WAKE-UP-SYMBOL-RX-WINDOW"), "301");
+  EXPECT_EQ(at("//fx:ECU[ho:SHORT-NAME='fusion']//flexray:KEY-SLOT-USAGE/flexray:STARTUP-SYNC"), "4");
+  EXPECT_EQ(at("//fx:ECU[ho:SHORT-NAME='fusion']//flexray:MICROTICK"), "0.025");
+  EXPECT_EQ(at("//fx:ECU[ho:SHORT-NAME='fusion']//flexray:MAX-DRIFT"), "601");
+  // The image's last fragment: slot 34, cycles 1, 9, ...
+  const std::string frame =
+      xml.select_node("//fx:FRAME[ho:SHORT-NAME='image_12_slot_34_cycle_1']").node().attribute("ID").value();
+  const std::string timing =
+      "//fx:CHANNEL[flexray:FLEXRAY-CHANNEL-NAME='B']//fx:FRAME-TRIGGERING[fx:FRAME-REF/@ID-REF='" + frame +
+      "']/fx:TIMINGS/fx:ABSOLUTELY-SCHEDULED-TIMING/";
+  EXPECT_EQ(at((timing + "fx:SLOT-ID").c_str()), "34");
+  EXPECT_EQ(at((timing + "fx:BASE-CYCLE").c_str()), "1");
+  EXPECT_EQ(at((timing + "fx:CYCLE-REPETITION").c_str()), "8");
+  // Of an image object 60 bits stand before the speed, and 192 in the first object: bit 252 is the fifth of
+  // byte 31.
+  const Place speed = Places(xml).of("image_elements").at("speed_1");
+  EXPECT_EQ(speed.position, 31 * 8 + 3);
+  EXPECT_EQ(speed.bits, 14);
+  EXPECT_EQ(at("//fx:PDU[ho:SHORT-NAME='image']/fx:MULTIPLEXER/fx:SWITCH/fx:BIT-POSITION"), "23");
+  EXPECT_EQ(at("//fx:PDU[ho:SHORT-NAME='image']/fx:MULTIPLEXER//fx:SWITCHED-PDU-INSTANCE[13]/fx:SWITCH-CODE"), "12");
+  EXPECT_EQ(at("//fx:CODING[ho:SHORT-NAME='image_speed']//ho:COMPU-NUMERATOR/ho:V[1]"), "-81.92");
+  EXPECT_EQ(at("//fx:CODING[ho:SHORT-NAME='image_speed']//ho:COMPU-NUMERATOR/ho:V[2]"), "0.01");
+  EXPECT_NEAR(std::stod(at("//fx:CODING[ho:SHORT-NAME='image_speed']//ho:UPPER-LIMIT")), 81.91, 1e-12);
+}
+
+}  // namespace
+}  // namespace ttf::schedules

@@ -1,0 +1,230 @@
+// The transparent medium and the bit-true one: nobody can tell which it was.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/random.h"
+#include "recording/log/writer.h"
+#include "sim/crank/bus_simulation.h"
+#include "sim/medium/channel_log.h"
+#include "sim/crank/cluster_simulation.h"
+#include "tests/sim/crank/bus_clusters.h"
+#include "tests/drives/drive_fixture.h"
+
+namespace ttf::sim {
+namespace {
+
+using schedules::Channel;
+
+// Everything a controller says, but for the bytes.
+struct Diary final : bus::ControllerEvents {
+  std::vector<std::int64_t> entries;
+  template <class... Numbers> void write(Numbers... numbers) {
+    (entries.push_back(static_cast<std::int64_t>(numbers)), ...);
+  }
+  bool wants_bytes() const override { return false; }
+  void cycle_started(std::int64_t cycle, Microticks at) override { write(1, cycle, at.value); }
+  void slot_problem(std::int64_t cycle, int slot, Channel channel, bus::SlotStatus status, Microticks at) override {
+    write(2, cycle, slot, channel, status, at.value);
+  }
+  void frame_sent(const bus::Transmission& sent, std::int64_t cycle, bool null_frame, PduId, std::uint32_t, int,
+                  bool) override {
+    write(3, sent.channel, sent.start.value, sent.end.value, sent.slot, cycle, null_frame);
+    encoded += sent.bytes.empty() ? 0 : 1;
+    ++frames;
+  }
+  void clock_corrected(std::int64_t cycle, const timebase::Correction& offset, const timebase::Correction& rate,
+                       Microticks at) override {
+    write(4, cycle, offset.value, rate.value, offset.missing, rate.missing, at.value);
+  }
+  void state_changed(bus::PocKind from, const bus::PocStep& step, Microticks at) override {
+    write(5, from, step.next.kind, step.reason, at.value);
+  }
+  int frames = 0, encoded = 0;
+};
+
+// Some nodes' frames are cut, flipped, moved, swapped or lost, now and then; noise, and supplies that fail.
+class Trouble final : public Disturbance {
+ public:
+  Trouble(BusSimulation& plant, std::uint64_t seed, int nodes)
+      : plant_(plant), draw_({seed, 0, Purpose::kTest, 3, 0}), nodes_(nodes) {}
+  bool touches(NodeId sender, Channel) const override { return index_of(sender) < 2 && troubled_; }
+  bool leaving(Leaving& signal) override {
+    if (!touches(signal.sender, signal.channel)) {
+      EXPECT_TRUE(signal.bytes.empty() || !transparent);
+      return true;
+    }
+    const int what = static_cast<int>(draw_.integer(0, 9));
+    if (what == 0) return false;
+    if (what == 1) signal.channel = signal.channel == Channel::kA ? Channel::kB : Channel::kA;
+    if (what < 5 && signal.signal == bus::Signal::kFrame) {
+      std::copy(signal.bytes.begin(), signal.bytes.end(), changed_.begin());
+      const auto bit =
+          static_cast<std::size_t>(draw_.integer(0, 8 * static_cast<std::int64_t>(signal.bytes.size()) - 1));
+      changed_[bit / 8] ^= static_cast<std::byte>(1 << (bit % 8));
+      signal.bytes = std::span<const std::byte>(changed_).first(signal.bytes.size());
+    }
+    return true;
+  }
+  bool arriving(Arriving& signal) override {
+    if (!troubled_) return true;
+    const int what = static_cast<int>(draw_.integer(0, 49));
+    if (what == 0) signal.signal = bus::Signal::kUndecodable;
+    if (what == 1) signal.start = signal.start + Duration{5'000}, signal.end = signal.end + Duration{5'000};
+    return what != 2;
+  }
+  TrueTime next() const override { return next_; }
+  void act(TrueTime now) override {
+    troubled_ = !troubled_;
+    const auto node = static_cast<NodeId>(draw_.integer(0, nodes_ - 1));
+    const int what = static_cast<int>(draw_.integer(0, 5));
+    if (what == 0) plant_.power_on(node, now + Duration{draw_.integer(0, 30'000'000)});
+    if (what == 1)
+      plant_.emit({node, Channel::kA, bus::Signal::kUndecodable, now, now + Duration{draw_.integer(1, 100'000)}, {}},
+                  std::nullopt);
+    next_ = now + Duration{draw_.integer(1, 30'000'000)};
+  }
+  bool transparent = false;
+
+ private:
+  BusSimulation& plant_;
+  RandomStream draw_;
+  int nodes_;
+  bool troubled_ = false;
+  std::array<std::byte, wire::kMaxFrameBytes> changed_{};
+  TrueTime next_{20'000'000};
+};
+
+// What became of frames on their way, with their bytes.
+struct ChannelDiary final : records::Sink {
+  std::vector<std::int64_t> entries;
+  int frames = 0;
+  using records::Sink::on;
+  void on(const records::ChannelFrame& frame) override {
+    ++frames;
+    for (const std::int64_t entry :
+         {frame.start.ns, frame.end.ns, frame.sent.ns, std::int64_t{frame.channel}, std::int64_t{frame.sent_channel},
+          std::int64_t{frame.state}, std::int64_t{frame.slot}, std::int64_t{frame.cycle_counter},
+          static_cast<std::int64_t>(frame.sender), static_cast<std::int64_t>(frame.bytes.size())})
+      entries.push_back(entry);
+    for (const std::byte byte : frame.bytes) entries.push_back(static_cast<std::int64_t>(byte));
+  }
+};
+
+struct Told {
+  std::vector<Diary> diaries;
+  ChannelDiary channels;
+  int frames = 0, encoded = 0;
+};
+
+Told run(std::uint64_t seed, bool troubled, bool transparent, bool logged = false) {
+  RandomStream draw({seed, 0, Purpose::kTest, 4, 0});
+  const int nodes = static_cast<int>(draw.integer(2, 9));
+  const int coldstart = static_cast<int>(draw.integer(2, nodes));
+  const schedules::Cluster cluster = bus_cluster(nodes, coldstart, static_cast<int>(draw.integer(coldstart, nodes)));
+  Told told;
+  told.diaries.resize(static_cast<std::size_t>(nodes));
+  std::vector<BusNode> begin;
+  std::vector<bus::ControllerEvents*> events;
+  for (int n = 0; n < nodes; ++n) {
+    begin.push_back({timebase::Oscillator{25'000, draw.integer(-1'500'000, 1'500'000), draw.integer(0, 24'999)},
+                     TrueTime{draw.integer(0, 20'000'000)}});
+    events.push_back(&told.diaries[static_cast<std::size_t>(n)]);
+  }
+  BusSimulation simulation(cluster, std::move(begin), std::move(events));
+  simulation.medium().set_transparent(transparent);
+  ChannelLog log(cluster.flexray, FlexRayMedium::kMostLogged, told.channels);
+  if (logged) simulation.medium().set_log(&log);
+  Trouble trouble(simulation, seed, nodes);
+  trouble.transparent = transparent;
+  if (troubled) simulation.set_disturbance(&trouble);
+  simulation.run_until(TrueTime{1'000'000'000});
+  for (const Diary& diary : told.diaries) {
+    told.frames += diary.frames;
+    told.encoded += diary.encoded;
+  }
+  return told;
+}
+
+TEST(TransparentMedium, ControllersAreToldTheSame) {
+  for (const bool troubled : {false, true})
+    for (std::uint64_t seed = 0; seed < 60; ++seed) {
+      const Told bit_true = run(seed, troubled, false), transparent = run(seed, troubled, true);
+      ASSERT_EQ(bit_true.diaries.size(), transparent.diaries.size());
+      for (std::size_t n = 0; n < bit_true.diaries.size(); ++n)
+        ASSERT_EQ(bit_true.diaries[n].entries, transparent.diaries[n].entries) << "seed " << seed << " node " << n;
+      EXPECT_GT(bit_true.frames, 100);
+      EXPECT_EQ(bit_true.encoded, bit_true.frames);
+      EXPECT_EQ(transparent.encoded == 0, !troubled) << "only what a fault may touch has bytes";
+      EXPECT_LT(transparent.encoded, transparent.frames * 3 / 4);
+    }
+}
+
+TEST(TransparentMedium, TheLogIsToldTheSameOfTheChannels) {
+  for (const bool troubled : {false, true})
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+      const Told unlogged = run(seed, troubled, false), bit_true = run(seed, troubled, false, true),
+                 transparent = run(seed, troubled, true, true);
+      ASSERT_EQ(bit_true.channels.entries, transparent.channels.entries) << "seed " << seed;
+      for (std::size_t n = 0; n < unlogged.diaries.size(); ++n)
+        ASSERT_EQ(unlogged.diaries[n].entries, bit_true.diaries[n].entries) << "seed " << seed << " node " << n;
+      if (troubled) {
+        EXPECT_GT(bit_true.channels.frames, 20) << "seed " << seed;
+      }
+    }
+}
+
+// Two bits of every seventh frame of one node.
+class Flips final : public Disturbance {
+ public:
+  explicit Flips(NodeId node) : node_(node) {}
+  bool touches(NodeId sender, Channel) const override { return sender == node_; }
+  bool leaving(Leaving& signal) override {
+    if (signal.sender != node_ || ++frames_ % 7 != 0) return true;
+    std::copy(signal.bytes.begin(), signal.bytes.end(), changed_.begin());
+    changed_[6] ^= std::byte{0x21};
+    signal.bytes = std::span<const std::byte>(changed_).first(signal.bytes.size());
+    return true;
+  }
+
+ private:
+  NodeId node_;
+  int frames_ = 0;
+  std::array<std::byte, wire::kMaxFrameBytes> changed_{};
+};
+
+std::uint64_t hash(fusion::StrategyKind strategy, std::uint64_t seed, bool flips, bool transparent) {
+  const testing_support::Drive drive("scenarios/paper_scenario1.yaml", strategy);
+  const auto scene = std::make_shared<nodes::WorldScene>(drive.scenario.world, seed, 0, kFirstCycle);
+  const nodes::NodeSetConfig nodes{&drive.scenario, &drive.cluster, strategy, seed, 0, scene, nullptr};
+  SimulationConfig config;
+  config.cluster = &drive.cluster;
+  config.seed = seed;
+  config.make_steps = [&](NodeId node) { return nodes::make_steps(nodes, node); };
+  const std::string path = testing::TempDir() + "/transparent.mcap";
+  recording::LogWriter log(path, {});
+  ClusterSimulation simulation(config, log);
+  simulation.medium().set_transparent(transparent);
+  Flips disturbance(*drive.cluster.find_node("gateway"));
+  if (flips) simulation.set_disturbance(&disturbance);
+  simulation.run_until(TrueTime{3'000'000'000});
+  EXPECT_EQ(simulation.counts().slot_problems > 0, flips);
+  log.close();
+  std::filesystem::remove(path);
+  return log.content_hash();
+}
+
+TEST(TransparentMedium, DrivesLeaveTheSameRecords) {
+  for (const fusion::StrategyKind strategy : testing_support::kStrategies)
+    for (const bool flips : {false, true})
+      for (std::uint64_t seed = 1; seed < 4; ++seed)
+        EXPECT_EQ(hash(strategy, seed, flips, false), hash(strategy, seed, flips, true)) << "seed " << seed;
+}
+
+}  // namespace
+}  // namespace ttf::sim

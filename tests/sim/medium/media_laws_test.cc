@@ -1,0 +1,136 @@
+// The simulated media obey the laws of the ports.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <iterator>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "sim/medium/can_medium.h"
+#include "sim/medium/flexray_medium.h"
+#include "tests/bus/layouts.h"
+#include "tests/laws/can_port_laws.h"
+#include "tests/laws/flexray_port_laws.h"
+#include "tests/sim/medium/simulated_flexray.h"
+#include "timebase/oscillator.h"
+
+namespace ttf::laws {
+namespace {
+
+constexpr std::size_t kNodes = 4;
+constexpr std::size_t kRoom = 4096;
+
+// Node 2 has no FlexRay controller: it is not on the line, and the others are still equally spaced.
+schedules::Cluster on_flexray() {
+  schedules::Cluster cluster;
+  cluster.nodes.resize(kNodes + 1);
+  for (std::size_t n = 0; n < cluster.nodes.size(); ++n)
+    if (n != 2) cluster.nodes[n].flexray.emplace();
+  return cluster;
+}
+
+class SimulatedFlexRayBench final : public SimulatedFlexRay {
+ public:
+  SimulatedFlexRayBench() : SimulatedFlexRay(on_flexray()) {}
+};
+
+// Node 1 is on no CAN. The schedule knows two of the identifiers; frames too short for their PDU are delivered all the
+// same.
+schedules::Cluster on_can(bool flexible_data_rate) {
+  schedules::Cluster cluster;
+  cluster.nodes.resize(kNodes + 1);
+  cluster.pdus = {bus::list_layout(4, 3, 3)};
+  schedules::CanBus bus;
+  bus.name = "can";
+  bus.flexible_data_rate = flexible_data_rate;
+  bus.nominal_bit_rate = 1'000'000;
+  bus.data_bit_rate = flexible_data_rate ? 5'000'000 : 1'000'000;
+  bus.messages = {{PduId{0}, 7, NodeId{0}, Duration::milliseconds(10), 0},
+                  {PduId{0}, 0, NodeId{0}, Duration::milliseconds(10), 0}};
+  cluster.can_buses = {bus};
+  return cluster;
+}
+
+// What the medium reports agrees with what it does: frames one after the other, each as long as it takes. What a frame
+// is of, its sender says (nodes/host/executive.h).
+struct Reported final : records::Sink {
+  using records::Sink::on;
+  std::size_t frames = 0;
+  Duration busy{};
+  TrueTime end{};
+  void on(const records::CanFrameSent& sent) override {
+    EXPECT_EQ(sent.pdu, kNoPdu);
+    ++frames;
+    EXPECT_GE(sent.start.true_time, end);
+    EXPECT_LT(sent.start.true_time, sent.end.true_time);
+    end = sent.end.true_time;
+    busy += sent.end.true_time - sent.start.true_time;
+  }
+};
+
+template <bool kFlexibleDataRate> class SimulatedCanBench final : public CanBench {
+ public:
+  SimulatedCanBench() {
+    for (std::size_t c = 0; c < kNodes; ++c) ports_.push_back(std::make_unique<Port>(*this, c));
+  }
+  ~SimulatedCanBench() override {
+    EXPECT_EQ(reported_.frames * (kNodes - 1), reached_.size());
+    EXPECT_EQ(reported_.busy, medium_.busy());
+  }
+  bool flexible_data_rate() const override { return kFlexibleDataRate; }
+  std::size_t controllers() const override { return kNodes; }
+  bus::CanPort& port(std::size_t controller) override { return *ports_[controller]; }
+  void begin() override {
+    const TrueTime now = now_;
+    while (!queue_.empty() && queue_.next().time == now) next();
+  }
+  void run_until_idle() override {
+    while (!queue_.empty()) next();
+  }
+  const std::vector<CanReached>& reached() const override { return reached_; }
+
+ private:
+  struct Port final : bus::CanPort {
+    SimulatedCanBench& bench;
+    std::size_t controller;
+    Port(SimulatedCanBench& b, std::size_t c) : bench(b), controller(c) {}
+    void send(const bus::CanFrame& frame) override { bench.medium_.send(kMembers[controller], bench.now_, frame); }
+  };
+  void next() {
+    now_ = queue_.next().time;
+    const sim::MediumEvent event = queue_.pop();
+    if (event.kind == sim::MediumEvent::Kind::kCanArbitration) {
+      medium_.arbitrate(now_);
+      return;
+    }
+    ASSERT_EQ(event.kind, sim::MediumEvent::Kind::kCanArrival);
+    const auto member = std::find(std::begin(kMembers), std::end(kMembers), static_cast<NodeId>(event.node));
+    ASSERT_NE(member, std::end(kMembers));
+    const auto bytes = pool_.bytes(event.frame);
+    reached_.push_back({static_cast<std::size_t>(member - std::begin(kMembers)),
+                        event.identifier,
+                        event.flexible_data_rate,
+                        {bytes.begin(), bytes.end()}});
+    pool_.release(event.frame);
+  }
+
+  static constexpr NodeId kMembers[kNodes] = {NodeId{0}, NodeId{2}, NodeId{3}, NodeId{4}};
+  schedules::Cluster cluster_ = on_can(kFlexibleDataRate);
+  sim::MediumQueue queue_{kRoom};
+  sim::FramePool pool_{kRoom};
+  Reported reported_;
+  sim::CanMedium medium_{cluster_, 0, kMembers, queue_, pool_, reported_, 1, 0};
+  TrueTime now_{1'000};
+  std::vector<std::unique_ptr<Port>> ports_;
+  std::vector<CanReached> reached_;
+};
+
+using CanBenches = testing::Types<SimulatedCanBench<false>, SimulatedCanBench<true>>;
+
+}  // namespace
+
+INSTANTIATE_TYPED_TEST_SUITE_P(SimulatedMedium, FlexRayPortLaws, SimulatedFlexRayBench);
+INSTANTIATE_TYPED_TEST_SUITE_P(SimulatedMedium, CanPortLaws, CanBenches);
+
+}  // namespace ttf::laws
